@@ -5,14 +5,16 @@
 ``@apart``   a function that kernels call for what is rare
 ``@rowwise`` one row of one phase, a piece of kernels
 ``@kernel``  loops over the rows of one part of the mesh
+``@cell_rows``, ``@vertex_rows``  what a kernel does in one row of cells or vertices, the same in all rows of its part
 ``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
 A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
 
 What numba is told is in `options`, the processor that code is made for in `target`, where compiled code is kept in `cache` and
-how in `store`, the decorators are in `calls`, exp, log and x^y for several cells at once in `elementary`, phases in `phases`,
-the names of their arrays in `handle`, and what is known of the calls of kernels in `recording`. Other files import from here.
+how in `store`, the decorators are in `calls`, arguments by name in `by_name`, exp, log and x^y for several cells at
+once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and what is known of the calls of kernels in
+`recording`. Other files import from here.
 """
 
 from hydro2d.jit import store, target
@@ -21,6 +23,7 @@ from hydro2d.jit.calls import (
     GATE,
     apart,
     by_id,
+    cell_rows,
     kernel,
     late,
     max_threads,
@@ -36,6 +39,7 @@ from hydro2d.jit.calls import (
     set_threads,
     threaded,
     threads,
+    vertex_rows,
     wait,
 )
 from hydro2d.jit.elementary import exp, log, power
@@ -47,8 +51,8 @@ from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, rec
 
 __all__ = [
     "Call", "FIRST_CALL", "GATE", "Handle", "PHASE_TYPES", "Phase", "WAIT", "add_model", "all_folder", "alone", "apart",
-    "by_id", "compiler_events", "declare", "declared", "exp", "given", "is_recording", "kernel", "late", "log",
+    "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given", "is_recording", "kernel", "late", "log",
     "max_threads", "module_of", "modules", "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded",
     "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store", "target", "threaded", "threads", "timings",
-    "unless", "wait", "when",
+    "unless", "vertex_rows", "wait", "when",
 ]  # fmt: skip

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 import importlib
+import inspect
 from types import FunctionType, ModuleType
 
 import numba
 import numpy as np
 
-from hydro2d.jit import barrier, recording, store
+from hydro2d.jit import barrier, by_name, recording, store
 from hydro2d.jit.cache import all_folder, folder_of, module_of, places
 from hydro2d.jit.handle import call_at
 from hydro2d.jit.options import INNER, OPTIONS
@@ -31,7 +32,9 @@ class Inner:
     """
 
     def __init__(self, function, kept: bool = True, **options):
+        function = by_name.flat(function)
         functools.update_wrapper(self, function)
+        self.__signature__ = inspect.signature(by_name.source(function))
         INNER.add(function)
         self._options = {"kept": kept, **options}
         self.inner = _compile(function, kept=False, no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
@@ -46,7 +49,7 @@ class Inner:
         return _compile(twin, **self._options)
 
     def __call__(self, *arguments):
-        return self.whole(*arguments)
+        return self.whole(*by_name.values(self, arguments))
 
     def __getattr__(self, name: str):
         if name.startswith("__"):
@@ -56,7 +59,7 @@ class Inner:
 
 def rowwise(function):
     """A piece of kernels: one row of one phase. Its text becomes part of each kernel that calls it."""
-    return _compile(function, inline="always")
+    return Inner(function, inline="always")
 
 
 def point(function):
@@ -151,17 +154,27 @@ def kernel(function):
 
     The compiler takes for granted that no two of its arrays overlap, as a test asserts of every call.
     """
-    return called(function, Inner(function, noalias=True))
+    return called(Inner(function, noalias=True))
+
+
+def cell_rows(function):
+    """`kernel` for a function of one row of cells, ``function(j, w)``, which it calls for every row of its part."""
+    return kernel(by_name.in_rows(function, by_name.CELLS))
+
+
+def vertex_rows(function):
+    """The same for rows of vertices, of which the last part has one more."""
+    return kernel(by_name.in_rows(function, by_name.VERTICES))
 
 
 def threaded(function):
     """Compiles loops over the mesh that no phase of the step contains, whose outermost ``prange`` runs over rows."""
-    return called(function, _compile(function, parallel=True))
+    return called(_compile(function, parallel=True))
 
 
 def serial(function):
     """Compiles loops that one thread runs: short lists, boundaries."""
-    return called(function, Inner(function))
+    return called(Inner(function))
 
 
 @point

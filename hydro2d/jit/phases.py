@@ -1,15 +1,15 @@
 """Phases of the step as lists that one reads, and the compiled functions that are made from them.
 
 A phase is a list of kernels, in order, with barriers between them (`WAIT`), what one part of the mesh runs alone (`alone`), and
-what runs only if a number is not zero (`when`, `unless`). Every kernel takes its arrays and numbers by the names of its
-parameters, of a `Handle`; a kernel that is used in two places is told by `given` which arrays it has there. From the list the
-text of a function is written, as `by_id` does, which calls the kernels; a thread for each part of the mesh runs it.
+what runs only if a number is not zero (`when`, `unless`). Every kernel takes its arrays and numbers by their names, of a
+`Handle` (`by_name`); a kernel that is used in two places has parameters of its own for what differs, and is told by `given`
+which arrays they are there. From the list the text of a function is written, as `by_id` does, which calls the kernels; a thread
+for each part of the mesh runs it.
 """
 
 from __future__ import annotations
 
 import functools
-import inspect
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numba
 
-from hydro2d.jit import recording
+from hydro2d.jit import by_name, recording
 from hydro2d.jit.cache import folder_for, module_of, seen_by
 from hydro2d.jit.calls import _compile, run_parts
 from hydro2d.jit.handle import Handle, declared
@@ -31,7 +31,7 @@ TYPES = (numba.int64, numba.int64)
 
 @dataclass(frozen=True)
 class Run:
-    """A kernel of a phase; for all parts, or for one alone; ``names`` are those that its parameters have another name for."""
+    """A kernel of a phase; for all parts, or for one alone; ``names`` are those of own parameters that are called otherwise."""
 
     kernel: object
     alone: bool = False
@@ -41,7 +41,7 @@ class Run:
     def takes(self) -> tuple[str, ...]:
         """The names in the handle of what the kernel takes, in order; "part" is the number of the part."""
         other = dict(self.names)
-        return tuple(other.get(name, name) for name in inspect.signature(self.kernel).parameters)
+        return tuple(other.get(name, name) for name in by_name.takes(self.kernel))
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def alone(kernel) -> Run:
 
 
 def given(kernel, **names: str) -> Run:
-    """A kernel, some of whose parameters have another name in the handle."""
+    """A kernel, some of whose own parameters have another name in the handle."""
     return Run(kernel, names=tuple(names.items()))
 
 
@@ -97,7 +97,7 @@ def _refuse_kernel(step: Run, known: set[str]) -> None:
         raise ValueError(f"{step.kernel!r} is no kernel")
     name = step.kernel.__name__
     for parameter, _ in step.names:
-        if parameter not in inspect.signature(step.kernel).parameters:
+        if parameter not in by_name.own_parameters(step.kernel):
             raise ValueError(f"{name} has no parameter {parameter}")
     for taken in step.takes:
         if taken not in known and taken != "part":
@@ -189,7 +189,9 @@ class Phase:
                 wait()
             elif not step.alone or part == 0:
                 kernel = getattr(sys.modules[step.kernel.__module__], step.kernel.__name__)
-                kernel(*(part if name == "part" else handle.values[name] for name in step.takes))
+                own = step.takes[: len(by_name.own_parameters(step.kernel))]
+                kernel(*(part if name == "part" else getattr(handle, name) for name in own),
+                       *([handle] if by_name.takes_handle(step.kernel) else []))
 
 
 def compiled_phase(function):
@@ -218,7 +220,7 @@ def chosen(steps, handle: Handle) -> Iterator:
     for step in steps:
         if not isinstance(step, When):
             yield step
-        elif bool(handle.values[step.name]) != step.zero:
+        elif bool(getattr(handle, step.name)) != step.zero:
             yield from chosen(step.steps, handle)
 
 

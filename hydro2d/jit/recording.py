@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import gc
+import inspect
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hydro2d.files import turn
+from hydro2d.jit import by_name
 from hydro2d.jit.cache import all_folder
 from hydro2d.jit.options import compiler_events, is_cached
 
@@ -113,15 +115,17 @@ def clocked(name: str) -> Iterator[None]:
         entry[1] += 1
 
 
-def called(function, compiled):
+def called(compiled):
     """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
+    function = compiled.__wrapped__
     name, known = f"{function.__module__}.{function.__name__}", False
 
     @functools.wraps(function)
     def call(*arguments):
         nonlocal known
         if _calls is not None:
-            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in arguments)))
+            values = by_name.values(function, arguments)
+            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in values)))
             return None
         with clocked(function.__name__):
             if known:
@@ -130,5 +134,6 @@ def called(function, compiled):
             with first_call(name):
                 return compiled(*arguments)
 
+    call.__signature__ = inspect.signature(by_name.source(function))
     call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # which lets compiled functions call it
     return call

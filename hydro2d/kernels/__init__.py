@@ -1,1 +1,3 @@
-"""One phase of the cycle per file: plain arrays in, plain arrays out."""
+"""The kernels of the step, and the phases that call them: functions of arrays that they take by their names (`names`)."""
+
+import hydro2d.kernels.names  # noqa: F401  (without which no kernel can be defined)

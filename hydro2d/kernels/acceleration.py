@@ -2,9 +2,9 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
 from hydro2d.kernels.boundaries import left_by_edges
-from hydro2d.kernels.column_ranges import columns, copy_beside, past_row, union
+from hydro2d.kernels.column_ranges import columns, copy_beside, union
 from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, holds, pull_of_ties, skin_deviator, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
@@ -17,189 +17,164 @@ SILENCE = 1e-20
 
 
 @point
-def mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q):
+def mixed_deviator(j, i, w):
     """(s_rr, s_zz, s_rz) of a mixed cell, Pa: that of its bodies by share, or of the hard body in the hard zone of a layer."""
-    scale = stress_scale(solid_mode, solid[j, i])
+    scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
     rr, zz, rz = 0.0, 0.0, 0.0
-    for m in range(vof.shape[0]):
-        rr += vof[m, j, i] * q[SRR, m, j, i]
-        zz += vof[m, j, i] * q[SZZ, m, j, i]
-        rz += vof[m, j, i] * q[SRZ, m, j, i]
+    for m in range(w.vof.shape[0]):
+        rr += w.vof[m, j, i] * w.q[SRR, m, j, i]
+        zz += w.vof[m, j, i] * w.q[SZZ, m, j, i]
+        rz += w.vof[m, j, i] * w.q[SRZ, m, j, i]
     rr, zz, rz = scale * rr, scale * zz, scale * rz
-    for m in range(vof.shape[0]):
-        if hard[m] and vof[m, j, i] >= hard_threshold:
-            rr = solid[j, i] * q[SRR, m, j, i]
-            zz = solid[j, i] * q[SZZ, m, j, i]
-            rz = solid[j, i] * q[SRZ, m, j, i]
+    for m in range(w.vof.shape[0]):
+        if w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold:
+            rr = w.solid[j, i] * w.q[SRR, m, j, i]
+            zz = w.solid[j, i] * w.q[SZZ, m, j, i]
+            rz = w.solid[j, i] * w.q[SRZ, m, j, i]
     return rr, zz, rz
 
 
-@rowwise
-def total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, solid_mode, hard, hard_threshold, u, v,
-                     vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
+@cell_rows
+def total_stress(j, w):
     """sigma = s - p I - q with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
     the hard body's own times the share of solids (explanation/mixed-cells, sliding). A cut cell has p_c and, of each body,
     s - (n . s . n) I.
 
-    Reads    u, v [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i]; hard [m]
+    Reads    u0, v0 [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i];
+             hard_bodies [m]
     Writes   ph, sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     """
-    bodies = vof.shape[0]
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    rr = sig_rr[j]
-    zz = sig_zz[j]
-    tt = sig_tt[j]
-    rz = sig_rz[j]
-    ph_j = ph[j]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    rr = w.sig_rr[j]
+    zz = w.sig_zz[j]
+    tt = w.sig_tt[j]
+    rz = w.sig_rz[j]
+    ph_j = w.ph[j]
     for x in range(n):
         i = lo + x
         rr[i] = 0.0
         zz[i] = 0.0
         rz[i] = 0.0
-    for m in range(bodies):
-        f_j = vof[m, j]
-        a_j = q[SRR, m, j]
-        b_j = q[SZZ, m, j]
-        c_j = q[SRZ, m, j]
-        first, number = columns(body_range[m, j, 0], body_range[m, j, 1])
+    for m in range(w.vof.shape[0]):
+        f_j = w.vof[m, j]
+        a_j = w.q[SRR, m, j]
+        b_j = w.q[SZZ, m, j]
+        c_j = w.q[SRZ, m, j]
+        first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
         for x in range(number):
             i = first + x
             rr[i] += f_j[i] * a_j[i]
             zz[i] += f_j[i] * b_j[i]
             rz[i] += f_j[i] * c_j[i]
-    ub = u[0, j]
-    ut = u[0, j + 1]
-    vb = v[0, j]
-    vt = v[0, j + 1]
-    p_j = p[j]
-    k_j = bulk[j]
-    qr_j = qr[j]
-    qz_j = qz[j]
-    qt_j = qt[j]
-    qrz_j = qrz[j]
-    h = dz[j]
+    ub = w.u0[0, j]
+    ut = w.u0[0, j + 1]
+    vb = w.v0[0, j]
+    vt = w.v0[0, j + 1]
+    p_j = w.p[j]
+    k_j = w.bulk[j]
+    qr_j = w.qr[j]
+    qz_j = w.qz[j]
+    qt_j = w.qt[j]
+    qrz_j = w.qrz[j]
     for x in range(n):
         i = lo + x
-        div = divergence(i, ub, ut, vb, vt, metrics, h)
-        pressure = p_j[i] - 0.5 * dt * k_j[i] * div
+        div = divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
+        pressure = p_j[i] - 0.5 * w.dt * k_j[i] * div
         ph_j[i] = pressure
         tt[i] = -(rr[i] + zz[i]) - pressure - qt_j[i]
         rr[i] = rr[i] - pressure - qr_j[i]
         zz[i] = zz[i] - pressure - qz_j[i]
         rz[i] -= qrz_j[i]
-    for k in range(mixed_count[j]):  # anew, since the pressure of a full cell may have swallowed the deviator of a crumb
-        i = mixed[j, k]
-        s_rr, s_zz, s_rz = mixed_deviator(j, i, solid_mode, solid, hard, hard_threshold, vof, q)
+    for k in range(w.mixed_count[j]):  # anew, since the pressure of a full cell may have swallowed the deviator of a crumb
+        i = w.mixed[j, k]
+        s_rr, s_zz, s_rz = mixed_deviator(j, i, w)
         pressure = ph_j[i]
-        if skin[KIND, j, i] != WHOLE:
-            pressure = cut_pressure(j, i, dt, divergence(i, ub, ut, vb, vt, metrics, h), skin, p, bulk, solid)
+        if w.skin[KIND, j, i] != WHOLE:
+            pressure = cut_pressure(j, i, divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j]), w)
             ph_j[i] = pressure
-            pressure += skin_deviator(j, i, skin, stress_scale(solid_mode, solid[j, i]), vof, q)
+            pressure += skin_deviator(j, i, w)
         tt[i] = -(s_rr + s_zz) - pressure - qt_j[i]
         rr[i] = s_rr - pressure - qr_j[i]
         zz[i] = s_zz - pressure - qz_j[i]
         rz[i] = s_rz - qrz_j[i]
 
 
-@kernel
-def total_stress(part, parts, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies,
-                 hard_threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt, sig_rz):
-    """total_stress_row for rows j0 to j1."""
-    for j in range(parts[part], parts[part + 1]):
-        total_stress_row(j, dt, metrics, dz, body_range, active_range, mixed_count, mixed, by_what_is_solid, hard_bodies,
-                         hard_threshold, u0, v0, vof, q, skin, p, bulk, solid, qr, qz, qt, qrz, ph, sig_rr, sig_zz, sig_tt,
-                         sig_rz)
-
-
-@kernel
-def vertex_masses(part, parts, i0, i1, metrics, group_ranges, cell_mass, mass):
+@vertex_rows
+def vertex_masses(j, w):
     """Mass of the dual cells: corner shares of the four cells around a vertex, weighted by radius.
 
     Reads    cell_mass [b, j, i]
     Writes   mass [b, j, i]
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        for b in range(mass.shape[0]):
-            lo, hi = group_ranges[b, 1, j, 0], group_ranges[b, 1, j, 1]
-            lo, n = columns(max(lo, i0), min(hi, i1) + 1)
-            below = cell_mass[b, j - 1]
-            above = cell_mass[b, j]
-            m_j = mass[b, j]
-            for x in range(n):
-                i = lo + x
-                m_j[i] = metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + metrics[CM_IN, i] * (below[i] + above[i])
+    for b in range(w.mass.shape[0]):
+        lo, hi = w.group_ranges[b, 1, j, 0], w.group_ranges[b, 1, j, 1]
+        lo, n = columns(max(lo, w.i0), min(hi, w.i1) + 1)
+        below = w.cell_mass[b, j - 1]
+        above = w.cell_mass[b, j]
+        m_j = w.mass[b, j]
+        for x in range(n):
+            i = lo + x
+            m_j[i] = w.metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + w.metrics[CM_IN, i] * (below[i] + above[i])
 
 
 @point
-def accelerated_columns(b, j, i0, i1, occupied):
+def accelerated_columns(b, j, w):
     """First vertex of row j that group b may move, and how many there are."""
-    lo, hi = union(occupied[b], j - 1, j + 1)
-    return columns(max(lo, i0), min(hi + 1, i1))
+    lo, hi = union(w.occupied[b], j - 1, j + 1)
+    return columns(max(lo, w.i0), min(hi + 1, w.i1 + 1))
 
 
-@rowwise
-def limit_speed_row(b, j, lo, n, speed_limit, underfilled, metrics, constrained, pushing, edge_velocity, mass, u0, v0, u, v,
-                    limited):
-    """Holds the under-filled nodes of group b in row j to speed_limit; contact nodes are left to the contact.
+@vertex_rows
+def limit_speed(j, w):
+    """Holds the under-filled nodes of row j to speed_limit, after all forces and before edges give their velocities.
 
-    underfilled is a quarter of the density below which a node is so, times the height of both rows of cells beside it. The
-    work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may give.
+    A node is under-filled whose dual cell is filled more thinly than underfilled_density; contact nodes are left to the
+    contact. The work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may
+    give.
 
     Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
-    Updates  u, v [b, j, i]; limited [3, j]: momentum and energy taken, and how often
+    Updates  u, v [b, j, i]
+    Writes   limited [3, j]: momentum and energy taken, and how often
     """
-    u_c = u0[b, j]
-    v_c = v0[b, j]
-    m_j = mass[b, j]
-    un = u[b, j]
-    vn = v[b, j]
-    other = mass[mass.shape[0] - 1 - b, j]
-    alone = mass.shape[0] == 1
-    lost_p, lost_e, count = 0.0, 0.0, 0.0
-    for x in range(n):
-        i = lo + x
-        m = m_j[i]
-        square = un[i] * un[i] + vn[i] * vn[i]
-        thin = m < underfilled * (metrics[VOL_R, i - 1] + metrics[VOL_R, i])
-        if square <= speed_limit * speed_limit or not thin:
-            continue
-        if not alone and other[i] > 0.0:
-            continue
-        shrink = speed_limit / sqrt(square)
-        end_u = left_by_edges(i, 0, constrained, pushing, edge_velocity, shrink * un[i])
-        end_v = left_by_edges(j, 2, constrained, pushing, edge_velocity, shrink * vn[i])
-        lost_p += m * vn[i] * (1.0 - shrink)
-        lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
-        count += 1.0
-        un[i] *= shrink
-        vn[i] *= shrink
-    limited[0, j] += lost_p
-    limited[1, j] += lost_e
-    limited[2, j] += count
-
-
-@kernel
-def limit_speed(part, parts, i0, i1, speed_limit, underfilled_density, metrics, dz, occupied, constrained, pushing,
-                edge_velocity, mass, u0, v0, u, v, limited):
-    """limit_speed_row for rows j0 to j1, after all forces and before edges give their velocities.
-
-    A node whose dual cell is filled more thinly than underfilled_density is held to speed_limit.
-
-    Writes   limited [3, j]
-    """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        for row in range(3):
-            limited[row, j] = 0.0
-        for b in range(mass.shape[0]):
-            lo, n = accelerated_columns(b, j, i0, i1 + 1, occupied)
-            limit_speed_row(b, j, lo, n, speed_limit, underfilled_density * 0.25 * (dz[j - 1] + dz[j]), metrics, constrained,
-                            pushing, edge_velocity, mass, u0, v0, u, v, limited)
+    for row in range(3):
+        w.limited[row, j] = 0.0
+    underfilled = w.underfilled_density * 0.25 * (w.dz[j - 1] + w.dz[j])
+    for b in range(w.mass.shape[0]):
+        lo, n = accelerated_columns(b, j, w)
+        u_c = w.u0[b, j]
+        v_c = w.v0[b, j]
+        m_j = w.mass[b, j]
+        un = w.u[b, j]
+        vn = w.v[b, j]
+        other = w.mass[w.mass.shape[0] - 1 - b, j]
+        alone = w.mass.shape[0] == 1
+        lost_p, lost_e, count = 0.0, 0.0, 0.0
+        for x in range(n):
+            i = lo + x
+            m = m_j[i]
+            square = un[i] * un[i] + vn[i] * vn[i]
+            thin = m < underfilled * (w.metrics[VOL_R, i - 1] + w.metrics[VOL_R, i])
+            if square <= w.speed_limit * w.speed_limit or not thin:
+                continue
+            if not alone and other[i] > 0.0:
+                continue
+            shrink = w.speed_limit / sqrt(square)
+            end_u = left_by_edges(i, 0, shrink * un[i], w)
+            end_v = left_by_edges(j, 2, shrink * vn[i], w)
+            lost_p += m * vn[i] * (1.0 - shrink)
+            lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
+            count += 1.0
+            un[i] *= shrink
+            vn[i] *= shrink
+        w.limited[0, j] += lost_p
+        w.limited[1, j] += lost_e
+        w.limited[2, j] += count
 
 
 @rowwise
-def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz, u0, v0, u, v):
+def accelerate_row(b, j, w):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
     f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
@@ -209,41 +184,41 @@ def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
     Writes   u, v [b, j, i] for whole rows
     """
-    lo, n = accelerated_columns(b, j, i0, i1, occupied)
-    copy_beside(u0[b, j], u[b, j], i0 - 2, lo, lo + n, i1 + 2)
-    copy_beside(v0[b, j], v[b, j], i0 - 2, lo, lo + n, i1 + 2)
-    hb = dz[j - 1]
-    ht = dz[j]
-    rr_b = sig_rr[j - 1]
-    rr_t = sig_rr[j]
-    zz_b = sig_zz[j - 1]
-    zz_t = sig_zz[j]
-    tt_b = sig_tt[j - 1]
-    tt_t = sig_tt[j]
-    rz_b = sig_rz[j - 1]
-    rz_t = sig_rz[j]
-    w_b = hg_coefficient[j - 1]
-    w_t = hg_coefficient[j]
-    u_b = u0[b, j - 1]
-    u_c = u0[b, j]
-    u_t = u0[b, j + 1]
-    v_b = v0[b, j - 1]
-    v_c = v0[b, j]
-    v_t = v0[b, j + 1]
-    m_j = mass[b, j]
-    un = u[b, j]
-    vn = v[b, j]
+    lo, n = accelerated_columns(b, j, w)
+    copy_beside(w.u0[b, j], w.u[b, j], w.i0 - 2, lo, lo + n, w.i1 + 3)
+    copy_beside(w.v0[b, j], w.v[b, j], w.i0 - 2, lo, lo + n, w.i1 + 3)
+    hb = w.dz[j - 1]
+    ht = w.dz[j]
+    rr_b = w.sig_rr[j - 1]
+    rr_t = w.sig_rr[j]
+    zz_b = w.sig_zz[j - 1]
+    zz_t = w.sig_zz[j]
+    tt_b = w.sig_tt[j - 1]
+    tt_t = w.sig_tt[j]
+    rz_b = w.sig_rz[j - 1]
+    rz_t = w.sig_rz[j]
+    w_b = w.hg_coefficient[j - 1]
+    w_t = w.hg_coefficient[j]
+    u_b = w.u0[b, j - 1]
+    u_c = w.u0[b, j]
+    u_t = w.u0[b, j + 1]
+    v_b = w.v0[b, j - 1]
+    v_c = w.v0[b, j]
+    v_t = w.v0[b, j + 1]
+    m_j = w.mass[b, j]
+    un = w.u[b, j]
+    vn = w.v[b, j]
     for x in range(n):
         i = lo + x
         k = i - 1
-        half_r, hoop_k, hoop_i = 0.5 * metrics[FACE_R, i], metrics[HOOP, k], metrics[HOOP, i]
+        half_r, hoop_k, hoop_i = 0.5 * w.metrics[FACE_R, i], w.metrics[HOOP, k], w.metrics[HOOP, i]
         # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
         normal_r = (half_r - hoop_k) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop_i) * (hb * rr_b[i] + ht * rr_t[i])
         hoop_r = hoop_k * (hb * tt_b[k] + ht * tt_t[k]) + hoop_i * (hb * tt_b[i] + ht * tt_t[i])
-        shear_r = metrics[AZ_OUT, k] * (rz_b[k] - rz_t[k]) + metrics[AZ_IN, i] * (rz_b[i] - rz_t[i])
+        shear_r = w.metrics[AZ_OUT, k] * (rz_b[k] - rz_t[k]) + w.metrics[AZ_IN, i] * (rz_b[i] - rz_t[i])
         force_r = -(normal_r + hoop_r + shear_r)
-        normal_z = metrics[AZ_OUT, k] * (zz_b[k] - zz_t[k]) + metrics[AZ_IN, i] * (zz_b[i] - zz_t[i])
-        shear_z = metrics[MID_R, k] * (hb * rz_b[k] + ht * rz_t[k]) - metrics[MID_R, i] * (hb * rz_b[i] + ht * rz_t[i])
+        normal_z = w.metrics[AZ_OUT, k] * (zz_b[k] - zz_t[k]) + w.metrics[AZ_IN, i] * (zz_b[i] - zz_t[i])
+        shear_z = w.metrics[MID_R, k] * (hb * rz_b[k] + ht * rz_t[k]) - w.metrics[MID_R, i] * (hb * rz_b[i] + ht * rz_t[i])
         force_z = -(normal_z + shear_z)
         # hourglass mode of the four cells, + - + - from the inner bottom vertex
         h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
@@ -257,7 +232,7 @@ def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient
         h_it = (v_c[i] - v_c[i + 1]) + (v_t[i + 1] - v_t[i])
         force_z += ((w_t[k] * h_kt - w_b[k] * h_kb) + (w_b[i] * h_ib - w_t[i] * h_it))
         keep = 1.0 if m_j[i] > 0.0 else 0.0
-        scale = keep * dt / max(m_j[i], TINY)
+        scale = keep * w.dt / max(m_j[i], TINY)
         radial = keep * u_c[i] + scale * force_r
         axial = keep * v_c[i] + scale * force_z
         un[i] = radial if abs(radial) > SILENCE else 0.0
@@ -265,46 +240,44 @@ def accelerate_row(b, j, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient
 
 
 @rowwise
-def tie_row(b, j, i0, i1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u, v):
+def tie_row(b, j, w):
     """Velocities of the vertices of row j after what bodies have of vertices in a gas was tied to them (`ties`).
 
     Reads    mass, u0, v0 [b, j, i], skin [3, j, i], vof, q, the list of mixed cells
     Updates  u, v [b, j, i]
     """
-    lo, n = accelerated_columns(b, j, i0, i1, occupied)
+    lo, n = accelerated_columns(b, j, w)
     for row in range(j - 1, j + 1):
-        for k in range(mixed_count[row]):
-            i = mixed[row, k]
-            by_r, by_z = ties(row, i, metrics, dz[row], skin, gases, vof, q)
-            if by_r + by_z == 0.0 or not holds(b, row, i, group, vof):
+        for k in range(w.mixed_count[row]):
+            i = w.mixed[row, k]
+            by_r, by_z = ties(row, i, w)
+            if by_r + by_z == 0.0 or not holds(b, row, i, w.group, w.vof):
                 continue
             for at in range(i, i + 2):
-                if lo <= at < lo + n and mass[b, j, at] > 0.0:
-                    u[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, u0) / mass[b, j, at]
-                    v[b, j, at] += pull_of_ties(b, j, at, row, i, by_r, by_z, v0) / mass[b, j, at]
+                if lo <= at < lo + n and w.mass[b, j, at] > 0.0:
+                    pull_r, pull_z = pull_of_ties(b, j, at, row, i, by_r, by_z, w)
+                    w.u[b, j, at] += pull_r / w.mass[b, j, at]
+                    w.v[b, j, at] += pull_z / w.mass[b, j, at]
 
 
-@kernel
-def accelerate(part, parts, i0, i1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz,
-               mixed_count, mixed, group, gases, skin, vof, q, pushed, u0, v0, u, v):
-    """accelerate_row and tie_row for rows j0 to j1, and the velocities that forces of sources add.
+@vertex_rows
+def accelerate(j, w):
+    """Velocities of both groups at the end of the Lagrangian step: forces, ties beside gases, and what forces of sources add.
 
-    Reads    pushed [c, b, j, i], m/s, or nothing
+    Reads    what accelerate_row and tie_row read; pushed [c, b, j, i], m/s, or nothing
+    Updates  u, v [b, j, i]
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        for b in range(mass.shape[0]):
-            accelerate_row(b, j, i0, i1 + 1, dt, metrics, dz, occupied, mass, hg_coefficient, sig_rr, sig_zz, sig_tt, sig_rz,
-                           u0, v0, u, v)
-            tie_row(b, j, i0, i1 + 1, metrics, dz, occupied, mass, mixed_count, mixed, group, gases, skin, vof, q, u0, v0, u,
-                    v)
-            if pushed.shape[0] > 0:
-                for i in range(i0, i1 + 1):
-                    u[b, j, i] += pushed[0, b, j, i]
-                    v[b, j, i] += pushed[1, b, j, i]
+    for b in range(w.mass.shape[0]):
+        accelerate_row(b, j, w)
+        tie_row(b, j, w)
+        if w.pushed.shape[0] > 0:
+            for i in range(w.i0, w.i1 + 1):
+                w.u[b, j, i] += w.pushed[0, b, j, i]
+                w.v[b, j, i] += w.pushed[1, b, j, i]
 
 
-@kernel
-def swept_volumes(part, parts, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u, v, fr, fz):
+@vertex_rows
+def swept_volumes(j, w):
     """Volumes swept by the faces in the step, from the velocity at mid-step (explanation/remap, equation 1).
 
     F_r = dt r h <u>,  F_z = dt (a v_inner + b v_outer), with the areas of the cell vectors, so that their sum over a cell is
@@ -313,22 +286,21 @@ def swept_volumes(part, parts, i0, i1, dt, metrics, dz, group_ranges, u0, v0, u,
     Reads    u0, v0, u, v [b, j, i]
     Writes   fr, fz [j, i]
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        lo, hi = group_ranges[0, 1, j, 0], group_ranges[0, 1, j, 1]
-        lo, n = columns(max(lo, i0), min(hi, i1))
-        ub = u[0, j]
-        ub0 = u0[0, j]
-        ut = u[0, j + 1]
-        ut0 = u0[0, j + 1]
-        vb = v[0, j]
-        vb0 = v0[0, j]
-        fr_j = fr[j]
-        fz_j = fz[j]
-        h = dz[j]
-        for x in range(n):
-            i = lo + x
-            fr_j[i] = 0.25 * dt * metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
-            fz_j[i] = 0.5 * dt * (metrics[AZ_IN, i] * (vb[i] + vb0[i]) + metrics[AZ_OUT, i] * (vb[i + 1] + vb0[i + 1]))
-        if n > 0:
-            i = lo + n
-            fr_j[i] = 0.25 * dt * metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+    lo, hi = w.group_ranges[0, 1, j, 0], w.group_ranges[0, 1, j, 1]
+    lo, n = columns(max(lo, w.i0), min(hi, w.i1))
+    ub = w.u[0, j]
+    ub0 = w.u0[0, j]
+    ut = w.u[0, j + 1]
+    ut0 = w.u0[0, j + 1]
+    vb = w.v[0, j]
+    vb0 = w.v0[0, j]
+    fr_j = w.fr[j]
+    fz_j = w.fz[j]
+    h = w.dz[j]
+    for x in range(n):
+        i = lo + x
+        fr_j[i] = 0.25 * w.dt * w.metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))
+        fz_j[i] = 0.5 * w.dt * (w.metrics[AZ_IN, i] * (vb[i] + vb0[i]) + w.metrics[AZ_OUT, i] * (vb[i + 1] + vb0[i + 1]))
+    if n > 0:
+        i = lo + n
+        fr_j[i] = 0.25 * w.dt * w.metrics[FACE_R, i] * h * ((ub[i] + ub0[i]) + (ut[i] + ut0[i]))

@@ -5,27 +5,28 @@ travels, what the deck has placed there (hydro2d/following). A transmitting edge
 """
 
 
-from hydro2d.jit import apart, kernel, point, serial
-from hydro2d.kernels.column_ranges import outer_rows, past_row
+from hydro2d.jit import apart, cell_rows, kernel, point, serial, vertex_rows
+from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import PARITY
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
 from hydro2d.physics.waves import impedances
 
 
 @apart
-def fill(m, j, i, from_j, from_i, mirror, fields, rules, vof, q, centroid):
+def fill(m, j, i, from_j, from_i, mirror, w):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
-    if 0.0 < vof[m, j, i] < 1.0 or 0.0 < vof[m, from_j, from_i] < 1.0:  # else it is 0 and stays so
-        centroid[0, m, j, i] = -centroid[0, m, from_j, from_i] if mirror and j == from_j else centroid[0, m, from_j, from_i]
-        centroid[1, m, j, i] = -centroid[1, m, from_j, from_i] if mirror and i == from_i else centroid[1, m, from_j, from_i]
-    vof[m, j, i] = vof[m, from_j, from_i]
-    for k in range(fields):
-        q[k, m, j, i] = -q[k, m, from_j, from_i] if mirror and rules[m, k, PARITY] < 0.0 else q[k, m, from_j, from_i]
+    if 0.0 < w.vof[m, j, i] < 1.0 or 0.0 < w.vof[m, from_j, from_i] < 1.0:  # else it is 0 and stays so
+        along_r, along_z = w.centroid[0, m, from_j, from_i], w.centroid[1, m, from_j, from_i]
+        w.centroid[0, m, j, i] = -along_r if mirror and j == from_j else along_r
+        w.centroid[1, m, j, i] = -along_z if mirror and i == from_i else along_z
+    w.vof[m, j, i] = w.vof[m, from_j, from_i]
+    for k in range(w.q.shape[0] * (w.di if j == from_j else w.dj)):  # before a sweep along the other direction none
+        w.q[k, m, j, i] = -w.q[k, m, from_j, from_i] if mirror and w.rules[m, k, PARITY] < 0.0 else w.q[k, m, from_j, from_i]
 
 
-@kernel
-def ghost_columns(di, part, parts, nr, mirror_r_min, mirror_r_max, rules, body_range, vof, q, centroid):
-    """Ghost cells left and right of rows j0 to j1, of bodies that are near or were: fractions and, before a sweep along r, q.
+@cell_rows
+def ghost_columns(j, w):
+    """Ghost cells left and right of the mesh, of bodies that are near or were: fractions and, before a sweep along r, q.
 
     Interfaces of a sweep along z need the fractions alone.
 
@@ -33,24 +34,22 @@ def ghost_columns(di, part, parts, nr, mirror_r_min, mirror_r_max, rules, body_r
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
-    fields = di * q.shape[0]
-    for j in range(parts[part], parts[part + 1]):
-        for m in range(vof.shape[0]):
-            for side in range(2):
-                edge = g + nr - 1 if side else g  # the last cell of the mesh
-                out = 1 if side else -1
-                near = body_range[m, j, 1] > nr if side else body_range[m, j, 0] < 2 * g
-                if not (near or vof[m, j, edge + out] > 0.0 or vof[m, j, edge + 2 * out] > 0.0):
-                    continue
-                mirror = mirror_r_max if side else mirror_r_min
-                for n in range(g):
-                    ghost = edge + (n + 1) * out
-                    source = edge - n * out if mirror else edge
-                    fill(m, j, ghost, j, source, mirror, fields, rules, vof, q, centroid)
+    for m in range(w.vof.shape[0]):
+        for side in range(2):
+            edge = g + w.nr - 1 if side else g  # the last cell of the mesh
+            out = 1 if side else -1
+            near = w.body_range[m, j, 1] > w.nr if side else w.body_range[m, j, 0] < 2 * g
+            if not (near or w.vof[m, j, edge + out] > 0.0 or w.vof[m, j, edge + 2 * out] > 0.0):
+                continue
+            mirror = w.mirror_r_max if side else w.mirror_r_min
+            for n in range(g):
+                ghost = edge + (n + 1) * out
+                source = edge - n * out if mirror else edge
+                fill(m, j, ghost, j, source, mirror, w)
 
 
 @kernel
-def ghost_rows(dj, part, parts, i0, i1, nz, mirror_z_min, mirror_z_max, leading, rules, vof, q, centroid):
+def ghost_rows(part, w):
     """Ghost cells below and above columns i0 - 2 to i1 + 2, likewise, q before a sweep along z; the first and the last part
     have one side each.
 
@@ -60,153 +59,150 @@ def ghost_rows(dj, part, parts, i0, i1, nz, mirror_z_min, mirror_z_max, leading,
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
     """
     g = GHOSTS
-    fields = dj * q.shape[0]
     for side in range(2):
-        if side == leading or part != (parts.shape[0] - 2 if side else 0):
+        if side == w.leading or part != (w.parts.shape[0] - 2 if side else 0):
             continue
-        edge = g + nz - 1 if side else g
+        edge = g + w.nz - 1 if side else g
         out = 1 if side else -1
-        mirror = mirror_z_max if side else mirror_z_min
-        for m in range(vof.shape[0]):
+        mirror = w.mirror_z_max if side else w.mirror_z_min
+        for m in range(w.vof.shape[0]):
             for n in range(g):
                 ghost = edge + (n + 1) * out
                 source = edge - n * out if mirror else edge
-                for i in range(i0 - g, i1 + g):
-                    fill(m, ghost, i, source, i, mirror, fields, rules, vof, q, centroid)
+                for i in range(w.i0 - g, w.i1 + g):
+                    fill(m, ghost, i, source, i, mirror, w)
 
 
-@kernel
-def ghost_vertices_r(part, parts, nr, mirror_r_min, mirror_r_max, u, v):
-    """Ghost vertices left and right of rows j0 to j1; u changes its sign in a mirror.
+@vertex_rows
+def ghost_vertices_r(j, w):
+    """Ghost vertices left and right of the mesh; u changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
     """
     g = GHOSTS
-    for j in range(parts[part], past_row(part, parts, 1)):
-        for b in range(u.shape[0]):
-            for n in range(1, g + 1):
-                u[b, j, g - n] = -u[b, j, g + n] if mirror_r_min else u[b, j, g]
-                v[b, j, g - n] = v[b, j, g + n] if mirror_r_min else v[b, j, g]
-                u[b, j, g + nr + n] = -u[b, j, g + nr - n] if mirror_r_max else u[b, j, g + nr]
-                v[b, j, g + nr + n] = v[b, j, g + nr - n] if mirror_r_max else v[b, j, g + nr]
+    for b in range(w.u.shape[0]):
+        for n in range(1, g + 1):
+            w.u[b, j, g - n] = -w.u[b, j, g + n] if w.mirror_r_min else w.u[b, j, g]
+            w.v[b, j, g - n] = w.v[b, j, g + n] if w.mirror_r_min else w.v[b, j, g]
+            w.u[b, j, g + w.nr + n] = -w.u[b, j, g + w.nr - n] if w.mirror_r_max else w.u[b, j, g + w.nr]
+            w.v[b, j, g + w.nr + n] = w.v[b, j, g + w.nr - n] if w.mirror_r_max else w.v[b, j, g + w.nr]
 
 
 @kernel
-def ghost_vertices_z(part, parts, i0, i1, nz, mirror_z_min, mirror_z_max, u, v):
+def ghost_vertices_z(part, w):
     """Ghost vertices below and above the mesh, by the first and the last part; v changes its sign in a mirror.
 
     Updates  u, v [b, j, i]
     """
     g = GHOSTS
-    for b in range(u.shape[0]):
+    for b in range(w.u.shape[0]):
         for n in range(1, g + 1):
-            for i in range(i0 - g, i1 + g + 1):
+            for i in range(w.i0 - g, w.i1 + g + 1):
                 if part == 0:
-                    u[b, g - n, i] = u[b, g + n, i] if mirror_z_min else u[b, g, i]
-                    v[b, g - n, i] = -v[b, g + n, i] if mirror_z_min else v[b, g, i]
-                if part == parts.shape[0] - 2:
-                    u[b, g + nz + n, i] = u[b, g + nz - n, i] if mirror_z_max else u[b, g + nz, i]
-                    v[b, g + nz + n, i] = -v[b, g + nz - n, i] if mirror_z_max else v[b, g + nz, i]
+                    w.u[b, g - n, i] = w.u[b, g + n, i] if w.mirror_z_min else w.u[b, g, i]
+                    w.v[b, g - n, i] = -w.v[b, g + n, i] if w.mirror_z_min else w.v[b, g, i]
+                if part == w.parts.shape[0] - 2:
+                    w.u[b, g + w.nz + n, i] = w.u[b, g + w.nz - n, i] if w.mirror_z_max else w.u[b, g + w.nz, i]
+                    w.v[b, g + w.nz + n, i] = -w.v[b, g + w.nz - n, i] if w.mirror_z_max else w.v[b, g + w.nz, i]
 
 
 @point
-def dashpots(along_r, j, i, metrics, dz, rhobar, cl, bulk):
+def dashpots(along_r, j, i, w):
     """Dashpots of a vertex on an edge along the normal and along the edge, N s/m: the impedances of the cells around it."""
     normal, shear = 0.0, 0.0
     for row in range(j - 1, j + 1):
         for column in range(i - 1, i + 1):
-            axial = metrics[AZ_OUT, column] if column < i else metrics[AZ_IN, column]
-            area = 0.5 * metrics[FACE_R, i] * dz[row] if along_r else axial
-            z_l, z_s = impedances(row, column, rhobar, cl, bulk)
+            axial = w.metrics[AZ_OUT, column] if column < i else w.metrics[AZ_IN, column]
+            area = 0.5 * w.metrics[FACE_R, i] * w.dz[row] if along_r else axial
+            z_l, z_s = impedances(row, column, w.rhobar, w.cl, w.bulk)
             normal += area * z_l
             shear += area * z_s
     return normal, shear
 
 
 @apart
-def transmit(along_r, at, first, last, crossing, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v, drag):
-    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices first to last of an edge: what an endless plate would hold with.
+def transmit(edge, w):
+    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge: what an endless plate would hold with.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
     The dashpots are taken at the end of the step. Vertices that two groups share are the contact's. At a corner of two
     transmitting edges, the edge along z holds with the dashpots of both and the other one leaves the corner out; a velocity
-    that a wall or the axis gives is not held. The edge is column `at` where along_r, else row `at`; what is taken from the
-    vertices goes on beyond the edge.
+    that a wall or the axis gives is not held. What is taken from the vertices goes on beyond the edge.
 
-    Reads    crossing [2], places along the edge where another transmitting edge crosses it, -1 for none; constrained [4],
-             columns and rows whose normal velocity is given, -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
-    Updates  u, v [b, j, i];  writes drag [b, c, j or i], the impulses that are taken, where there are any
+    Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
+    Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i], the impulses that are taken, where there are any
     """
-    groups = mass.shape[0]
+    at, along_r = w.transmitting[edge], edge < 2
+    crossing = w.transmitting[2:4] if along_r else w.transmitting[0:2]
+    drag = w.drag[edge]
+    j0, j1 = outer_rows(w.parts)
+    first, last = (j0, j1 + 1) if along_r else (w.i0, w.i1 + 1)
+    groups = w.mass.shape[0]
     for place in range(first, last):
         j, i = (place, at) if along_r else (at, place)
         corner = place == crossing[0] or place == crossing[1]
         if corner and not along_r:
             continue
-        normal, shear = dashpots(along_r, j, i, metrics, dz, rhobar, cl, bulk)
+        normal, shear = dashpots(along_r, j, i, w)
         radial_drag, axial_drag = (normal, shear) if along_r else (shear, normal)
         if corner:
-            normal, shear = dashpots(False, j, i, metrics, dz, rhobar, cl, bulk)
+            normal, shear = dashpots(False, j, i, w)
             radial_drag += shear
             axial_drag += normal
-        radial_drag = 0.0 if i == constrained[0] or i == constrained[1] else radial_drag
-        axial_drag = 0.0 if j == constrained[2] or j == constrained[3] else axial_drag
+        radial_drag = 0.0 if i == w.constrained[0] or i == w.constrained[1] else radial_drag
+        axial_drag = 0.0 if j == w.constrained[2] or j == w.constrained[3] else axial_drag
         for b in range(groups):
-            m = mass[b, j, i]
-            if m == 0.0 or (groups == 2 and mass[1 - b, j, i] > 0.0):
+            m = w.mass[b, j, i]
+            if m == 0.0 or (groups == 2 and w.mass[1 - b, j, i] > 0.0):
                 continue
-            radial = u[b, j, i] * (m / (m + dt * radial_drag))
-            axial = v[b, j, i] * (m / (m + dt * axial_drag))
-            drag[b, 0, place] = m * (u[b, j, i] - radial)
-            drag[b, 1, place] = m * (v[b, j, i] - axial)
-            u[b, j, i] = radial
-            v[b, j, i] = axial
+            radial = w.u[b, j, i] * (m / (m + w.dt * radial_drag))
+            axial = w.v[b, j, i] * (m / (m + w.dt * axial_drag))
+            drag[b, 0, place] = m * (w.u[b, j, i] - radial)
+            drag[b, 1, place] = m * (w.v[b, j, i] - axial)
+            w.u[b, j, i] = radial
+            w.v[b, j, i] = axial
 
 
 @serial
-def transmit_edges(parts, i0, i1, transmitting, constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v, drag):
+def transmit_edges(w):
     """`transmit` for every transmitting edge that the active box has reached.
 
     Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; the rest as `transmit`
     Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i]
     """
-    j0, j1 = outer_rows(parts)
+    j0, j1 = outer_rows(w.parts)
     for edge in range(4):
-        at, along_r = transmitting[edge], edge < 2
+        at, along_r = w.transmitting[edge], edge < 2
         if at < 0:
             continue
-        for b in range(mass.shape[0]):
-            for place in range(drag.shape[3]):
-                drag[edge, b, 0, place] = 0.0
-                drag[edge, b, 1, place] = 0.0
-        if along_r and (at == i0 or at == i1):
-            transmit(along_r, at, j0, j1 + 1, transmitting[2:4], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v,
-                     drag[edge])
-        elif not along_r and (at == j0 or at == j1):
-            transmit(along_r, at, i0, i1 + 1, transmitting[0:2], constrained, dt, metrics, dz, rhobar, cl, bulk, mass, u, v,
-                     drag[edge])
+        for b in range(w.mass.shape[0]):
+            for place in range(w.drag.shape[3]):
+                w.drag[edge, b, 0, place] = 0.0
+                w.drag[edge, b, 1, place] = 0.0
+        if (at == w.i0 or at == w.i1) if along_r else (at == j0 or at == j1):
+            transmit(edge, w)
 
 
 @serial
-def sum_drag(parts, i0, i1, transmitting, drag, u0, v0, u, v, held_back):
+def sum_drag(w):
     """What transmitting edges have taken, by the velocities at the end of the step.
 
     Reads    transmitting [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
     Writes   held_back [2], axial momentum and energy
     """
-    j0, j1 = outer_rows(parts)
-    held_back[0], held_back[1] = 0.0, 0.0
+    j0, j1 = outer_rows(w.parts)
+    w.held_back[0], w.held_back[1] = 0.0, 0.0
     for edge in range(4):
-        at = transmitting[edge]
+        at = w.transmitting[edge]
         if at < 0:
             continue
-        first, last = (j0, j1 + 1) if edge < 2 else (i0, i1 + 1)
+        first, last = (j0, j1 + 1) if edge < 2 else (w.i0, w.i1 + 1)
         for place in range(first, last):
             j, i = (place, at) if edge < 2 else (at, place)
-            for b in range(u.shape[0]):
-                radial, axial = drag[edge, b, 0, place], drag[edge, b, 1, place]
-                held_back[0] += axial
-                held_back[1] += 0.5 * (radial * (u0[b, j, i] + u[b, j, i]) + axial * (v0[b, j, i] + v[b, j, i]))
+            for b in range(w.u.shape[0]):
+                radial, axial = w.drag[edge, b, 0, place], w.drag[edge, b, 1, place]
+                w.held_back[0] += axial
+                w.held_back[1] += 0.5 * (radial * (w.u0[b, j, i] + w.u[b, j, i]) + axial * (w.v0[b, j, i] + w.v[b, j, i]))
 
 
 @point
@@ -222,18 +218,18 @@ def held_at(edge, only_pushes, given, free):
 
 
 @point
-def left_by_edges(at, low, constrained, pushing, velocity, free):
+def left_by_edges(at, low, free, w):
     """Normal velocity that the edges leave a vertex in column (low = 0) or row (low = 2) `at`: its own where none is."""
     for edge in range(low, low + 2):
-        if at == constrained[edge]:
-            return velocity[edge]
-        if at == pushing[edge]:
-            return held_at(edge, True, velocity[edge], free)
+        if at == w.constrained[edge]:
+            return w.edge_velocity[edge]
+        if at == w.pushing[edge]:
+            return held_at(edge, True, w.edge_velocity[edge], free)
     return free
 
 
 @kernel
-def constrain(part, parts, constrained, pushing, edge_velocity, mass, u0, v0, u, v, walls):
+def constrain(part, w):
     """The given normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that are not left.
 
     The axis and walls along z take no axial momentum and do no work.
@@ -242,32 +238,32 @@ def constrain(part, parts, constrained, pushing, edge_velocity, mass, u0, v0, u,
     Updates  u, v [b, j, i]
     Writes   walls [4, 2, j]: axial momentum and energy that each edge takes in a row
     """
-    first, last = own_rows(part, parts, u.shape[1])
+    first, last = own_rows(part, w.parts, w.u.shape[1])
     for j in range(first, last):
         for edge in range(4):
-            walls[edge, 0, j], walls[edge, 1, j] = 0.0, 0.0
-        for b in range(u.shape[0]):
+            w.walls[edge, 0, j], w.walls[edge, 1, j] = 0.0, 0.0
+        for b in range(w.u.shape[0]):
             for edge in range(2):
-                at = max(constrained[edge], pushing[edge])
+                at = max(w.constrained[edge], w.pushing[edge])
                 if at < 0:
                     continue
-                given = held_at(edge, pushing[edge] >= 0, edge_velocity[edge], u[b, j, at])
-                impulse = mass[b, j, at] * (u[b, j, at] - given)
-                walls[edge, 1, j] += 0.5 * impulse * (u0[b, j, at] + given)
-                u[b, j, at] = given
+                given = held_at(edge, w.pushing[edge] >= 0, w.edge_velocity[edge], w.u[b, j, at])
+                impulse = w.mass[b, j, at] * (w.u[b, j, at] - given)
+                w.walls[edge, 1, j] += 0.5 * impulse * (w.u0[b, j, at] + given)
+                w.u[b, j, at] = given
             for edge in range(2, 4):
-                if max(constrained[edge], pushing[edge]) != j:
+                if max(w.constrained[edge], w.pushing[edge]) != j:
                     continue
-                for i in range(u.shape[2]):
-                    given = held_at(edge, pushing[edge] >= 0, edge_velocity[edge], v[b, j, i])
-                    impulse = mass[b, j, i] * (v[b, j, i] - given)
-                    walls[edge, 0, j] += impulse
-                    walls[edge, 1, j] += 0.5 * impulse * (v0[b, j, i] + given)
-                    v[b, j, i] = given
+                for i in range(w.u.shape[2]):
+                    given = held_at(edge, w.pushing[edge] >= 0, w.edge_velocity[edge], w.v[b, j, i])
+                    impulse = w.mass[b, j, i] * (w.v[b, j, i] - given)
+                    w.walls[edge, 0, j] += impulse
+                    w.walls[edge, 1, j] += 0.5 * impulse * (w.v0[b, j, i] + given)
+                    w.v[b, j, i] = given
 
 
 @kernel
-def close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass):
+def close_mass_flux(part, w):
     """Mass flux beyond the edges of the mesh, where the sweep along the other direction has left its own: there is none.
 
     Beyond an open edge of this direction it goes on as it was.
@@ -275,26 +271,26 @@ def close_mass_flux(part, parts, di, mesh_box, opens_low, opens_high, flux_mass)
     Reads    mesh_box [4], rows j0, j1 and columns i0, i1 of the mesh
     Updates  flux_mass [b, j, i]
     """
-    first, last = own_rows(part, parts, flux_mass.shape[1])
-    j0, j1, i0, i1 = mesh_box[0], mesh_box[1], mesh_box[2], mesh_box[3]
-    for b in range(flux_mass.shape[0]):
-        if di == 1:
-            for i in range(flux_mass.shape[2]):
+    first, last = own_rows(part, w.parts, w.flux_mass.shape[1])
+    j0, j1, i0, i1 = w.mesh_box[0], w.mesh_box[1], w.mesh_box[2], w.mesh_box[3]
+    for b in range(w.flux_mass.shape[0]):
+        if w.di == 1:
+            for i in range(w.flux_mass.shape[2]):
                 if part == 0:
-                    flux_mass[b, j0 - 1, i] = 0.0
-                if part == parts.shape[0] - 2:
-                    flux_mass[b, j1, i] = 0.0
+                    w.flux_mass[b, j0 - 1, i] = 0.0
+                if part == w.parts.shape[0] - 2:
+                    w.flux_mass[b, j1, i] = 0.0
             for j in range(first, last):
-                if opens_low:
-                    flux_mass[b, j, i0 - 1] = flux_mass[b, j, i0]
-                if opens_high:
-                    flux_mass[b, j, i1 + 1] = flux_mass[b, j, i1]
+                if w.opens_low:
+                    w.flux_mass[b, j, i0 - 1] = w.flux_mass[b, j, i0]
+                if w.opens_high:
+                    w.flux_mass[b, j, i1 + 1] = w.flux_mass[b, j, i1]
         else:
             for j in range(first, last):
-                flux_mass[b, j, i0 - 1] = 0.0
-                flux_mass[b, j, i1] = 0.0
-            for i in range(flux_mass.shape[2]):
-                if opens_low and part == 0:
-                    flux_mass[b, j0 - 1, i] = flux_mass[b, j0, i]
-                if opens_high and part == parts.shape[0] - 2:
-                    flux_mass[b, j1 + 1, i] = flux_mass[b, j1, i]
+                w.flux_mass[b, j, i0 - 1] = 0.0
+                w.flux_mass[b, j, i1] = 0.0
+            for i in range(w.flux_mass.shape[2]):
+                if w.opens_low and part == 0:
+                    w.flux_mass[b, j0 - 1, i] = w.flux_mass[b, j0, i]
+                if w.opens_high and part == w.parts.shape[0] - 2:
+                    w.flux_mass[b, j1 + 1, i] = w.flux_mass[b, j1, i]

@@ -3,7 +3,7 @@
 explanation/interfaces, thin bodies.
 """
 
-from hydro2d.jit import kernel, point
+from hydro2d.jit import cell_rows, point
 from hydro2d.kernels.interfaces import NOTHING
 from hydro2d.kernels.mixed_scratch import BEFORE, SHIFT_R, SHIFT_Z
 from hydro2d.physics.centroids import side, within
@@ -13,31 +13,30 @@ FULL = 1.0 - 1e-9
 
 
 @point
-def size_after(j, i, dj, di, second, volume, pre, face):
+def size_after(j, i, w):
     """Volume of a cell after a sweep, m^3 per radian."""
-    return volume[j, i] if second else pre[j, i] - (face[j + dj, i + di] - face[j, i])
+    return w.volume[j, i] if w.second else w.pre[j, i] - (w.face[j + w.dj, i + w.di] - w.face[j, i])
 
 
 @point
-def volume_before(m, j, i, dj, di, second, volume, pre, face, vof, flux_volume):
+def volume_before(m, j, i, w):
     """Volume that body m had in a cell before a sweep, m^3 per radian."""
-    return vof[m, j, i] * size_after(j, i, dj, di, second, volume, pre, face) + (
-        flux_volume[m, j + dj, i + di] - flux_volume[m, j, i])
+    return w.vof[m, j, i] * size_after(j, i, w) + (
+        w.flux_volume[m, j + w.dj, i + w.di] - w.flux_volume[m, j, i])
 
 
 @point
-def donor_place(m, j, i, face_j, face_i, dj, di, second, mesh_box, volume, pre, face, vof, flux_volume, flux_place, centroid):
+def donor_place(m, j, i, face_j, face_i, w):
     """Where in the strip that it swept lies what body m gave from cell (j, i) through a face, off the middle: along, across."""
-    if not (mesh_box[0] <= j < mesh_box[1] and mesh_box[2] <= i < mesh_box[3]):
-        return 0.0, centroid[di, m, j, i]
-    if volume_before(m, j, i, dj, di, second, volume, pre, face, vof, flux_volume) > FULL * pre[j, i]:
+    if not (w.mesh_box[0] <= j < w.mesh_box[1] and w.mesh_box[2] <= i < w.mesh_box[3]):
+        return 0.0, w.centroid[w.di, m, j, i]
+    if volume_before(m, j, i, w) > FULL * w.pre[j, i]:
         return 0.0, 0.0
-    return flux_place[0, m, face_j, face_i], flux_place[1, m, face_j, face_i]
+    return w.flux_place[0, m, face_j, face_i], w.flux_place[1, m, face_j, face_i]
 
 
-@kernel
-def carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_columns, mixed_count, mixed, face, own, volume, pre,
-                    vof, flux_volume, flux_place, centroid):
+@cell_rows
+def carry_centroids(j, w):
     """Centroids of the bodies in mixed cells after a sweep: those of what stays and what comes, by volume.
 
     What stays moves with the cell, or with the volumes that the faces sweep with the velocity of the body's group
@@ -47,44 +46,42 @@ def carry_centroids(dj, di, part, parts, second, mesh_box, group, contact_column
              flux_place [2, m, j, i]
     Updates  centroid [2, m, j, i]
     """
-    contact = own.shape[0] > 1
-    for j in range(parts[part], parts[part + 1]):
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            after = size_after(j, i, dj, di, second, volume, pre, face)
-            for m in range(vof.shape[0]):
-                if not 0.0 < vof[m, j, i] < 1.0:
-                    continue
-                left = vof[m, j, i] * after
-                s_low, s_high = face[j, i], face[j + dj, i + di]
-                if contact and contact_columns[j, 0] <= i < contact_columns[j, 1]:
-                    s_low, s_high = own[group[m], j, i], own[group[m], j + dj, i + di]
-                drift = 0.5 * (s_low + s_high)
-                v_low, v_high = flux_volume[m, j, i], flux_volume[m, j + dj, i + di]
-                stood = left + (v_high - v_low)
-                low, side_low, high, side_high = 0.0, 0.0, 0.0, 0.0
-                if v_low != 0.0:
-                    row, column = (j - dj, i - di) if v_low > 0.0 else (j, i)
-                    x, y = donor_place(m, row, column, j, i, dj, di, second, mesh_box, volume, pre, face, vof, flux_volume,
-                                       flux_place, centroid)
-                    low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * pre[j, i] - drift)
-                    low *= v_low
-                    side_low = v_low * y
-                if v_high != 0.0:
-                    row, column = (j + dj, i + di) if v_high < 0.0 else (j, i)
-                    x, y = donor_place(m, row, column, j + dj, i + di, dj, di, second, mesh_box, volume, pre, face, vof,
-                                       flux_volume, flux_place, centroid)
-                    high = (0.5 * after if v_high < 0.0 else 0.5 * pre[j, i] + drift) - (0.5 - x) * abs(s_high)
-                    high *= -v_high
-                    side_high = -v_high * y
-                along = stood * (centroid[dj, m, j, i] * pre[j, i] + drift) + (low + high)
-                across = stood * centroid[di, m, j, i] + (side_low + side_high)
-                centroid[dj, m, j, i] = within(along / (left * after), vof[m, j, i])
-                centroid[di, m, j, i] = within(across / left, vof[m, j, i])
+    dj, di = w.dj, w.di
+    contact = w.own.shape[0] > 1
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        after = size_after(j, i, w)
+        for m in range(w.vof.shape[0]):
+            if not 0.0 < w.vof[m, j, i] < 1.0:
+                continue
+            left = w.vof[m, j, i] * after
+            s_low, s_high = w.face[j, i], w.face[j + dj, i + di]
+            if contact and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
+                s_low, s_high = w.own[w.group[m], j, i], w.own[w.group[m], j + dj, i + di]
+            drift = 0.5 * (s_low + s_high)
+            v_low, v_high = w.flux_volume[m, j, i], w.flux_volume[m, j + dj, i + di]
+            stood = left + (v_high - v_low)
+            low, side_low, high, side_high = 0.0, 0.0, 0.0, 0.0
+            if v_low != 0.0:
+                row, column = (j - dj, i - di) if v_low > 0.0 else (j, i)
+                x, y = donor_place(m, row, column, j, i, w)
+                low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * w.pre[j, i] - drift)
+                low *= v_low
+                side_low = v_low * y
+            if v_high != 0.0:
+                row, column = (j + dj, i + di) if v_high < 0.0 else (j, i)
+                x, y = donor_place(m, row, column, j + dj, i + di, w)
+                high = (0.5 * after if v_high < 0.0 else 0.5 * w.pre[j, i] + drift) - (0.5 - x) * abs(s_high)
+                high *= -v_high
+                side_high = -v_high * y
+            along = stood * (w.centroid[dj, m, j, i] * w.pre[j, i] + drift) + (low + high)
+            across = stood * w.centroid[di, m, j, i] + (side_low + side_high)
+            w.centroid[dj, m, j, i] = within(along / (left * after), w.vof[m, j, i])
+            w.centroid[di, m, j, i] = within(across / left, w.vof[m, j, i])
 
 
 @point
-def push_bodies(j, i, vof, centroid, mix):
+def push_bodies(j, i, w):
     """Moves the centroids of the bodies of a mixed cell as these and void take and give volume in the Lagrangian step.
 
     Void that opens where there was none opens in the midst of the bodies that shrink, and pushes none; where there was some, it
@@ -93,43 +90,42 @@ def push_bodies(j, i, vof, centroid, mix):
     Reads    mix [j, BEFORE, m], fractions before; vof [m, j, i], after
     Updates  centroid [2, m, j, i]
     """
-    bodies = vof.shape[0]
     void, gained, shrunk, void_r, void_z = 1.0, 0.0, 0.0, 0.0, 0.0
-    for m in range(bodies):
-        f = mix[j, BEFORE, m]
+    for m in range(w.vof.shape[0]):
+        f = w.mix[j, BEFORE, m]
         void -= f
-        gained += f - vof[m, j, i]
-        shrunk += max(f - vof[m, j, i], 0.0)
-        void_r -= f * centroid[0, m, j, i]
-        void_z -= f * centroid[1, m, j, i]
+        gained += f - w.vof[m, j, i]
+        shrunk += max(f - w.vof[m, j, i], 0.0)
+        void_r -= f * w.centroid[0, m, j, i]
+        void_z -= f * w.centroid[1, m, j, i]
     void = max(void, 0.0)
     if void > NOTHING:
         void_r, void_z = within(void_r / void, void), within(void_z / void, void)
     inside = gained * gained / (void + gained) if gained > 0.0 else 0.0  # of the new void, what opens in the bodies
-    for m in range(bodies):
-        mix[j, SHIFT_R, m], mix[j, SHIFT_Z, m] = 0.0, 0.0
-    for m in range(bodies):
-        f = mix[j, BEFORE, m]
+    for m in range(w.vof.shape[0]):
+        w.mix[j, SHIFT_R, m], w.mix[j, SHIFT_Z, m] = 0.0, 0.0
+    for m in range(w.vof.shape[0]):
+        f = w.mix[j, BEFORE, m]
         if f == 0.0:
             continue
-        change = vof[m, j, i] - f
+        change = w.vof[m, j, i] - f
         change += inside * max(-change, 0.0) / shrunk if inside > 0.0 else 0.0
-        for k in range(m + 1, bodies):
-            other = mix[j, BEFORE, k]
+        for k in range(m + 1, w.vof.shape[0]):
+            other = w.mix[j, BEFORE, k]
             if other == 0.0:
                 continue
-            change_other = vof[k, j, i] - other
+            change_other = w.vof[k, j, i] - other
             change_other += inside * max(-change_other, 0.0) / shrunk if inside > 0.0 else 0.0
-            along_r = side(centroid[0, m, j, i], centroid[0, k, j, i], f, other)
-            along_z = side(centroid[1, m, j, i], centroid[1, k, j, i], f, other)
-            mix[j, SHIFT_R, m] += 0.5 * change_other * along_r
-            mix[j, SHIFT_Z, m] += 0.5 * change_other * along_z
-            mix[j, SHIFT_R, k] -= 0.5 * change * along_r
-            mix[j, SHIFT_Z, k] -= 0.5 * change * along_z
+            along_r = side(w.centroid[0, m, j, i], w.centroid[0, k, j, i], f, other)
+            along_z = side(w.centroid[1, m, j, i], w.centroid[1, k, j, i], f, other)
+            w.mix[j, SHIFT_R, m] += 0.5 * change_other * along_r
+            w.mix[j, SHIFT_Z, m] += 0.5 * change_other * along_z
+            w.mix[j, SHIFT_R, k] -= 0.5 * change * along_r
+            w.mix[j, SHIFT_Z, k] -= 0.5 * change * along_z
         if gained != inside:
-            mix[j, SHIFT_R, m] += 0.5 * (gained - inside) * side(centroid[0, m, j, i], void_r, f, void)
-            mix[j, SHIFT_Z, m] += 0.5 * (gained - inside) * side(centroid[1, m, j, i], void_z, f, void)
-    for m in range(bodies):
-        if mix[j, BEFORE, m] > 0.0:
-            centroid[0, m, j, i] = within(centroid[0, m, j, i] + mix[j, SHIFT_R, m], vof[m, j, i])
-            centroid[1, m, j, i] = within(centroid[1, m, j, i] + mix[j, SHIFT_Z, m], vof[m, j, i])
+            w.mix[j, SHIFT_R, m] += 0.5 * (gained - inside) * side(w.centroid[0, m, j, i], void_r, f, void)
+            w.mix[j, SHIFT_Z, m] += 0.5 * (gained - inside) * side(w.centroid[1, m, j, i], void_z, f, void)
+    for m in range(w.vof.shape[0]):
+        if w.mix[j, BEFORE, m] > 0.0:
+            w.centroid[0, m, j, i] = within(w.centroid[0, m, j, i] + w.mix[j, SHIFT_R, m], w.vof[m, j, i])
+            w.centroid[1, m, j, i] = within(w.centroid[1, m, j, i] + w.mix[j, SHIFT_Z, m], w.vof[m, j, i])

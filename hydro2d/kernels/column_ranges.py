@@ -4,7 +4,7 @@ A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the u
 other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
 """
 
-from hydro2d.jit import kernel, point, rowwise, serial
+from hydro2d.jit import cell_rows, kernel, point, rowwise, serial, vertex_rows
 
 NOTHING = 1 << 30
 
@@ -57,8 +57,8 @@ def copy_beside(old, new, first, lo, hi, last):
         new[i] = old[i]
 
 
-@kernel
-def find_body_ranges(part, parts, i0, i1, anew, group, vof, body_ranges, occupied):
+@cell_rows
+def find_body_ranges(j, w):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
     A body moves by no more than a cell: unless `anew`, it is looked for around the columns body_ranges[1] that it was in.
@@ -67,48 +67,45 @@ def find_body_ranges(part, parts, i0, i1, anew, group, vof, body_ranges, occupie
     Updates  body_ranges [n, m, j, 2], of which body_ranges[0] is body_range
     Writes   occupied [b, j, 2], the union over the bodies: for b = 0 all of them, for b = 1 those of group 1
     """
-    bodies = vof.shape[0]
-    for j in range(parts[part], parts[part + 1]):
-        for b in range(occupied.shape[0]):
-            occupied[b, j, 0] = NOTHING
-            occupied[b, j, 1] = 0
-        for m in range(bodies):
-            row = vof[m, j]
-            lo = i0 if anew else max(body_ranges[1, m, j, 0] - 1, i0)
-            end = i1 if anew else min(body_ranges[1, m, j, 1] + 1, i1)
-            while lo < end and row[lo] == 0.0:
-                lo += 1
-            hi = max(end, lo)
-            while hi > lo and row[hi - 1] == 0.0:
-                hi -= 1
-            if lo == hi:
-                lo, hi = NOTHING, 0
-            body_ranges[0, m, j, 0] = lo
-            body_ranges[0, m, j, 1] = hi
-            for b in range(group[m] + 1):
-                occupied[b, j, 0] = min(occupied[b, j, 0], lo)
-                occupied[b, j, 1] = max(occupied[b, j, 1], hi)
+    for b in range(w.occupied.shape[0]):
+        w.occupied[b, j, 0] = NOTHING
+        w.occupied[b, j, 1] = 0
+    for m in range(w.vof.shape[0]):
+        row = w.vof[m, j]
+        lo = w.i0 if w.anew else max(w.body_ranges[1, m, j, 0] - 1, w.i0)
+        end = w.i1 if w.anew else min(w.body_ranges[1, m, j, 1] + 1, w.i1)
+        while lo < end and row[lo] == 0.0:
+            lo += 1
+        hi = max(end, lo)
+        while hi > lo and row[hi - 1] == 0.0:
+            hi -= 1
+        if lo == hi:
+            lo, hi = NOTHING, 0
+        w.body_ranges[0, m, j, 0] = lo
+        w.body_ranges[0, m, j, 1] = hi
+        for b in range(w.group[m] + 1):
+            w.occupied[b, j, 0] = min(w.occupied[b, j, 0], lo)
+            w.occupied[b, j, 1] = max(w.occupied[b, j, 1], hi)
 
 
-@kernel
-def find_active_ranges(part, parts, i0, i1, occupied, group_ranges):
+@cell_rows
+def find_active_ranges(j, w):
     """Columns that a body can touch within one cycle: those occupied in rows j-2 to j+2, and two more on either side.
 
     Reads    occupied [b, j, 2]
     Writes   group_ranges[b, 0], the active range [j, 2]
     """
-    for j in range(parts[part], parts[part + 1]):
-        for b in range(occupied.shape[0]):
-            lo, hi = union(occupied[b], j - 2, j + 3)
-            if lo < hi:
-                lo = max(lo - 2, i0)
-                hi = min(hi + 2, i1)
-            group_ranges[b, 0, j, 0] = lo
-            group_ranges[b, 0, j, 1] = hi
+    for b in range(w.occupied.shape[0]):
+        lo, hi = union(w.occupied[b], j - 2, j + 3)
+        if lo < hi:
+            lo = max(lo - 2, w.i0)
+            hi = min(hi + 2, w.i1)
+        w.group_ranges[b, 0, j, 0] = lo
+        w.group_ranges[b, 0, j, 1] = hi
 
 
 @kernel
-def widen_ranges(part, parts, body_ranges, group_ranges):
+def widen_ranges(part, w):
     """The ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
 
     Reads    body_ranges[0], the range of each body, group_ranges[b, 0], the active range
@@ -116,87 +113,86 @@ def widen_ranges(part, parts, body_ranges, group_ranges):
              body_ranges[2, m, j] over j-2 to j+1, the faces through which it flows;
              group_ranges[b, n, j] over the n rows below face or vertex j and the n above
     """
-    for j in range(first_row(part, parts, 1), past_row(part, parts, 1)):
-        for m in range(body_ranges.shape[1]):
+    for j in range(first_row(part, w.parts, 1), past_row(part, w.parts, 1)):
+        for m in range(w.body_ranges.shape[1]):
             for n in range(1, 3):
-                lo, hi = union(body_ranges[0, m], j - n, j + 2)
-                body_ranges[n, m, j, 0] = lo
-                body_ranges[n, m, j, 1] = hi
-        for b in range(group_ranges.shape[0]):
-            for n in range(1, group_ranges.shape[1]):
-                lo, hi = union(group_ranges[b, 0], j - n, j + n)
-                group_ranges[b, n, j, 0] = lo
-                group_ranges[b, n, j, 1] = hi
+                lo, hi = union(w.body_ranges[0, m], j - n, j + 2)
+                w.body_ranges[n, m, j, 0] = lo
+                w.body_ranges[n, m, j, 1] = hi
+        for b in range(w.group_ranges.shape[0]):
+            for n in range(1, w.group_ranges.shape[1]):
+                lo, hi = union(w.group_ranges[b, 0], j - n, j + n)
+                w.group_ranges[b, n, j, 0] = lo
+                w.group_ranges[b, n, j, 1] = hi
 
 
 @rowwise
-def mixed_row(j, active_range, vof, scratch, row, count, mixed):
+def mixed_row(j, active_range, kind, w):
     """Lists the cells of row j in which a body and something else (another body or void) meet.
 
     Reads    vof [m, j, i], active_range [j, 2]
-    Writes   count [j], mixed [j, k] (columns, ascending)
-    Scratch  scratch [row, i]: a thousand per body that fills the cell, one per body in it
+    Writes   mixed_count [j], mixed [j, k] (columns, ascending)
+    Scratch  kind [i]: a thousand per body that fills the cell, one per body in it
     """
     first, n = columns(active_range[j, 0], active_range[j, 1])
-    kind = scratch[row]
     for x in range(n):
         kind[first + x] = 0.0
-    for m in range(vof.shape[0]):
-        f_j = vof[m, j]
+    for m in range(w.vof.shape[0]):
+        f_j = w.vof[m, j]
         for x in range(n):
             i = first + x
             kind[i] += (1000.0 if f_j[i] == 1.0 else 0.0) + (1.0 if f_j[i] > 0.0 else 0.0)
-    out = mixed[j]
+    out = w.mixed[j]
     found = 0
     for x in range(n):
         i = first + x
         out[found] = i
         found += 0 if kind[i] == 0.0 or kind[i] == 1001.0 else 1
-    count[j] = found
+    w.mixed_count[j] = found
 
 
-@kernel
-def list_mixed(part, parts, active_range, vof, mixed_count, mixed, scratch):
-    """mixed_row for rows j0 to j1.
+@cell_rows
+def list_mixed(j, part, w):
+    """Lists the mixed cells of every row (`mixed_row`).
 
+    Reads    vof [m, j, i], active_range [j, 2]
+    Writes   mixed_count [j], mixed [j, k]
     Scratch  scratch [s, part, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        mixed_row(j, active_range, vof, scratch[0], part, mixed_count, mixed)
+    mixed_row(j, w.active_range, w.scratch[0, part], w)
 
 
-@kernel
-def moving_columns(part, parts, i0, i1, u, v, row_moving):
+@vertex_rows
+def moving_columns(j, w):
     """First and one past the last vertex of each row that moves; what a second group has next to the first follows it.
 
     Reads    u, v [b, j, i]
     Writes   row_moving [j, 2]
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        first = i0
-        while first <= i1 and u[0, j, first] == 0.0 and v[0, j, first] == 0.0:
-            first += 1
-        last = i1 + 1
-        while last > first and u[0, j, last - 1] == 0.0 and v[0, j, last - 1] == 0.0:
-            last -= 1
-        row_moving[j, 0] = first if first < last else NOTHING
-        row_moving[j, 1] = last if first < last else 0
+    first = w.i0
+    while first <= w.i1 and w.u[0, j, first] == 0.0 and w.v[0, j, first] == 0.0:
+        first += 1
+    last = w.i1 + 1
+    while last > first and w.u[0, j, last - 1] == 0.0 and w.v[0, j, last - 1] == 0.0:
+        last -= 1
+    w.row_moving[j, 0] = first if first < last else NOTHING
+    w.row_moving[j, 1] = last if first < last else 0
 
 
 @serial
-def moving_box(parts, row_moving, moving):
+def moving_box(w):
     """Rows and columns of the vertices that move: what moving_columns found, joined over the rows.
 
     Reads    row_moving [j, 2]
     Writes   moving [4]: first row and one past the last, first column and one past the last; the rows are equal if none moves
     """
-    j0, last = outer_rows(parts)
+    j0, last = outer_rows(w.parts)
     j1 = last + 1  # vertices
-    moving[0], moving[1], moving[2], moving[3] = j1, j1, NOTHING, 0
+    w.moving[0], w.moving[1], w.moving[2], w.moving[3] = j1, j1, NOTHING, 0
     for j in range(j0, j1):
-        if row_moving[j, 1] > 0:
-            moving[0] = min(moving[0], j)
-            moving[1] = j + 1
-            moving[2] = min(moving[2], row_moving[j, 0])
-            moving[3] = max(moving[3], row_moving[j, 1])
-    moving[1] = max(moving[1], moving[0])
+        if w.row_moving[j, 1] > 0:
+            w.moving[0] = min(w.moving[0], j)
+            w.moving[1] = j + 1
+            w.moving[2] = min(w.moving[2], w.row_moving[j, 0])
+            w.moving[3] = max(w.moving[3], w.row_moving[j, 1])
+    w.moving[1] = max(w.moving[1], w.moving[0])

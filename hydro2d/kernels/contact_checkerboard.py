@@ -5,8 +5,8 @@ cell, the forces on every vertex cancel. On a mesh that follows the body nothing
 equation 9).
 """
 
-from hydro2d.jit import kernel, point
-from hydro2d.kernels.column_ranges import outer_rows, past_row, union
+from hydro2d.jit import cell_rows, point, vertex_rows
+from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ, E
 from hydro2d.physics.traction import smoothstep
 
@@ -19,9 +19,9 @@ INSIDE = 0.02
 
 
 @point
-def fading(j, i, dt, hg_coefficient, cell_mass):
+def fading(j, i, w):
     """Share of a checkerboard in cell (j, i) that fades in a step: the rate of the hourglass filter times dt."""
-    return 16.0 * hg_coefficient[j, i] * dt / cell_mass[1, j, i]
+    return 16.0 * w.hg_coefficient[j, i] * w.dt / w.cell_mass[1, j, i]
 
 
 @point
@@ -30,8 +30,8 @@ def checkerboard_of(j, i, a):
     return 0.25 * ((a[j - 1, i - 1] + a[j, i]) - (a[j - 1, i] + a[j, i - 1]))
 
 
-@kernel
-def find_insides(part, parts, mesh_box, group, group_ranges, vof, inside):
+@cell_rows
+def find_insides(j, w):
     """How much cells lie inside of a body of the hard group: those that it fills, by what the least of their neighbours holds.
 
     A cell that has just filled has a neighbour without any of the body, so that it comes in without a jump. Beyond the edges
@@ -40,43 +40,41 @@ def find_insides(part, parts, mesh_box, group, group_ranges, vof, inside):
     Reads    group [m]; vof [m, j, i]
     Writes   inside [j, i], 0 to 1
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], parts[part + 1]):
-        for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
-            inside[j, i] = 0.0
-            for m in range(vof.shape[0]):
-                if group[m] != 1 or vof[m, j, i] != 1.0:
-                    continue
-                least = 1.0
-                for row in range(max(j - 1, j0), min(j + 2, j1)):
-                    for column in range(max(i - 1, mesh_box[2]), min(i + 2, mesh_box[3])):
-                        least = min(least, vof[m, row, column])
-                inside[j, i] = smoothstep(least / INSIDE)
+    j0, j1 = outer_rows(w.parts)
+    for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
+        w.inside[j, i] = 0.0
+        for m in range(w.vof.shape[0]):
+            if w.group[m] != 1 or w.vof[m, j, i] != 1.0:
+                continue
+            least = 1.0
+            for row in range(max(j - 1, j0), min(j + 2, j1)):
+                for column in range(max(i - 1, w.mesh_box[2]), min(i + 2, w.mesh_box[3])):
+                    least = min(least, w.vof[m, row, column])
+            w.inside[j, i] = smoothstep(least / INSIDE)
 
 
-@kernel
-def find_checkerboards(part, parts, mesh_box, group, group_ranges, vof, q, pm, inside, checkerboard):
+@vertex_rows
+def find_checkerboards(j, w):
     """Checkerboards around the vertices between four cells that one body of the hard group fills.
 
     Reads    group [m]; vof, pm [m, j, i]; q (deviators) [k, m, j, i]; inside [j, i]
     Writes   checkerboard [5, j, i], rows COUNTS to OF_RZ, 0 at all other vertices
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], past_row(part, parts, 1)):
-        lo, hi = group_ranges[1, 1, j, 0], group_ranges[1, 1, j, 1]
-        for i in range(lo, hi + 1):
-            for row in range(5):
-                checkerboard[row, j, i] = 0.0
-            if j == j0 or j == j1 or i <= mesh_box[2] or i >= mesh_box[3]:
-                continue
-            least = min(min(inside[j - 1, i - 1], inside[j - 1, i]), min(inside[j, i - 1], inside[j, i]))
-            for m in range(vof.shape[0]):
-                if least > 0.0 and vof[m, j, i] == 1.0 and vof[m, j - 1, i - 1] == 1.0:
-                    checkerboard[COUNTS, j, i] = least
-                    checkerboard[OF_P, j, i] = checkerboard_of(j, i, pm[m])
-                    checkerboard[OF_RR, j, i] = checkerboard_of(j, i, q[SRR, m])
-                    checkerboard[OF_ZZ, j, i] = checkerboard_of(j, i, q[SZZ, m])
-                    checkerboard[OF_RZ, j, i] = checkerboard_of(j, i, q[SRZ, m])
+    j0, j1 = outer_rows(w.parts)
+    lo, hi = w.group_ranges[1, 1, j, 0], w.group_ranges[1, 1, j, 1]
+    for i in range(lo, hi + 1):
+        for row in range(5):
+            w.checkerboard[row, j, i] = 0.0
+        if j == j0 or j == j1 or i <= w.mesh_box[2] or i >= w.mesh_box[3]:
+            continue
+        least = min(min(w.inside[j - 1, i - 1], w.inside[j - 1, i]), min(w.inside[j, i - 1], w.inside[j, i]))
+        for m in range(w.vof.shape[0]):
+            if least > 0.0 and w.vof[m, j, i] == 1.0 and w.vof[m, j - 1, i - 1] == 1.0:
+                w.checkerboard[COUNTS, j, i] = least
+                w.checkerboard[OF_P, j, i] = checkerboard_of(j, i, w.pm[m])
+                w.checkerboard[OF_RR, j, i] = checkerboard_of(j, i, w.q[SRR, m])
+                w.checkerboard[OF_ZZ, j, i] = checkerboard_of(j, i, w.q[SZZ, m])
+                w.checkerboard[OF_RZ, j, i] = checkerboard_of(j, i, w.q[SRZ, m])
 
 
 @point
@@ -107,9 +105,8 @@ def stands_out(of, j, i, checkerboard):
     return second * (above - below)
 
 
-@kernel
-def fade_deviators(part, parts, dt, group, group_ranges, volume, hg_coefficient, cell_mass, inside, checkerboard, vof, km, q,
-                   room):
+@cell_rows
+def fade_deviators(j, w):
     """Takes from the deviators of every cell its share of what stands out, and finds the volume it would have to gain.
 
     The elastic energy that goes with it stays as heat.
@@ -118,18 +115,17 @@ def fade_deviators(part, parts, dt, group, group_ranges, volume, hg_coefficient,
     Updates  q (deviators) [k, m, j, i]
     Writes   room [j, i], volume that makes the pressure that stands out fade, m^3 per radian
     """
-    for j in range(parts[part], parts[part + 1]):
-        for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
-            room[j, i] = 0.0
-            if inside[j, i] == 0.0:
-                continue
-            share = min(fading(j, i, dt, hg_coefficient, cell_mass), MOST)
-            for m in range(vof.shape[0]):
-                if group[m] == 1 and vof[m, j, i] == 1.0:
-                    room[j, i] = share * stands_out(OF_P, j, i, checkerboard) * volume[j, i] / km[m, j, i]
-                    q[SRR, m, j, i] -= share * stands_out(OF_RR, j, i, checkerboard)
-                    q[SZZ, m, j, i] -= share * stands_out(OF_ZZ, j, i, checkerboard)
-                    q[SRZ, m, j, i] -= share * stands_out(OF_RZ, j, i, checkerboard)
+    for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
+        w.room[j, i] = 0.0
+        if w.inside[j, i] == 0.0:
+            continue
+        share = min(fading(j, i, w), MOST)
+        for m in range(w.vof.shape[0]):
+            if w.group[m] == 1 and w.vof[m, j, i] == 1.0:
+                w.room[j, i] = share * stands_out(OF_P, j, i, w.checkerboard) * w.volume[j, i] / w.km[m, j, i]
+                w.q[SRR, m, j, i] -= share * stands_out(OF_RR, j, i, w.checkerboard)
+                w.q[SZZ, m, j, i] -= share * stands_out(OF_ZZ, j, i, w.checkerboard)
+                w.q[SRZ, m, j, i] -= share * stands_out(OF_RZ, j, i, w.checkerboard)
 
 
 @point
@@ -144,9 +140,8 @@ def lower_face(m, j, i, vof, room):
     return 0.125 * (room[j - 1, i] - room[j, i]) if vof[m, j - 1, i] == 1.0 and vof[m, j, i] == 1.0 else 0.0
 
 
-@kernel
-def fade_pressures(part, parts, mesh_box, group, group_ranges, contact_columns, cell_mass, room, vof, pm, fr, fz, own_r, own_z,
-                   q):
+@cell_rows
+def fade_pressures(j, w):
     """Lets faces sweep volume from cells whose pressure stands out to their neighbours.
 
     Two cells do work on one another by their mean pressure, so that their sum of energy stays.
@@ -154,26 +149,25 @@ def fade_pressures(part, parts, mesh_box, group, group_ranges, contact_columns, 
     Reads    room [j, i]; group [m]; vof, pm [m, j, i]; cell_mass [b, j, i]; contact_columns [j, 2]
     Updates  fr, fz [j, i]; own_r, own_z [b, j, i] where they are in use; q (e) [k, m, j, i]
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], parts[part + 1]):
-        first, last = contact_columns[j, 0], contact_columns[j, 1]
-        low, high = union(contact_columns, max(j - 1, j0), j + 1)
-        for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
-            for m in range(vof.shape[0]):
-                if group[m] != 1 or vof[m, j, i] != 1.0:
-                    continue
-                left = left_face(m, j, i, vof, room) if i > mesh_box[2] else 0.0
-                lower = lower_face(m, j, i, vof, room) if j > j0 else 0.0
-                right = left_face(m, j, i + 1, vof, room) if i + 1 < mesh_box[3] else 0.0
-                upper = lower_face(m, j + 1, i, vof, room) if j + 1 < j1 else 0.0
-                if left == 0.0 and lower == 0.0 and right == 0.0 and upper == 0.0:
-                    continue
-                fr[j, i] += left
-                fz[j, i] += lower
-                for g in range(2):
-                    own_r[g, j, i] += left if first <= i <= last else 0.0
-                    own_z[g, j, i] += lower if low <= i < high else 0.0
-                here = pm[m, j, i]
-                along_r = left * (here + pm[m, j, i - 1]) - right * (here + pm[m, j, i + 1])
-                along_z = lower * (here + pm[m, j - 1, i]) - upper * (here + pm[m, j + 1, i])
-                q[E, m, j, i] += 0.5 * (along_r + along_z) / cell_mass[1, j, i]
+    j0, j1 = outer_rows(w.parts)
+    first, last = w.contact_columns[j, 0], w.contact_columns[j, 1]
+    low, high = union(w.contact_columns, max(j - 1, j0), j + 1)
+    for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
+        for m in range(w.vof.shape[0]):
+            if w.group[m] != 1 or w.vof[m, j, i] != 1.0:
+                continue
+            left = left_face(m, j, i, w.vof, w.room) if i > w.mesh_box[2] else 0.0
+            lower = lower_face(m, j, i, w.vof, w.room) if j > j0 else 0.0
+            right = left_face(m, j, i + 1, w.vof, w.room) if i + 1 < w.mesh_box[3] else 0.0
+            upper = lower_face(m, j + 1, i, w.vof, w.room) if j + 1 < j1 else 0.0
+            if left == 0.0 and lower == 0.0 and right == 0.0 and upper == 0.0:
+                continue
+            w.fr[j, i] += left
+            w.fz[j, i] += lower
+            for g in range(2):
+                w.own_r[g, j, i] += left if first <= i <= last else 0.0
+                w.own_z[g, j, i] += lower if low <= i < high else 0.0
+            here = w.pm[m, j, i]
+            along_r = left * (here + w.pm[m, j, i - 1]) - right * (here + w.pm[m, j, i + 1])
+            along_z = lower * (here + w.pm[m, j - 1, i]) - upper * (here + w.pm[m, j + 1, i])
+            w.q[E, m, j, i] += 0.5 * (along_r + along_z) / w.cell_mass[1, j, i]

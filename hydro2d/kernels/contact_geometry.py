@@ -11,8 +11,8 @@ equation 1; that of the soft group is what is missing to 1.
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, serial
-from hydro2d.kernels.column_ranges import outer_rows, past_row, union
+from hydro2d.jit import cell_rows, point, serial, vertex_rows
+from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.physics.contact import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
@@ -35,42 +35,40 @@ APART, FAR_APART = 0.5, 0.75
 REACH = 3
 
 
-@kernel
-def find_contact_nodes(part, parts, mesh_box, group_ranges, mass, group, vof, contact_node_count, contact_nodes, hard, soft,
-                       heat, warmed):
-    """Contact nodes of rows j0 to j1, and what hard and soft bodies fill of the cells near hard ones.
+@vertex_rows
+def find_contact_nodes(j, w):
+    """Contact nodes of every row, and what hard and soft bodies fill of the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
     Writes   contact_node_count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
              warmed [j, 2], the cells around vertices that can be masters of a contact node
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], past_row(part, parts, 1)):
-        found = 0
-        lo, hi = union(group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
-        for i in range(max(lo - REACH - 1, mesh_box[2]), min(hi + REACH + 2, mesh_box[3] + 1)):
-            for g in range(2):
-                heat[g, j, i] = 0.0
-        for i in range(max(group_ranges[1, 1, j, 0], mesh_box[2]), min(group_ranges[1, 1, j, 1] + 1, mesh_box[3] + 1)):
-            if mass[0, j, i] > 0.0 and mass[1, j, i] > 0.0:
-                contact_nodes[j, found] = i
-                found += 1
-        contact_node_count[j] = found
-        lo, hi = union(group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
-        warmed[j, 0] = max(lo - REACH - 1, mesh_box[2])
-        warmed[j, 1] = min(hi + REACH + 1, mesh_box[3])
-        if j < j1:
-            lo, hi = union(group_ranges[1, 0], j - 2, j + 3)
-            lo, hi = max(lo - 2, mesh_box[2]), min(hi + 2, mesh_box[3])
+    j0, j1 = outer_rows(w.parts)
+    found = 0
+    lo, hi = union(w.group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
+    for i in range(max(lo - REACH - 1, w.mesh_box[2]), min(hi + REACH + 2, w.mesh_box[3] + 1)):
+        for g in range(2):
+            w.heat[g, j, i] = 0.0
+    for i in range(max(w.group_ranges[1, 1, j, 0], w.mesh_box[2]), min(w.group_ranges[1, 1, j, 1] + 1, w.mesh_box[3] + 1)):
+        if w.mass[0, j, i] > 0.0 and w.mass[1, j, i] > 0.0:
+            w.contact_nodes[j, found] = i
+            found += 1
+    w.contact_node_count[j] = found
+    lo, hi = union(w.group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
+    w.warmed[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
+    w.warmed[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
+    if j < j1:
+        lo, hi = union(w.group_ranges[1, 0], j - 2, j + 3)
+        lo, hi = max(lo - 2, w.mesh_box[2]), min(hi + 2, w.mesh_box[3])
+        for i in range(lo, hi):
+            w.hard[j, i] = 0.0
+            w.soft[j, i] = 0.0
+        for m in range(w.vof.shape[0]):
             for i in range(lo, hi):
-                hard[j, i] = 0.0
-                soft[j, i] = 0.0
-            for m in range(vof.shape[0]):
-                for i in range(lo, hi):
-                    if group[m] == 1:
-                        hard[j, i] += vof[m, j, i]
-                    else:
-                        soft[j, i] += vof[m, j, i]
+                if w.group[m] == 1:
+                    w.hard[j, i] += w.vof[m, j, i]
+                else:
+                    w.soft[j, i] += w.vof[m, j, i]
 
 
 @point
@@ -92,20 +90,20 @@ def parted(void, whole, less):
 
 
 @serial
-def number_nodes(parts, contact_node_count, first_slot):
+def number_nodes(w):
     """The slot of every row's first contact node, and behind the last row how many slots there are.
 
     Reads    contact_node_count [j], contact nodes
     Writes   first_slot [j]
     """
-    j0, j1 = outer_rows(parts)
-    first_slot[j0] = 0
+    j0, j1 = outer_rows(w.parts)
+    w.first_slot[j0] = 0
     for j in range(j0, j1 + 1):
-        first_slot[j + 1] = first_slot[j] + contact_node_count[j]
+        w.first_slot[j + 1] = w.first_slot[j] + w.contact_node_count[j]
 
 
-@kernel
-def contact_lines(part, parts, i0, i1, mesh_box, dr, dz, contact_node_count, contact_nodes, hard, soft, contact_columns, line):
+@cell_rows
+def contact_lines(j, w):
     """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
     the soft one.
 
@@ -117,67 +115,66 @@ def contact_lines(part, parts, i0, i1, mesh_box, dr, dz, contact_node_count, con
     Reads    contact_node_count [j], contact_nodes [j, k]; hard, soft [j, i]
     Writes   contact_columns [j, 2]; line [10, j, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        lo, hi = 1 << 30, 0
-        for row in range(j, j + 2):
-            if contact_node_count[row] > 0:
-                lo = min(lo, contact_nodes[row, 0] - 1)
-                hi = max(hi, contact_nodes[row, contact_node_count[row] - 1] + 1)
-        if lo < hi:
-            lo = max(lo, i0)
-            hi = min(hi, i1)
-        contact_columns[j, 0] = lo
-        contact_columns[j, 1] = hi
-        below, above = max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1] - 1)
-        for i in range(lo, hi):
-            left, right = max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3] - 1)
-            hard_r, hard_z = youngs_gradient(
-                j, i, hard[below, left], hard[below, i], hard[below, right], hard[j, left], hard[j, right],
-                hard[above, left], hard[above, i], hard[above, right], dr, dz)
-            soft_r, soft_z = youngs_gradient(
-                j, i, soft[below, left], soft[below, i], soft[below, right], soft[j, left], soft[j, right],
-                soft[above, left], soft[above, i], soft[above, right], dr, dz)
-            along_r, along_z = hard_r - soft_r, hard_z - soft_z
-            steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
+    lo, hi = 1 << 30, 0
+    for row in range(j, j + 2):
+        if w.contact_node_count[row] > 0:
+            lo = min(lo, w.contact_nodes[row, 0] - 1)
+            hi = max(hi, w.contact_nodes[row, w.contact_node_count[row] - 1] + 1)
+    if lo < hi:
+        lo = max(lo, w.i0)
+        hi = min(hi, w.i1)
+    w.contact_columns[j, 0] = lo
+    w.contact_columns[j, 1] = hi
+    below, above = max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1] - 1)
+    for i in range(lo, hi):
+        left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
+        hard_r, hard_z = youngs_gradient(
+            j, i, w.hard[below, left], w.hard[below, i], w.hard[below, right], w.hard[j, left], w.hard[j, right],
+            w.hard[above, left], w.hard[above, i], w.hard[above, right], w.dr, w.dz)
+        soft_r, soft_z = youngs_gradient(
+            j, i, w.soft[below, left], w.soft[below, i], w.soft[below, right], w.soft[j, left], w.soft[j, right],
+            w.soft[above, left], w.soft[above, i], w.soft[above, right], w.dr, w.dz)
+        along_r, along_z = hard_r - soft_r, hard_z - soft_z
+        steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
+        size = abs(along_r) + abs(along_z)
+        total = w.hard[j, i] + w.soft[j, i]
+        share = min(max(w.hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
+        w.line[HARD_R, j, i] = hard_r / w.dr[i]
+        w.line[HARD_Z, j, i] = hard_z / w.dz[j]
+        w.line[SOFT_R, j, i] = -soft_r / w.dr[i]
+        w.line[SOFT_Z, j, i] = -soft_z / w.dz[j]
+        w.line[SHARE, j, i] = share
+        by_soft, by_hard = steeper(steep_s, steep_h), steeper(steep_h, steep_s)
+        open_r, open_z = hard_r + soft_r, hard_z + soft_z
+        apart = parted(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
+        w.line[SOFT_AFTER, j, i] = (1.0 - apart) * (1.0 - by_soft)
+        w.line[HARD_FIRST, j, i] = 1.0 - (1.0 - apart) * by_soft
+        w.line[LINE_R, j, i] = 0.0
+        w.line[LINE_Z, j, i] = 0.0
+        w.line[CONSTANT, j, i] = 0.0
+        if size > 1e-14 and 0.0 < share < 1.0:
+            both = 1.0 - by_soft - by_hard
+            along_r = 0.5 * both * along_r + by_hard * hard_r - by_soft * soft_r
+            along_z = 0.5 * both * along_z + by_hard * hard_z - by_soft * soft_z
+            share = both * share + by_hard * w.hard[j, i] + by_soft * (1.0 - w.soft[j, i])
             size = abs(along_r) + abs(along_z)
-            total = hard[j, i] + soft[j, i]
-            share = min(max(hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
-            line[HARD_R, j, i] = hard_r / dr[i]
-            line[HARD_Z, j, i] = hard_z / dz[j]
-            line[SOFT_R, j, i] = -soft_r / dr[i]
-            line[SOFT_Z, j, i] = -soft_z / dz[j]
-            line[SHARE, j, i] = share
-            by_soft, by_hard = steeper(steep_s, steep_h), steeper(steep_h, steep_s)
-            open_r, open_z = hard_r + soft_r, hard_z + soft_z
-            apart = parted(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
-            line[SOFT_AFTER, j, i] = (1.0 - apart) * (1.0 - by_soft)
-            line[HARD_FIRST, j, i] = 1.0 - (1.0 - apart) * by_soft
-            line[LINE_R, j, i] = 0.0
-            line[LINE_Z, j, i] = 0.0
-            line[CONSTANT, j, i] = 0.0
-            if size > 1e-14 and 0.0 < share < 1.0:
-                both = 1.0 - by_soft - by_hard
-                along_r = 0.5 * both * along_r + by_hard * hard_r - by_soft * soft_r
-                along_z = 0.5 * both * along_z + by_hard * hard_z - by_soft * soft_z
-                share = both * share + by_hard * hard[j, i] + by_soft * (1.0 - soft[j, i])
-                size = abs(along_r) + abs(along_z)
-                n_r, n_z = along_r / size, along_z / size
-                line[LINE_R, j, i] = n_r
-                line[LINE_Z, j, i] = n_z
-                line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
+            n_r, n_z = along_r / size, along_z / size
+            w.line[LINE_R, j, i] = n_r
+            w.line[LINE_Z, j, i] = n_z
+            w.line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
 
 
 @point
-def face_aperture(j, i, x0, y0, x1, y1, inside, line, hard, soft):
+def face_aperture(j, i, x0, y0, x1, y1, w):
     """(solid, apertures of the hard side at both ends) of the edge (x0, y0) to (x1, y1) of the unit square of cell (j, i)."""
-    if not inside:
-        total = hard[j, i] + soft[j, i]
-        share = hard[j, i] / total if total > 0.0 else 0.0
+    if not w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
+        total = w.hard[j, i] + w.soft[j, i]
+        share = w.hard[j, i] / total if total > 0.0 else 0.0
         return (1.0 if total > 0.0 else 0.0), share, share
-    share = line[SHARE, j, i]
+    share = w.line[SHARE, j, i]
     if share < 0.0:
         return 0.0, 0.0, 0.0
-    n_r, n_z, constant = line[LINE_R, j, i], line[LINE_Z, j, i], line[CONSTANT, j, i]
+    n_r, n_z, constant = w.line[LINE_R, j, i], w.line[LINE_Z, j, i], w.line[CONSTANT, j, i]
     if n_r == 0.0 and n_z == 0.0:
         return 1.0, share, share
     first, last = end_apertures(constant - (n_r * x0 + n_z * y0), constant - (n_r * x1 + n_z * y1))
@@ -195,9 +192,8 @@ def weight_beside(j, i, row, column, hard, soft):
     return 1.0 - gap * full
 
 
-@kernel
-def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, hard, soft, mass, contact_node_count,
-                   contact_nodes, aperture_r, aperture_z, contact_normal, touch):
+@vertex_rows
+def face_apertures(j, w):
     """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
 
     The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
@@ -209,63 +205,58 @@ def face_apertures(part, parts, mesh_box, constrained, contact_columns, line, ha
              contact_nodes [j, k]
     Writes   aperture_r, aperture_z [end, j, i]; contact_normal [3, 2, j, i], touch [j, i] at contact nodes
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], past_row(part, parts, 1)):
-        if j < j1:
-            for i in range(contact_columns[j, 0], contact_columns[j, 1] + 1):
-                solid_l, low_l, high_l = 0.0, 0.0, 0.0
-                solid_r, low_r, high_r = 0.0, 0.0, 0.0
-                if i > mesh_box[2]:
-                    solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, i - 1 >= contact_columns[j, 0], line,
-                                                           hard, soft)
-                if i < mesh_box[3]:
-                    solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, i < contact_columns[j, 1], line, hard,
-                                                           soft)
-                if solid_l > 0.0 and solid_r > 0.0:
-                    solid_l = weight_beside(j, i - 1, j, i, hard, soft)
-                    solid_r = weight_beside(j, i, j, i - 1, hard, soft)
-                number = max(solid_l + solid_r, 1.0)
-                low = (solid_l * low_l + solid_r * low_r) / number
-                high = (solid_l * high_l + solid_r * high_r) / number
-                aperture_r[0, j, i] = known(low, mass[0, j, i], mass[1, j, i])
-                aperture_r[1, j, i] = known(high, mass[0, j + 1, i], mass[1, j + 1, i])
-        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
-        for i in range(lo, hi):
-            solid_b, in_b, out_b = 0.0, 0.0, 0.0
-            solid_t, in_t, out_t = 0.0, 0.0, 0.0
-            if j > mesh_box[0]:
-                inside = contact_columns[j - 1, 0] <= i < contact_columns[j - 1, 1]
-                solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, inside, line, hard, soft)
-            if j < mesh_box[1]:
-                inside = contact_columns[j, 0] <= i < contact_columns[j, 1]
-                solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, inside, line, hard, soft)
-            if solid_b > 0.0 and solid_t > 0.0:
-                solid_b = weight_beside(j - 1, i, j, i, hard, soft)
-                solid_t = weight_beside(j, i, j - 1, i, hard, soft)
-            number = max(solid_b + solid_t, 1.0)
-            aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, mass[0, j, i], mass[1, j, i])
-            aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, mass[0, j, i + 1], mass[1, j, i + 1])
-        for k in range(contact_node_count[j]):
-            i = contact_nodes[j, k]
-            hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
-            both, full_hard, full_soft = 1.0, 0, 0
-            for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
-                for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
-                    hard_r += line[HARD_R, row, column]
-                    hard_z += line[HARD_Z, row, column]
-                    soft_r += line[SOFT_R, row, column]
-                    soft_z += line[SOFT_Z, row, column]
-                    h, s = hard[row, column], soft[row, column]
-                    if h > 0.0 and s > 0.0:
-                        both = min(both, 1.0 - (h + s))
-                    full_hard += 1 if h > 1.0 - GAP else 0
-                    full_soft += 1 if s > 1.0 - GAP else 0
-            free_r = 0.0 if i == constrained[0] or i == constrained[1] else 1.0
-            free_z = 0.0 if j == constrained[2] or j == constrained[3] else 1.0
-            for way in range(3):
-                n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
-                n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
-                size = sqrt(n_r * n_r + n_z * n_z)
-                contact_normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
-                contact_normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
-            touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0
+    j0, j1 = outer_rows(w.parts)
+    if j < j1:
+        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
+            solid_l, low_l, high_l = 0.0, 0.0, 0.0
+            solid_r, low_r, high_r = 0.0, 0.0, 0.0
+            if i > w.mesh_box[2]:
+                solid_l, low_l, high_l = face_aperture(j, i - 1, 1.0, 0.0, 1.0, 1.0, w)
+            if i < w.mesh_box[3]:
+                solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, w)
+            if solid_l > 0.0 and solid_r > 0.0:
+                solid_l = weight_beside(j, i - 1, j, i, w.hard, w.soft)
+                solid_r = weight_beside(j, i, j, i - 1, w.hard, w.soft)
+            number = max(solid_l + solid_r, 1.0)
+            low = (solid_l * low_l + solid_r * low_r) / number
+            high = (solid_l * high_l + solid_r * high_r) / number
+            w.aperture_r[0, j, i] = known(low, w.mass[0, j, i], w.mass[1, j, i])
+            w.aperture_r[1, j, i] = known(high, w.mass[0, j + 1, i], w.mass[1, j + 1, i])
+    lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
+    for i in range(lo, hi):
+        solid_b, in_b, out_b = 0.0, 0.0, 0.0
+        solid_t, in_t, out_t = 0.0, 0.0, 0.0
+        if j > w.mesh_box[0]:
+            solid_b, in_b, out_b = face_aperture(j - 1, i, 0.0, 1.0, 1.0, 1.0, w)
+        if j < w.mesh_box[1]:
+            solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, w)
+        if solid_b > 0.0 and solid_t > 0.0:
+            solid_b = weight_beside(j - 1, i, j, i, w.hard, w.soft)
+            solid_t = weight_beside(j, i, j - 1, i, w.hard, w.soft)
+        number = max(solid_b + solid_t, 1.0)
+        w.aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, w.mass[0, j, i], w.mass[1, j, i])
+        w.aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, w.mass[0, j, i + 1], w.mass[1, j, i + 1])
+    for k in range(w.contact_node_count[j]):
+        i = w.contact_nodes[j, k]
+        hard_r, hard_z, soft_r, soft_z = 0.0, 0.0, 0.0, 0.0
+        both, full_hard, full_soft = 1.0, 0, 0
+        for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
+            for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
+                hard_r += w.line[HARD_R, row, column]
+                hard_z += w.line[HARD_Z, row, column]
+                soft_r += w.line[SOFT_R, row, column]
+                soft_z += w.line[SOFT_Z, row, column]
+                h, s = w.hard[row, column], w.soft[row, column]
+                if h > 0.0 and s > 0.0:
+                    both = min(both, 1.0 - (h + s))
+                full_hard += 1 if h > 1.0 - GAP else 0
+                full_soft += 1 if s > 1.0 - GAP else 0
+        free_r = 0.0 if i == w.constrained[0] or i == w.constrained[1] else 1.0
+        free_z = 0.0 if j == w.constrained[2] or j == w.constrained[3] else 1.0
+        for way in range(3):
+            n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
+            n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))
+            size = sqrt(n_r * n_r + n_z * n_z)
+            w.contact_normal[way, 0, j, i] = n_r / size if size > 0.0 else 0.0
+            w.contact_normal[way, 1, j, i] = n_z / size if size > 0.0 else 0.0
+        w.touch[j, i] = 1.0 if both <= GAP or (full_hard > 0 and full_soft > 0) else 0.0

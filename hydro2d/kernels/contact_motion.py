@@ -2,8 +2,8 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point
-from hydro2d.kernels.column_ranges import mixed_row, past_row
+from hydro2d.jit import cell_rows, point, vertex_rows
+from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import (
     FREE_SURFACE,
@@ -30,21 +30,19 @@ SEED = 1e-11
 
 
 @point
-def come_apart(j, i, normal, u, v):
+def come_apart(j, i, w):
     """Whether the groups part along the normal at a vertex of cell (j, i)."""
     opens = 0.0
     for row in range(j, j + 2):
         for column in range(i, i + 2):
-            w = (normal[0, 0, row, column] * (u[1, row, column] - u[0, row, column])
-                 + normal[0, 1, row, column] * (v[1, row, column] - v[0, row, column]))
-            opens = min(opens, w)
+            opening = (w.contact_normal[0, 0, row, column] * (w.u[1, row, column] - w.u[0, row, column])
+                 + w.contact_normal[0, 1, row, column] * (w.v[1, row, column] - w.v[0, row, column]))
+            opens = min(opens, opening)
     return opens < 0.0
 
 
-@kernel
-def contact_viscosity(part, parts, mesh_box, viscosity_linear, viscosity_quadratic, courant, dr, dz, metrics, contact_columns,
-                      line, group_ranges, contact_normal, aperture_r, aperture_z, hard, soft, u, v, cl, rhobar, vof, q, km,
-                      skin, p, solid, bulk, qr, qz, qt, qrz, rate, row_step, mixed_count, mixed, kinds):
+@cell_rows
+def contact_viscosity(j, w):
     """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
 
     A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
@@ -58,120 +56,116 @@ def contact_viscosity(part, parts, mesh_box, viscosity_linear, viscosity_quadrat
     Writes   qr, qz, qt, qrz, rate [j, i] (1/s)
     Scratch  kinds [row, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        seeded = False
-        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
-            rho = rhobar[j, i]
-            if hard[j, i] > 0.0 and soft[j, i] > 0.0:
-                rho = stiff_density(j, i, vof, q, km)
-            elif skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, mesh_box, hard, soft):
-                skin[KIND, j, i] = INTERFACE
-            elif solid[j, i] > 1.0 - SEED and p[j, i] <= 0.0 and meeting(j, i, mesh_box, hard, soft) and come_apart(
-                    j, i, contact_normal, u, v):
-                for m in range(vof.shape[0]):
-                    if vof[m, j, i] > 0.0:
-                        vof[m, j, i] *= 1.0 - SEED
-                        q[RHO, m, j, i] /= 1.0 - SEED
-                solid[j, i] *= 1.0 - SEED
-                skin[KIND, j, i] = INTERFACE
-                seeded = True
-            h = dz[j]
-            volume = metrics[VOL_R, i] * h
-            loss = -volume_rate(j, i, -1, metrics, h, aperture_r, aperture_z, u, v) / volume
-            rate[j, i] = -loss
-            qr[j, i] = 0.0
-            qz[j, i] = 0.0
-            qt[j, i] = 0.0
-            qrz[j, i] = 0.0
-            if rho > 0.0:
-                shock = shut(solid[j, i])
-                c = bulk[j, i] / rho
-                c = sqrt(c) if c > 0.0 else cl[j, i]
-                slope_r = abs(line[HARD_R, j, i] + line[SOFT_R, j, i])
-                slope_z = abs(line[HARD_Z, j, i] + line[SOFT_Z, j, i])
-                steep = sqrt(slope_r * slope_r + slope_z * slope_z)
-                length = steep / (slope_r / dr[i] + slope_z / h) if steep > 0.0 else min(dr[i], h)
-                viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, viscosity_linear,
-                                                         viscosity_quadratic)
-                qr[j, i] = viscosity
-                qz[j, i] = viscosity
-                qt[j, i] = viscosity
-                sound = sound_step(courant, min(dr[i], h), rho, cl[j, i], viscosity)
-                row_step[j] = min(row_step[j], min(sound, volume_step(loss)))
-        if seeded:
-            mixed_row(j, group_ranges[0, 0], vof, kinds, j, mixed_count, mixed)
+    seeded = False
+    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
+        rho = w.rhobar[j, i]
+        if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0:
+            rho = stiff_density(j, i, w.vof, w.q, w.km)
+        elif w.skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, w.mesh_box, w.hard, w.soft):
+            w.skin[KIND, j, i] = INTERFACE
+        elif w.solid[j, i] > 1.0 - SEED and w.p[j, i] <= 0.0 and meeting(j, i, w.mesh_box, w.hard, w.soft) and come_apart(
+                j, i, w):
+            for m in range(w.vof.shape[0]):
+                if w.vof[m, j, i] > 0.0:
+                    w.vof[m, j, i] *= 1.0 - SEED
+                    w.q[RHO, m, j, i] /= 1.0 - SEED
+            w.solid[j, i] *= 1.0 - SEED
+            w.skin[KIND, j, i] = INTERFACE
+            seeded = True
+        h = w.dz[j]
+        volume = w.metrics[VOL_R, i] * h
+        loss = -volume_rate(j, i, -1, w.metrics, h, w.aperture_r, w.aperture_z, w.u, w.v) / volume
+        w.rate[j, i] = -loss
+        w.qr[j, i] = 0.0
+        w.qz[j, i] = 0.0
+        w.qt[j, i] = 0.0
+        w.qrz[j, i] = 0.0
+        if rho > 0.0:
+            shock = shut(w.solid[j, i])
+            c = w.bulk[j, i] / rho
+            c = sqrt(c) if c > 0.0 else w.cl[j, i]
+            slope_r = abs(w.line[HARD_R, j, i] + w.line[SOFT_R, j, i])
+            slope_z = abs(w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i])
+            steep = sqrt(slope_r * slope_r + slope_z * slope_z)
+            length = steep / (slope_r / w.dr[i] + slope_z / h) if steep > 0.0 else min(w.dr[i], h)
+            viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, w.viscosity_linear,
+                                                     w.viscosity_quadratic)
+            w.qr[j, i] = viscosity
+            w.qz[j, i] = viscosity
+            w.qt[j, i] = viscosity
+            sound = sound_step(w.courant, min(w.dr[i], h), rho, w.cl[j, i], viscosity)
+            w.row_step[j] = min(w.row_step[j], min(sound, volume_step(loss)))
+    if seeded:
+        mixed_row(j, w.group_ranges[0, 0], w.kinds[j], w)
 
 
-@kernel
-def contact_stress(part, parts, dt, contact_columns, group_ranges, line, hard, soft, rate, skin, p, bulk, solid, ph, sig_rr,
-                   sig_zz, sig_tt, sig_rz, contact_pressure):
+@cell_rows
+def contact_stress(j, w):
     """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
 
     Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [10, j, i]
     Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
     """
-    for j in range(parts[part], parts[part + 1]):
-        for i in range(group_ranges[1, 0, j, 0], group_ranges[1, 0, j, 1]):
-            contact_pressure[j, i] = 0.0
-        for i in range(contact_columns[j, 0], contact_columns[j, 1]):
-            if skin[KIND, j, i] == WHOLE:
-                pressure = p[j, i] - 0.5 * dt * bulk[j, i] * rate[j, i]
-            else:
-                pressure = cut_pressure(j, i, dt, rate[j, i], skin, p, bulk, solid)
-            gain = pressure - ph[j, i]
-            ph[j, i] = pressure
-            sig_rr[j, i] -= gain
-            sig_zz[j, i] -= gain
-            sig_tt[j, i] -= gain
-            n_r, n_z = line[HARD_R, j, i] + line[SOFT_R, j, i], line[HARD_Z, j, i] + line[SOFT_Z, j, i]
-            steep = n_r * n_r + n_z * n_z
-            if hard[j, i] > 0.0 and soft[j, i] > 0.0 and steep > 0.0:
-                contact_pressure[j, i] = normal_pressure(j, i, n_r, n_z, sig_rr, sig_zz, sig_rz) / steep
+    for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
+        w.contact_pressure[j, i] = 0.0
+    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
+        if w.skin[KIND, j, i] == WHOLE:
+            pressure = w.p[j, i] - 0.5 * w.dt * w.bulk[j, i] * w.rate[j, i]
+        else:
+            pressure = cut_pressure(j, i, w.rate[j, i], w)
+        gain = pressure - w.ph[j, i]
+        w.ph[j, i] = pressure
+        w.sig_rr[j, i] -= gain
+        w.sig_zz[j, i] -= gain
+        w.sig_tt[j, i] -= gain
+        n_r, n_z = w.line[HARD_R, j, i] + w.line[SOFT_R, j, i], w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i]
+        steep = n_r * n_r + n_z * n_z
+        if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0 and steep > 0.0:
+            w.contact_pressure[j, i] = normal_pressure(j, i, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz) / steep
 
 
 @point
-def group_stress(g, j, i, group, solid_mode, solid, skin, vof, q):
+def group_stress(g, j, i, w):
     """What group g gives the stress of a cell beside p_c: (rr, zz, tt, rz), each body's by its share, as in total_stress."""
-    scale = stress_scale(solid_mode, solid[j, i])
+    scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
     rr, zz, tt, rz = 0.0, 0.0, 0.0, 0.0
-    for m in range(vof.shape[0]):
-        if group[m] == g and vof[m, j, i] > 0.0:
-            part = vof[m, j, i] * scale
-            across = normal_deviator(m, j, i, skin, q)
-            rr += part * (q[SRR, m, j, i] - across)
-            zz += part * (q[SZZ, m, j, i] - across)
-            tt -= part * (q[SRR, m, j, i] + q[SZZ, m, j, i] + across)
-            rz += part * q[SRZ, m, j, i]
+    for m in range(w.vof.shape[0]):
+        if w.group[m] == g and w.vof[m, j, i] > 0.0:
+            part = w.vof[m, j, i] * scale
+            across = normal_deviator(m, j, i, w.skin, w.q)
+            rr += part * (w.q[SRR, m, j, i] - across)
+            zz += part * (w.q[SZZ, m, j, i] - across)
+            tt -= part * (w.q[SRR, m, j, i] + w.q[SZZ, m, j, i] + across)
+            rz += part * w.q[SRZ, m, j, i]
     return rr, zz, tt, rz
 
 
 @point
-def corner_force(g, j, i, at_j, at_i, group, solid_mode, solid, skin, vof, q, hg_coefficient, cell_mass, metrics, dz, u0, v0):
+def corner_force(g, j, i, at_j, at_i, w):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
-    if cell_mass[g, at_j, at_i] == 0.0:
+    if w.cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
-    rr, zz, tt, rz = group_stress(g, at_j, at_i, group, solid_mode, solid, skin, vof, q)
-    h = dz[at_j]
+    rr, zz, tt, rz = group_stress(g, at_j, at_i, w)
+    h = w.dz[at_j]
     left = at_i < i  # the cell lies left of the vertex, and below it
     low = at_j < j
-    area = metrics[AZ_OUT, at_i] if left else metrics[AZ_IN, at_i]
+    area = w.metrics[AZ_OUT, at_i] if left else w.metrics[AZ_IN, at_i]
     upward = area if low else -area
-    outward = metrics[MID_R, at_i] * h if left else -metrics[MID_R, at_i] * h
-    half = 0.5 * metrics[FACE_R, i]
-    normal = h * (half - metrics[HOOP, at_i]) if left else -h * (half + metrics[HOOP, at_i])
-    force_r = -(normal * rr + metrics[HOOP, at_i] * h * tt + upward * rz)
+    outward = w.metrics[MID_R, at_i] * h if left else -w.metrics[MID_R, at_i] * h
+    half = 0.5 * w.metrics[FACE_R, i]
+    normal = h * (half - w.metrics[HOOP, at_i]) if left else -h * (half + w.metrics[HOOP, at_i])
+    force_r = -(normal * rr + w.metrics[HOOP, at_i] * h * tt + upward * rz)
     force_z = -(upward * zz + outward * rz)
-    w = hg_coefficient[at_j, at_i] * cell_mass[g, at_j, at_i] / (cell_mass[0, at_j, at_i] + cell_mass[1, at_j, at_i])
-    sign = w if left == low else -w
-    force_r -= sign * hourglass_mode(at_i, u0[g, at_j], u0[g, at_j + 1])
-    force_z -= sign * hourglass_mode(at_i, v0[g, at_j], v0[g, at_j + 1])
+    own, other = w.cell_mass[g, at_j, at_i], w.cell_mass[1 - g, at_j, at_i]
+    filter_share = w.hg_coefficient[at_j, at_i] * own / (own + other)
+    sign = filter_share if left == low else -filter_share
+    force_r -= sign * hourglass_mode(at_i, w.u0[g, at_j], w.u0[g, at_j + 1])
+    force_z -= sign * hourglass_mode(at_i, w.v0[g, at_j], w.v0[g, at_j + 1])
     return force_r, force_z
 
 
-@kernel
-def contact_node_forces(part, parts, dt, group, gases, by_what_is_solid, metrics, dz, constrained, contact_node_count,
-                        contact_nodes, aperture_r, aperture_z, ph, qr, solid, skin, vof, q, hg_coefficient, cell_mass, mass,
-                        pushed, u0, v0, u, v, transfer):
+@vertex_rows
+def contact_node_forces(j, w):
     """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
 
     The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
@@ -181,53 +175,51 @@ def contact_node_forces(part, parts, dt, group, gases, by_what_is_solid, metrics
              pushed [c, b, j, i], m/s, or nothing
     Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        transfer[4, j] = 0.0
-        for k in range(contact_node_count[j]):
-            i = contact_nodes[j, k]
-            ll, lr = ph[j - 1, i - 1] + qr[j - 1, i - 1], ph[j - 1, i] + qr[j - 1, i]
-            ul, ur = ph[j, i - 1] + qr[j, i - 1], ph[j, i] + qr[j, i]
-            for g in range(2):
-                below, above = aperture_r[1, j - 1, i], aperture_r[0, j, i]
-                left, right = aperture_z[1, j, i - 1], aperture_z[0, j, i]
-                if g == 0:
-                    below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
-                force_r = 0.5 * metrics[FACE_R, i] * (below * dz[j - 1] * (ll - lr) + above * dz[j] * (ul - ur))
-                force_z = metrics[AZ_OUT, i - 1] * left * (ll - ul) + metrics[AZ_IN, i] * right * (lr - ur)
-                tied_r, tied_z = 0.0, 0.0
-                for row in range(j - 1, j + 1):
-                    for column in range(i - 1, i + 1):
-                        by_r, by_z = ties(row, column, metrics, dz[row], skin, gases, vof, q)
-                        if by_r + by_z > 0.0 and holds(g, row, column, group, vof):
-                            tied_r += pull_of_ties(g, j, i, row, column, by_r, by_z, u0)
-                            tied_z += pull_of_ties(g, j, i, row, column, by_r, by_z, v0)
-                        more_r, more_z = corner_force(g, j, i, row, column, group, by_what_is_solid, solid, skin, vof, q,
-                                                      hg_coefficient, cell_mass, metrics, dz, u0, v0)
-                        force_r += more_r
-                        force_z += more_z
-                u[g, j, i] = u0[g, j, i] + (dt * force_r + tied_r) / mass[g, j, i]
-                v[g, j, i] = v0[g, j, i] + (dt * force_z + tied_z) / mass[g, j, i]
-                if pushed.shape[0] > 0:
-                    u[g, j, i] += pushed[0, g, j, i]
-                    v[g, j, i] += pushed[1, g, j, i]
-                if i == constrained[0] or i == constrained[1]:
-                    u[g, j, i] = 0.0
-                if j == constrained[2] or j == constrained[3]:
-                    transfer[4, j] += mass[g, j, i] * v[g, j, i]
-                    v[g, j, i] = 0.0
+    w.transfer[4, j] = 0.0
+    for k in range(w.contact_node_count[j]):
+        i = w.contact_nodes[j, k]
+        ll, lr = w.ph[j - 1, i - 1] + w.qr[j - 1, i - 1], w.ph[j - 1, i] + w.qr[j - 1, i]
+        ul, ur = w.ph[j, i - 1] + w.qr[j, i - 1], w.ph[j, i] + w.qr[j, i]
+        for g in range(2):
+            below, above = w.aperture_r[1, j - 1, i], w.aperture_r[0, j, i]
+            left, right = w.aperture_z[1, j, i - 1], w.aperture_z[0, j, i]
+            if g == 0:
+                below, above, left, right = 1.0 - below, 1.0 - above, 1.0 - left, 1.0 - right
+            force_r = 0.5 * w.metrics[FACE_R, i] * (below * w.dz[j - 1] * (ll - lr) + above * w.dz[j] * (ul - ur))
+            force_z = w.metrics[AZ_OUT, i - 1] * left * (ll - ul) + w.metrics[AZ_IN, i] * right * (lr - ur)
+            tied_r, tied_z = 0.0, 0.0
+            for row in range(j - 1, j + 1):
+                for column in range(i - 1, i + 1):
+                    by_r, by_z = ties(row, column, w)
+                    if by_r + by_z > 0.0 and holds(g, row, column, w.group, w.vof):
+                        pull_r, pull_z = pull_of_ties(g, j, i, row, column, by_r, by_z, w)
+                        tied_r += pull_r
+                        tied_z += pull_z
+                    more_r, more_z = corner_force(g, j, i, row, column, w)
+                    force_r += more_r
+                    force_z += more_z
+            w.u[g, j, i] = w.u0[g, j, i] + (w.dt * force_r + tied_r) / w.mass[g, j, i]
+            w.v[g, j, i] = w.v0[g, j, i] + (w.dt * force_z + tied_z) / w.mass[g, j, i]
+            if w.pushed.shape[0] > 0:
+                w.u[g, j, i] += w.pushed[0, g, j, i]
+                w.v[g, j, i] += w.pushed[1, g, j, i]
+            if i == w.constrained[0] or i == w.constrained[1]:
+                w.u[g, j, i] = 0.0
+            if j == w.constrained[2] or j == w.constrained[3]:
+                w.transfer[4, j] += w.mass[g, j, i] * w.v[g, j, i]
+                w.v[g, j, i] = 0.0
 
 
-@kernel
-def keep_one(part, parts, i0, i1, group_ranges, mass, u, v):
+@vertex_rows
+def keep_one(j, w):
     """Where one group has no mass its velocity is the other's, so that a vertex of one group has one velocity.
 
     Updates  u, v [b, j, i] around hard bodies
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        for i in range(max(group_ranges[1, 1, j, 0], i0), min(group_ranges[1, 1, j, 1] + 1, i1 + 1)):
-            if mass[1, j, i] == 0.0:
-                u[1, j, i] = u[0, j, i]
-                v[1, j, i] = v[0, j, i]
-            elif mass[0, j, i] == 0.0:
-                u[0, j, i] = u[1, j, i]
-                v[0, j, i] = v[1, j, i]
+    for i in range(max(w.group_ranges[1, 1, j, 0], w.i0), min(w.group_ranges[1, 1, j, 1] + 1, w.i1 + 1)):
+        if w.mass[1, j, i] == 0.0:
+            w.u[1, j, i] = w.u[0, j, i]
+            w.v[1, j, i] = w.v[0, j, i]
+        elif w.mass[0, j, i] == 0.0:
+            w.u[0, j, i] = w.u[1, j, i]
+            w.v[0, j, i] = w.v[1, j, i]

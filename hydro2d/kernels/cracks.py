@@ -2,7 +2,7 @@
 
 from eos.cracked import CRACKS as WIDTH
 from eos.cracked import GROWTH, opened, solid_share
-from hydro2d.jit import kernel, point
+from hydro2d.jit import cell_rows, point
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.materials.rows import CRACKS, DAMAGE, DAMAGE_AT, EOS_AT, MEMORY, TENSILE
 from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, RHO, SRR, SRZ, SZZ, E
@@ -28,71 +28,73 @@ def release(m, j, i, q):
 
 
 @point
-def part_cell(m, j, i, row, vof, q):
+def part_cell(m, j, i, w):
     """Makes void of the cracks of body m in cell (j, i), which bears no stress any more.
 
-    Updates  vof [m, j, i]; q (density, deviators, the variables from ``row`` on) [k, m, j, i]
+    Updates  vof [m, j, i]; q (density, deviators, crack volume and growth) [k, m, j, i]
     """
-    share = solid_share(q[RHO, m, j, i], q[row + WIDTH, m, j, i])
-    vof[m, j, i] *= share
-    q[RHO, m, j, i] /= share
-    q[row + WIDTH, m, j, i] = 0.0
-    q[row + GROWTH, m, j, i] = 0.0
-    release(m, j, i, q)
+    row = w.models[m, MEMORY]
+    share = solid_share(w.q[RHO, m, j, i], w.q[row + WIDTH, m, j, i])
+    w.vof[m, j, i] *= share
+    w.q[RHO, m, j, i] /= share
+    w.q[row + WIDTH, m, j, i] = 0.0
+    w.q[row + GROWTH, m, j, i] = 0.0
+    release(m, j, i, w.q)
 
 
-@kernel
-def open_cracks(part, parts, body_range, models, materials, vof, q):
+@cell_rows
+def open_cracks(j, w):
     """Opens cracks where the tension is more than damaged material bears, and makes void of them where it has failed.
 
     Where they open, the deviator becomes zero. explanation/fracture, (9)
 
     Updates  vof [m, j, i]; q (crack volume and growth, deviators; where material has failed density, damage) [k, m, j, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        for m in range(vof.shape[0]):
-            model, row = models[m, DAMAGE], models[m, MEMORY]
-            if model not in OPENS_CRACKS:
-                continue
-            par = materials[m, EOS_AT:]
-            damage_par = materials[m, DAMAGE_AT:TENSILE]
-            tension = materials[m, CRACKS]
-            first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
-            for x in range(n):
-                i = first + x
-                if vof[m, j, i] > 0.0:
-                    damage, cracks, rho = q[DMG, m, j, i], q[row + WIDTH, m, j, i], q[RHO, m, j, i]
-                    limit = tension * tension_left(model, damage, damage_par) if damage < 1.0 else 0.0
-                    wide = opened(rho, q[E, m, j, i], limit, cracks, par)
-                    q[row + WIDTH, m, j, i] = wide
-                    q[row + GROWTH, m, j, i] = 0.0
-                    if wide > cracks:
-                        q[row + GROWTH, m, j, i] = 1.0
-                        release(m, j, i, q)
-                    if damage >= 1.0 or wide * rho >= JOINED:
-                        q[DMG, m, j, i] = max(damage, FAILED)
-                        part_cell(m, j, i, row, vof, q)
+    for m in range(w.vof.shape[0]):
+        model, row = w.models[m, DAMAGE], w.models[m, MEMORY]
+        if model not in OPENS_CRACKS:
+            continue
+        par = w.materials[m, EOS_AT:]
+        damage_par = w.materials[m, DAMAGE_AT:TENSILE]
+        tension = w.materials[m, CRACKS]
+        first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        for x in range(n):
+            i = first + x
+            if w.vof[m, j, i] > 0.0:
+                damage, cracks, rho = w.q[DMG, m, j, i], w.q[row + WIDTH, m, j, i], w.q[RHO, m, j, i]
+                limit = tension * tension_left(model, damage, damage_par) if damage < 1.0 else 0.0
+                wide = opened(rho, w.q[E, m, j, i], limit, cracks, par)
+                w.q[row + WIDTH, m, j, i] = wide
+                w.q[row + GROWTH, m, j, i] = 0.0
+                if wide > cracks:
+                    w.q[row + GROWTH, m, j, i] = 1.0
+                    release(m, j, i, w.q)
+                if damage >= 1.0 or wide * rho >= JOINED:
+                    w.q[DMG, m, j, i] = max(damage, FAILED)
+                    part_cell(m, j, i, w)
 
 
 @point
-def across(m, j, i, row, dj, di, reach, mesh_box, dr, dz, vof, q):
-    """(opening of the crack of body m about cell (j, i), m; whether no other cell has more of it) along the offset (dj, di).
+def across(m, j, i, dj, reach, w):
+    """(opening of the crack of body m about cell (j, i), m; whether no other cell has more of it), along z if dj is 1, else r.
 
-    Reads    vof [m, j, i]; q (density, crack volume in the variables from ``row`` on) [k, m, j, i]
+    Reads    vof [m, j, i]; q (density, crack volume) [k, m, j, i]
     """
-    own = crack_opening(vof[m, j, i], q[RHO, m, j, i], q[row + WIDTH, m, j, i], dz[j] if dj == 1 else dr[i])
+    row, di = w.models[m, MEMORY], 1 - dj
+    own = crack_opening(w.vof[m, j, i], w.q[RHO, m, j, i], w.q[row + WIDTH, m, j, i], w.dz[j] if dj == 1 else w.dr[i])
     opening, widest = 0.0, own
     for k in range(-reach, reach + 1):
         jj, ii = j + k * dj, i + k * di
-        if mesh_box[0] <= jj and jj < mesh_box[1] and mesh_box[2] <= ii and ii < mesh_box[3]:
-            part = crack_opening(vof[m, jj, ii], q[RHO, m, jj, ii], q[row + WIDTH, m, jj, ii], dz[jj] if dj == 1 else dr[ii])
+        if w.mesh_box[0] <= jj and jj < w.mesh_box[1] and w.mesh_box[2] <= ii and ii < w.mesh_box[3]:
+            length = w.dz[jj] if dj == 1 else w.dr[ii]
+            part = crack_opening(w.vof[m, jj, ii], w.q[RHO, m, jj, ii], w.q[row + WIDTH, m, jj, ii], length)
             opening += part
             widest = max(widest, part)
     return opening, own >= widest
 
 
-@kernel
-def damage_by_cracks(part, parts, mesh_box, dr, dz, group, body_range, models, materials, u, v, vof, q):
+@cell_rows
+def damage_by_cracks(j, w):
     """The damage of the cells in which cracks have opened: their volume per area, across the cell and its neighbours.
 
     The crack lies across the direction in which the cell stretches faster. Where it is fully open, the cell that has most of it
@@ -101,22 +103,21 @@ def damage_by_cracks(part, parts, mesh_box, dr, dz, group, body_range, models, m
     Reads    u, v [b, j, i]; vof [m, j, i]; q (density, crack volume and growth) [k, m, j, i]
     Updates  q (damage) [k, m, j, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        for m in range(vof.shape[0]):
-            model, row, g = models[m, DAMAGE], models[m, MEMORY], group[m]
-            if model not in OPENS_CRACKS:
-                continue
-            full = full_opening(model, materials[m, DAMAGE_AT:TENSILE])
-            first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
-            for x in range(n):
-                i = first + x
-                if vof[m, j, i] > 0.0 and q[row + GROWTH, m, j, i] > 0.5 and q[DMG, m, j, i] < 1.0:
-                    stretch_r = ((u[g, j, i + 1] - u[g, j, i]) + (u[g, j + 1, i + 1] - u[g, j + 1, i])) / dr[i]
-                    stretch_z = ((v[g, j + 1, i] - v[g, j, i]) + (v[g, j + 1, i + 1] - v[g, j, i + 1])) / dz[j]
-                    dj = 1 if stretch_z >= stretch_r else 0
-                    reach = max(int(OPENINGS * full / (dz[j] if dj == 1 else dr[i])), REACH)
-                    opening, most = across(m, j, i, row, dj, 1 - dj, reach, mesh_box, dr, dz, vof, q)
-                    damage = max(q[DMG, m, j, i], opening / full)
-                    if damage >= 1.0:
-                        damage = FAILED if most else CRUSHED
-                    q[DMG, m, j, i] = damage
+    for m in range(w.vof.shape[0]):
+        model, row, g = w.models[m, DAMAGE], w.models[m, MEMORY], w.group[m]
+        if model not in OPENS_CRACKS:
+            continue
+        full = full_opening(model, w.materials[m, DAMAGE_AT:TENSILE])
+        first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        for x in range(n):
+            i = first + x
+            if w.vof[m, j, i] > 0.0 and w.q[row + GROWTH, m, j, i] > 0.5 and w.q[DMG, m, j, i] < 1.0:
+                stretch_r = ((w.u[g, j, i + 1] - w.u[g, j, i]) + (w.u[g, j + 1, i + 1] - w.u[g, j + 1, i])) / w.dr[i]
+                stretch_z = ((w.v[g, j + 1, i] - w.v[g, j, i]) + (w.v[g, j + 1, i + 1] - w.v[g, j, i + 1])) / w.dz[j]
+                dj = 1 if stretch_z >= stretch_r else 0
+                reach = max(int(OPENINGS * full / (w.dz[j] if dj == 1 else w.dr[i])), REACH)
+                opening, most = across(m, j, i, dj, reach, w)
+                damage = max(w.q[DMG, m, j, i], opening / full)
+                if damage >= 1.0:
+                    damage = FAILED if most else CRUSHED
+                w.q[DMG, m, j, i] = damage

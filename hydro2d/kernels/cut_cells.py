@@ -6,12 +6,13 @@ Every body of a cut cell has the normal stress -p_c, and the strain across the s
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point
+from hydro2d.jit import apart, cell_rows, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
+from hydro2d.physics.stress import stress_scale
 from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
 
 #: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell,
@@ -33,11 +34,11 @@ def is_beside_gas(j, i, gases, vof):
 
 
 @point
-def firm_share(j, i, total, gases, vof):
-    """Share of a cell that is neither void nor gas; `total`, that of all its bodies, where they are gases."""
-    gas = 0.0
-    for m in range(vof.shape[0]):
-        gas += vof[m, j, i] if vof[m, j, i] > 0.0 and gases[m] else 0.0
+def firm_share(j, i, w):
+    """Share of a cell that is neither void nor gas; that of all its bodies, where they are gases."""
+    total, gas = w.solid[j, i], 0.0
+    for m in range(w.vof.shape[0]):
+        gas += w.vof[m, j, i] if w.vof[m, j, i] > 0.0 and w.gases[m] else 0.0
     return total - gas if gas < total else total
 
 
@@ -80,9 +81,8 @@ def normal_deviator(m, j, i, skin, q):
     return along_normal(skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
 
 
-@kernel
-def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bodies, hard_threshold, strong, gases, mixed_count,
-                  mixed, vof, skin):
+@cell_rows
+def find_surfaces(j, w):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
     The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group
@@ -93,78 +93,76 @@ def find_surfaces(part, parts, i0, i1, mesh_box, dr, dz, tipton, group, hard_bod
     Reads    vof [m, j, i], group, hard_bodies, strong, gases [m], the list of mixed cells
     Writes   skin [3, j, i]
     """
-    bodies = vof.shape[0]
-    for j in range(parts[part], parts[part + 1]):
-        for i in range(i0, i1):
-            skin[NORMAL_R, j, i] = 0.0
-            skin[NORMAL_Z, j, i] = 0.0
-            skin[KIND, j, i] = WHOLE
-        below, above = max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1] - 1)
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            left, right = max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3] - 1)
-            own, other, zone = 0.0, 0.0, False
-            for m in range(bodies):
-                if vof[m, j, i] > 0.0:
-                    own += vof[m, j, i] if group[m] == 1 else 0.0
-                    other += vof[m, j, i] if group[m] != 1 else 0.0
-                    zone = zone or (hard_bodies[m] and vof[m, j, i] >= hard_threshold)
-            void = 1.0 - (own + other)
-            meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
-            if own + other == 0.0 or (full and not meet and (zone or not tipton or not joins_solids(j, i, strong, vof))):
-                continue
-            joint, first, gas = full and not meet, most_of(j, i, vof), is_beside_gas(j, i, gases, vof)
-            skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+    for i in range(w.i0, w.i1):
+        w.skin[NORMAL_R, j, i] = 0.0
+        w.skin[NORMAL_Z, j, i] = 0.0
+        w.skin[KIND, j, i] = WHOLE
+    below, above = max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1] - 1)
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        left, right = max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3] - 1)
+        own, other, zone = 0.0, 0.0, False
+        for m in range(w.vof.shape[0]):
+            if w.vof[m, j, i] > 0.0:
+                own += w.vof[m, j, i] if w.group[m] == 1 else 0.0
+                other += w.vof[m, j, i] if w.group[m] != 1 else 0.0
+                zone = zone or (w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold)
+        void = 1.0 - (own + other)
+        meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
+        if own + other == 0.0 or (full and not meet and (zone or not w.tipton or not joins_solids(j, i, w.strong, w.vof))):
+            continue
+        joint, first, gas = full and not meet, most_of(j, i, w.vof), is_beside_gas(j, i, w.gases, w.vof)
+        w.skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
+        if joint:
+            w.skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
+        if zone:
+            continue
+        sw, south, se, west, east, nw, north, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for m in range(w.vof.shape[0]):
+            of_hard = w.group[m] == 1
+            sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
             if joint:
-                skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
-            if zone:
-                continue
-            sw, s, se, w, e, nw, n, ne = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-            for m in range(bodies):
-                of_hard = group[m] == 1
-                sign = 1.0 if of_hard == (own > 0.0) else (-1.0 if meet else 0.0)
-                if joint:
-                    sign = side_of_joint(m, j, i, first, gas, gases, vof)
-                sw += sign * vof[m, below, left]
-                s += sign * vof[m, below, i]
-                se += sign * vof[m, below, right]
-                w += sign * vof[m, j, left]
-                e += sign * vof[m, j, right]
-                nw += sign * vof[m, above, left]
-                n += sign * vof[m, above, i]
-                ne += sign * vof[m, above, right]
-            n_r, n_z = youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz)
-            weight = smoothstep(0.25 * sqrt(n_r * n_r + n_z * n_z) / STEEP)
-            n_r /= dr[i]
-            n_z /= dz[j]
-            size = sqrt(n_r * n_r + n_z * n_z)
-            if size > 0.0:
-                skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
-                skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
+                sign = side_of_joint(m, j, i, first, gas, w.gases, w.vof)
+            sw += sign * w.vof[m, below, left]
+            south += sign * w.vof[m, below, i]
+            se += sign * w.vof[m, below, right]
+            west += sign * w.vof[m, j, left]
+            east += sign * w.vof[m, j, right]
+            nw += sign * w.vof[m, above, left]
+            north += sign * w.vof[m, above, i]
+            ne += sign * w.vof[m, above, right]
+        n_r, n_z = youngs_gradient(j, i, sw, south, se, west, east, nw, north, ne, w.dr, w.dz)
+        weight = smoothstep(0.25 * sqrt(n_r * n_r + n_z * n_z) / STEEP)
+        n_r /= w.dr[i]
+        n_z /= w.dz[j]
+        size = sqrt(n_r * n_r + n_z * n_z)
+        if size > 0.0:
+            w.skin[NORMAL_R, j, i] = n_r / size * sqrt(weight)
+            w.skin[NORMAL_Z, j, i] = n_z / size * sqrt(weight)
 
 
 @point
-def firm_density(j, i, gases, vof, q):
+def firm_density(j, i, w):
     """Mass of the bodies of a cell that are no gases, by the volume of the cell, kg/m^3."""
     mass = 0.0
-    for m in range(vof.shape[0]):
-        mass += q[RHO, m, j, i] * vof[m, j, i] if vof[m, j, i] > 0.0 and not gases[m] else 0.0
+    for m in range(w.vof.shape[0]):
+        mass += w.q[RHO, m, j, i] * w.vof[m, j, i] if w.vof[m, j, i] > 0.0 and not w.gases[m] else 0.0
     return mass
 
 
 @point
-def ties(j, i, metrics, h, skin, gases, vof, q):
+def ties(j, i, w):
     """Masses by which the vertices of a cell that holds a gas are tied: of every pair along r, and of every pair along z, kg.
 
     What a body has of its mass at vertices in the gas moves with the body. A pair of vertices on either side of the surface
     gives the share MOST_TIED of its difference in velocity in every step, by the body's mass at a vertex (explanation/
     mixed-cells, equation 13). 0 in other cells.
     """
-    if skin[KIND, j, i] != BESIDE_GAS:
+    if w.skin[KIND, j, i] != BESIDE_GAS:
         return 0.0, 0.0
-    mass = firm_density(j, i, gases, vof, q)
-    mass *= MOST_TIED * metrics[VOL_R, i] * h * min(metrics[CM_IN, i], metrics[CM_OUT, i])
-    return mass * skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i], mass * skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i]
+    mass = firm_density(j, i, w)
+    mass *= MOST_TIED * w.metrics[VOL_R, i] * w.dz[j] * min(w.metrics[CM_IN, i], w.metrics[CM_OUT, i])
+    return mass * w.skin[NORMAL_R, j, i] * w.skin[NORMAL_R, j, i], mass * w.skin[NORMAL_Z, j, i] * w.skin[NORMAL_Z, j, i]
 
 
 @point
@@ -177,10 +175,13 @@ def holds(g, j, i, group, vof):
 
 
 @point
-def pull_of_ties(g, j, i, row, column, by_r, by_z, u0):
-    """What the ties of cell (row, column) give one component of the momentum of vertex (j, i) of group g in a step."""
-    own = u0[g, j, i]
-    return by_r * (u0[g, j, 2 * column + 1 - i] - own) + by_z * (u0[g, 2 * row + 1 - j, i] - own)
+def pull_of_ties(g, j, i, row, column, by_r, by_z, w):
+    """(radial, axial) momentum that the ties of cell (row, column) give vertex (j, i) of group g in a step."""
+    u, v = w.u0[g, j, i], w.v0[g, j, i]
+    beside, across = 2 * column + 1 - i, 2 * row + 1 - j
+    pull_r = by_r * (w.u0[g, j, beside] - u) + by_z * (w.u0[g, across, i] - u)
+    pull_z = by_r * (w.v0[g, j, beside] - v) + by_z * (w.v0[g, across, i] - v)
+    return pull_r, pull_z
 
 
 @point
@@ -194,24 +195,24 @@ def tied_work(i, by_r, by_z, b0, t0, b1, t1):
 
 
 @point
-def common_traction(j, i, skin, vof, q, pm, km):
+def common_traction(j, i, w):
     """(pressure at which the bodies of a cut cell would meet, their modulus): means by compressibility f/K, Pa."""
     compliance, pressure = 0.0, 0.0
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0:
-            compliance += vof[m, j, i] / km[m, j, i]
-            pressure += vof[m, j, i] / km[m, j, i] * (pm[m, j, i] - normal_deviator(m, j, i, skin, q))
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0:
+            compliance += w.vof[m, j, i] / w.km[m, j, i]
+            pressure += w.vof[m, j, i] / w.km[m, j, i] * (w.pm[m, j, i] - normal_deviator(m, j, i, w.skin, w.q))
     return pressure / compliance, 1.0 / compliance
 
 
 @point
-def skin_deviator(j, i, skin, scale, vof, q):
+def skin_deviator(j, i, w):
     """Sum of f n . s . n in a cell: what its stress lacks beside its deviator and p_c."""
     total = 0.0
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0:
-            total += vof[m, j, i] * normal_deviator(m, j, i, skin, q)
-    return scale * total
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0:
+            total += w.vof[m, j, i] * normal_deviator(m, j, i, w.skin, w.q)
+    return stress_scale(w.by_what_is_solid, w.solid[j, i]) * total
 
 
 @point
@@ -229,40 +230,41 @@ def pull_of(j, i, void, skin):
 
 
 @point
-def cut_pressure(j, i, dt, rate, skin, p, bulk, solid):
+def cut_pressure(j, i, rate, w):
     """p_c of a cut cell at half the step, for a rate of volume of its own (1/s)."""
-    void = max(1.0 - solid[j, i], 0.0)
-    return half_pressure(p[j, i], bulk[j, i], 0.5 * dt * rate, void, pull_of(j, i, void, skin))
+    void = max(1.0 - w.solid[j, i], 0.0)
+    return half_pressure(w.p[j, i], w.bulk[j, i], 0.5 * w.dt * rate, void, pull_of(j, i, void, w.skin))
 
 
 @point
-def grow(j, i, target, weight, vof, pm, km, mix):
+def grow(j, i, target, w):
     """(what the bodies of a cut cell grow by at a common pressure, as a share of the cell; the fall of that with it, 1/Pa).
 
     Reads    mix [j, MODULUS to BESIDE, m]
     Writes   mix [j, ACROSS, m], the strain of a body across the surface; mix [j, GROWTH, m], what its volume grows by
     """
+    weight = surface_weight(j, i, w.skin)
     total, give = 0.0, 0.0
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] == 0.0:
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] == 0.0:
             continue
-        mix[j, ACROSS, m], mix[j, GROWTH, m], softer = strain_across(
-            pm[m, j, i], target, km[m, j, i], mix[j, MODULUS, m], mix[j, FLOW, m], mix[j, SIZE, m], mix[j, ALONG, m],
-            mix[j, BESIDE, m], weight)
-        total += vof[m, j, i] * mix[j, GROWTH, m]
-        give += vof[m, j, i] * softer
+        w.mix[j, ACROSS, m], w.mix[j, GROWTH, m], softer = strain_across(
+            w.pm[m, j, i], target, w.km[m, j, i], w.mix[j, MODULUS, m], w.mix[j, FLOW, m], w.mix[j, SIZE, m],
+            w.mix[j, ALONG, m], w.mix[j, BESIDE, m], weight)
+        total += w.vof[m, j, i] * w.mix[j, GROWTH, m]
+        give += w.vof[m, j, i] * softer
     return total, give
 
 
 @apart
-def fill_room(j, i, room, start, weight, vof, pm, km, mix):
+def fill_room(j, i, room, start, w):
     """Pressure (Pa) at which the bodies of a cell grow by `room`, a share of the cell: Newton's rule from `start`.
 
     Writes   as `grow`
     """
     target = start
     for _ in range(10):
-        total, give = grow(j, i, target, weight, vof, pm, km, mix)
+        total, give = grow(j, i, target, w)
         if abs(total - room) < 1e-14:
             break
         target += (total - room) / give
@@ -270,7 +272,7 @@ def fill_room(j, i, room, start, weight, vof, pm, km, mix):
 
 
 @apart
-def meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix):
+def meet_traction(j, i, change, w):
     """p_c of a cut cell at the end of the step (Pa), whose volume changes by `change`, as a share of it.
 
     Void opens at p_c = 0 and is shut before p_c rises; a crack in the midst of a group pulls the less the wider it is
@@ -278,21 +280,21 @@ def meet_traction(j, i, change, void, skin, p, bulk, vof, pm, km, mix):
 
     Writes   as `grow`
     """
-    weight = surface_weight(j, i, skin)
-    total, _ = grow(j, i, 0.0, weight, vof, pm, km, mix)
+    void = max(1.0 - w.solid[j, i], 0.0)
+    total, _ = grow(j, i, 0.0, w)
     if total > change + void:
-        return fill_room(j, i, change + void, max(p[j, i] - bulk[j, i] * (change + void), 0.0), weight, vof, pm, km, mix)
-    pull = pull_of(j, i, void, skin)
+        return fill_room(j, i, change + void, max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0), w)
+    pull = pull_of(j, i, void, w.skin)
     if pull == 0.0 or total >= change:
         return 0.0
-    target = fill_room(j, i, change, min(p[j, i] - bulk[j, i] * change, 0.0), weight, vof, pm, km, mix)
+    target = fill_room(j, i, change, min(w.p[j, i] - w.bulk[j, i] * change, 0.0), w)
     target = min(target * pull, 0.0)
-    grow(j, i, target, weight, vof, pm, km, mix)
+    grow(j, i, target, w)
     return target
 
 
 @point
-def fill_cut_cell(j, i, change, volume, target, work, vof, pm, q, mix):
+def fill_cut_cell(j, i, change, volume, target, work, w):
     """Volumes, densities and energies of the bodies of a cut cell after the step.
 
     Each body does the work of its own normal stress, the mean over the step, on what its volume grows by; what the cell's work
@@ -303,23 +305,23 @@ def fill_cut_cell(j, i, change, volume, target, work, vof, pm, q, mix):
     """
     after = volume + change
     mass, left, filled = 0.0, work, 0.0
-    for m in range(vof.shape[0]):
-        f = vof[m, j, i]
+    for m in range(w.vof.shape[0]):
+        f = w.vof[m, j, i]
         if f == 0.0:
             continue
-        grown = max(mix[j, GROWTH, m], -0.5) * f * volume
+        grown = max(w.mix[j, GROWTH, m], -0.5) * f * volume
         filled += f * volume + grown
-        mass += q[RHO, m, j, i] * f * volume
-        done = 0.5 * (pm[m, j, i] - mix[j, NORMAL, m] + target) * grown
-        mix[j, HEAT, m] -= done
+        mass += w.q[RHO, m, j, i] * f * volume
+        done = 0.5 * (w.pm[m, j, i] - w.mix[j, NORMAL, m] + target) * grown
+        w.mix[j, HEAT, m] -= done
         left += done
     squeeze = after / filled if target > 0.0 else min(1.0, after / filled)
-    for m in range(vof.shape[0]):
-        f = vof[m, j, i]
+    for m in range(w.vof.shape[0]):
+        f = w.vof[m, j, i]
         if f == 0.0:
             continue
-        own = q[RHO, m, j, i] * f * volume
-        space = squeeze * (1.0 + max(mix[j, GROWTH, m], -0.5)) * f * volume
-        q[E, m, j, i] += mix[j, HEAT, m] / own + left / mass
-        q[RHO, m, j, i] = own / space
-        vof[m, j, i] = space / after
+        own = w.q[RHO, m, j, i] * f * volume
+        space = squeeze * (1.0 + max(w.mix[j, GROWTH, m], -0.5)) * f * volume
+        w.q[E, m, j, i] += w.mix[j, HEAT, m] / own + left / mass
+        w.q[RHO, m, j, i] = own / space
+        w.vof[m, j, i] = space / after

@@ -1,7 +1,7 @@
 """The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
 
 
-from hydro2d.jit import kernel, rowwise
+from hydro2d.jit import cell_rows, rowwise
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.kernels.plastic_return import flow, return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
@@ -16,8 +16,7 @@ from strength.radial_return import return_together
 
 
 @rowwise
-def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, v, sig_rr, sig_zz, sig_tt, sig_rz,
-               hg_coefficient, vof, scratch, q):
+def strain_row(m, j, b, w):
     """Energy and elastic trial deviators of body m in the cells of row j that it fills.
 
     Reads    u0, v0, u, v [b, j, i]; sig_.., hg_coefficient [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
@@ -25,49 +24,51 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, 
     Writes   scratch [1, b, i], von Mises norm of the trial: negative up to the cutoff density, 0 where the body fills no
              cell, and without a shear modulus; scratch [2, b, i], spin
     """
-    rr_j = sig_rr[j]
-    zz_j = sig_zz[j]
-    tt_j = sig_tt[j]
-    rz_j = sig_rz[j]
-    hg_j = hg_coefficient[j]
-    shear_j = scratch[0, b]
-    trial_j = scratch[1, b]
-    spin_j = scratch[2, b]
-    ub = u[g, j]
-    ut = u[g, j + 1]
-    vb = v[g, j]
-    vt = v[g, j + 1]
-    ub0 = u0[g, j]
-    ut0 = u0[g, j + 1]
-    vb0 = v0[g, j]
-    vt0 = v0[g, j + 1]
-    f_j = vof[m, j]
-    rho_j = q[RHO, m, j]
-    e_j = q[E, m, j]
-    srr_j = q[SRR, m, j]
-    szz_j = q[SZZ, m, j]
-    srz_j = q[SRZ, m, j]
+    g, h, cutoff_density = w.group[m], w.dz[j], w.materials[m, CUTOFF_DENSITY]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+    rr_j = w.sig_rr[j]
+    zz_j = w.sig_zz[j]
+    tt_j = w.sig_tt[j]
+    rz_j = w.sig_rz[j]
+    hg_j = w.hg_coefficient[j]
+    shear_j = w.scratch[0, b]
+    trial_j = w.scratch[1, b]
+    spin_j = w.scratch[2, b]
+    ub = w.u[g, j]
+    ut = w.u[g, j + 1]
+    vb = w.v[g, j]
+    vt = w.v[g, j + 1]
+    ub0 = w.u0[g, j]
+    ut0 = w.u0[g, j + 1]
+    vb0 = w.v0[g, j]
+    vt0 = w.v0[g, j + 1]
+    f_j = w.vof[m, j]
+    rho_j = w.q[RHO, m, j]
+    e_j = w.q[E, m, j]
+    srr_j = w.q[SRR, m, j]
+    szz_j = w.q[SZZ, m, j]
+    srz_j = w.q[SRZ, m, j]
     for x in range(n):
         i = first + x
         pure = f_j[i] == 1.0
-        volume = metrics[VOL_R, i] * h
-        a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(i, ub0, ut0, vb0, vt0, metrics, h)
-        rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, metrics, h)
-        w = hg_j[i]
+        volume = w.metrics[VOL_R, i] * h
+        a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(i, ub0, ut0, vb0, vt0, w.metrics, h)
+        rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, w.metrics, h)
+        hg = hg_j[i]
         h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
         h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
-        work = 0.5 * dt * (
+        work = 0.5 * w.dt * (
             (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
             + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
-            + w * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
+            + hg * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
         rho = rho_j[i]
         gain = work / (rho * volume)
         e_j[i] += gain if pure else 0.0
         rate = 1.0 / volume
         drr, dzz, dtt, drz = rr * rate, zz * rate, tt * rate, 0.5 * (rbz + zbr) * rate
-        spin = 0.5 * (rbz - zbr) * rate * dt
+        spin = 0.5 * (rbz - zbr) * rate * w.dt
         srr, szz, srz = turn_and_strain(
-            srr_j[i], szz_j[i], srz_j[i], spin, 2.0 * shear_j[i], drr * dt, dzz * dt, dtt * dt, drz * dt)
+            srr_j[i], szz_j[i], srz_j[i], spin, 2.0 * shear_j[i], drr * w.dt, dzz * w.dt, dtt * w.dt, drz * w.dt)
         srr_j[i] = srr if pure else srr_j[i]
         szz_j[i] = szz if pure else szz_j[i]
         srz_j[i] = srz if pure else srz_j[i]
@@ -78,7 +79,7 @@ def strain_row(m, j, b, g, first, n, dt, metrics, h, cutoff_density, u0, v0, u, 
 
 
 @rowwise
-def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lanes):
+def yield_row(m, j, b, w):
     """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside of it.
 
     Cells that may yield are gathered and solved together, up to `LANES` at a time (strength/radial_return.py).
@@ -87,20 +88,21 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
     Updates  q (deviators, plastic strain, damage) [k, m, j, i]
     Scratch  lanes [b, k]
     """
-    model = models[m, STRENGTH]
-    par = materials[m, STRENGTH_AT:DAMAGE_AT]
-    scale = materials[m, FACTOR]
+    model = w.models[m, STRENGTH]
+    par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
+    scale = w.materials[m, FACTOR]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
-    p_j = pm[m, j]
-    t_j = tm[m, j]
-    shear_j = scratch[0, b]
-    trial_j = scratch[1, b]
-    rho_j = q[RHO, m, j]
-    ep_j = q[EP, m, j]
-    srr_j = q[SRR, m, j]
-    szz_j = q[SZZ, m, j]
-    srz_j = q[SRZ, m, j]
-    lane = lanes[b]
+    p_j = w.pm[m, j]
+    t_j = w.tm[m, j]
+    shear_j = w.scratch[0, b]
+    trial_j = w.scratch[1, b]
+    rho_j = w.q[RHO, m, j]
+    ep_j = w.q[EP, m, j]
+    srr_j = w.q[SRR, m, j]
+    szz_j = w.q[SZZ, m, j]
+    srz_j = w.q[SRZ, m, j]
+    lane = w.lanes[b]
     candidates = 0
     for x in range(n):
         candidates += 0 if abs(trial_j[first + x]) <= floor else 1  # a NaN is one
@@ -122,7 +124,7 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
             lane[DENSITY + k] = rho_j[i]
             lane[STIFFNESS + k] = 3.0 * shear_j[i]
         if number > 0:
-            return_together(model, number, dt, scale, par, lane)
+            return_together(model, number, w.dt, scale, par, lane)
         for k in range(found):
             dep = lane[INCREMENT + k]
             if dep != 0.0:
@@ -132,37 +134,37 @@ def yield_row(m, j, b, first, n, dt, models, materials, pm, tm, scratch, q, lane
                 srr_j[i] *= shrink
                 szz_j[i] *= shrink
                 srz_j[i] *= shrink
-                flow(m, j, i, dep, dt, yield_stress, models, materials, pm, tm, q)
+                flow(m, j, i, dep, yield_stress, w)
 
 
 @rowwise
-def internal_row(m, j, b, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal):
+def internal_row(m, j, b, w):
     """The same, cell by cell, for a model that damage weakens or that has internal variables, which turn and harden.
 
     Reads    vof, pm, tm [m, j, i]; scratch [0 to 2, b, i], shear modulus, trial stress and spin
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
     """
-    model = models[m, STRENGTH]
+    model = w.models[m, STRENGTH]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     for x in range(n):
         i = first + x
-        if vof[m, j, i] == 1.0 and is_fluid(scratch[0, b, i]):
-            forget(m, j, i, model, q, internal[j])
+        if w.vof[m, j, i] == 1.0 and is_fluid(w.scratch[0, b, i]):
+            forget(m, j, i, model, w.q, w.internal[j])
             continue
-        if vof[m, j, i] != 1.0 or scratch[1, b, i] < 0.0:
+        if w.vof[m, j, i] != 1.0 or w.scratch[1, b, i] < 0.0:
             continue
-        take_internal(m, j, i, model, q, internal[j])
-        turn(model, scratch[2, b, i], internal[j])
-        keep_internal(m, j, i, model, internal[j], q)
+        take_internal(m, j, i, model, w.q, w.internal[j])
+        turn(model, w.scratch[2, b, i], w.internal[j])
+        keep_internal(m, j, i, model, w.internal[j], w.q)
         rr, zz, rz, _, _ = return_to_surface(
-            m, j, i, dt, q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i], scratch[0, b, i], True, 0.0, models, materials, pm,
-            tm, q, internal[j])
-        q[SRR, m, j, i] = rr
-        q[SZZ, m, j, i] = zz
-        q[SRZ, m, j, i] = rz
+            m, j, i, w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i], w.scratch[0, b, i], True, 0.0, w)
+        w.q[SRR, m, j, i] = rr
+        w.q[SZZ, m, j, i] = zz
+        w.q[SRZ, m, j, i] = rz
 
 
 @rowwise
-def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
+def expand_row(m, j, b, w):
     """Density of body m in the cells of row j that it fills, whose mass stays.
 
     No deviator is left where it has failed or melted, or has the cutoff density or less.
@@ -170,20 +172,22 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
     Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative up to the cutoff density and in melts
     Updates  q (density, deviators) [k, m, j, i]
     """
-    fr_j = fr[j]
-    fz_b = fz[j]
-    fz_t = fz[j + 1]
-    trial_j = scratch[1, b]
-    f_j = vof[m, j]
-    rho_j = q[RHO, m, j]
-    d_j = q[DMG, m, j]
-    srr_j = q[SRR, m, j]
-    szz_j = q[SZZ, m, j]
-    srz_j = q[SRZ, m, j]
+    h = w.dz[j]
+    first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+    fr_j = w.fr[j]
+    fz_b = w.fz[j]
+    fz_t = w.fz[j + 1]
+    trial_j = w.scratch[1, b]
+    f_j = w.vof[m, j]
+    rho_j = w.q[RHO, m, j]
+    d_j = w.q[DMG, m, j]
+    srr_j = w.q[SRR, m, j]
+    szz_j = w.q[SZZ, m, j]
+    srz_j = w.q[SRZ, m, j]
     for x in range(n):
         i = first + x
         pure = f_j[i] == 1.0
-        volume = metrics[VOL_R, i] * h
+        volume = w.metrics[VOL_R, i] * h
         change = (fr_j[i + 1] - fr_j[i]) + (fz_t[i] - fz_b[i])
         rho_j[i] = rho_j[i] * (volume / (volume + change)) if pure else rho_j[i]
         gone = pure and (d_j[i] >= 1.0 or trial_j[i] < 0.0)
@@ -192,9 +196,8 @@ def expand_row(m, j, b, first, n, metrics, h, fr, fz, vof, scratch, q):
         srz_j[i] = 0.0 if gone else srz_j[i]
 
 
-@kernel
-def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u0, v0, u, v, fr, fz, sig_rr, sig_zz, sig_tt,
-           sig_rz, hg_coefficient, vof, pm, tm, scratch, q, internal, lanes):
+@cell_rows
+def deform(j, part, w):
     """Energy, density, deviator, plastic strain and damage of every body in the cells that it fills, over one Lagrangian step.
 
     de = V dt sigma : D(u mid-step) / m, the work of the same corner forces that moved the vertices; rho V is constant;
@@ -205,18 +208,15 @@ def deform(part, parts, dt, metrics, dz, body_range, group, models, materials, u
     Updates  q [k, m, j, i]
     Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]; lanes [part, k]
     """
-    for j in range(parts[part], parts[part + 1]):
-        h = dz[j]
-        for m in range(vof.shape[0]):
-            model = models[m, STRENGTH]
-            par = materials[m, STRENGTH_AT:DAMAGE_AT]
-            first, n = columns(body_range[m, j, 0], body_range[m, j, 1])
-            modulus_row(model, par, first, n, pm[m, j], q[RHO, m, j], tm[m, j], scratch[0, part])
-            end_at_melt(materials[m, MELTING_AT:EOS_AT], first, n, q[RHO, m, j], tm[m, j], scratch[0, part])
-            strain_row(m, j, part, group[m], first, n, dt, metrics, h, materials[m, CUTOFF_DENSITY], u0, v0, u, v, sig_rr,
-                       sig_zz, sig_tt, sig_rz, hg_coefficient, vof, scratch, q)
-            if model in WITH_INTERNAL or model in WEAKENS:
-                internal_row(m, j, part, first, n, dt, models, materials, vof, pm, tm, scratch, q, internal)
-            elif model > 0:
-                yield_row(m, j, part, first, n, dt, models, materials, pm, tm, scratch, q, lanes)
-            expand_row(m, j, part, first, n, metrics, h, fr, fz, vof, scratch, q)
+    for m in range(w.vof.shape[0]):
+        model = w.models[m, STRENGTH]
+        par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
+        first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        modulus_row(model, par, first, n, w.pm[m, j], w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
+        end_at_melt(w.materials[m, MELTING_AT:EOS_AT], first, n, w.q[RHO, m, j], w.tm[m, j], w.scratch[0, part])
+        strain_row(m, j, part, w)
+        if model in WITH_INTERNAL or model in WEAKENS:
+            internal_row(m, j, part, w)
+        elif model > 0:
+            yield_row(m, j, part, w)
+        expand_row(m, j, part, w)

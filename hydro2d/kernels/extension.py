@@ -7,7 +7,7 @@ tie fades in as the share falls from SURE to UNDERFILLED, and a cell counts by h
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point
+from hydro2d.jit import apart, kernel, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact_geometry import REACH
 from hydro2d.physics.contact import dual_share
@@ -26,11 +26,12 @@ SLACK = 1e-3
 
 
 @point
-def filled_share(g, row, column, mesh_box, volume, metrics, hard, soft, mass):
+def filled_share(g, row, column, w):
     """Share that group g fills of the dual cell of a vertex, 0 where it has no mass there or the mesh ends."""
-    if row < mesh_box[0] or row > mesh_box[1] or column < mesh_box[2] or column > mesh_box[3] or mass[g, row, column] == 0.0:
+    j0, j1, i0, i1 = w.mesh_box[0], w.mesh_box[1], w.mesh_box[2], w.mesh_box[3]
+    if row < j0 or row > j1 or column < i0 or column > i1 or w.mass[g, row, column] == 0.0:
         return 0.0
-    return dual_share(g, row, column, mesh_box, volume, metrics, hard, soft)
+    return dual_share(g, row, column, w.mesh_box, w.volume, w.metrics, w.hard, w.soft)
 
 
 @point
@@ -40,58 +41,58 @@ def sureness(share):
 
 
 @point
-def in_debris(g, j, i, mesh_box, group, vof, dmg):
+def in_debris(g, j, i, w):
     """Whether material of the group other than g that has failed fills a cell around vertex (j, i) by half or more."""
     found = False
-    for m in range(group.shape[0]):
-        if group[m] != g:
-            for row in range(max(j - 1, mesh_box[0]), min(j + 1, mesh_box[1])):
-                for column in range(max(i - 1, mesh_box[2]), min(i + 1, mesh_box[3])):
-                    found = found or (vof[m, row, column] >= 0.5 and dmg[m, row, column] >= 1.0)
+    for m in range(w.group.shape[0]):
+        if w.group[m] != g:
+            for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
+                for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
+                    found = found or (w.vof[m, row, column] >= 0.5 and w.dmg[m, row, column] >= 1.0)
     return found
 
 
 @kernel
-def find_filled(part, parts, mesh_box, volume, metrics, contact_node_count, contact_nodes, hard, soft, mass, filled):
+def find_filled(part, w):
     """filled_share of both groups at all vertices from which a contact node can be extended.
 
-    Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes of rows j0 to j1
+    Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes
     Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(max(first_row(part, parts, REACH), mesh_box[0]), min(past_row(part, parts, REACH + 1), mesh_box[1] + 1)):
+    j0, j1 = outer_rows(w.parts)
+    first, last = first_row(part, w.parts, REACH), past_row(part, w.parts, REACH + 1)
+    for j in range(max(first, w.mesh_box[0]), min(last, w.mesh_box[1] + 1)):
         lo, hi = NOTHING, 0
         for row in range(max(j - REACH, j0), min(j + REACH, j1) + 1):
-            if contact_node_count[row] > 0:
-                lo = min(lo, contact_nodes[row, 0])
-                hi = max(hi, contact_nodes[row, contact_node_count[row] - 1])
-        for i in range(max(lo - REACH, mesh_box[2]), min(hi + REACH, mesh_box[3]) + 1):
+            if w.contact_node_count[row] > 0:
+                lo = min(lo, w.contact_nodes[row, 0])
+                hi = max(hi, w.contact_nodes[row, w.contact_node_count[row] - 1])
+        for i in range(max(lo - REACH, w.mesh_box[2]), min(hi + REACH, w.mesh_box[3]) + 1):
             for g in range(2):
-                filled[g, j, i] = filled_share(g, j, i, mesh_box, volume, metrics, hard, soft, mass)
+                w.filled[g, j, i] = filled_share(g, j, i, w)
 
 
 @apart
-def cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, hard, soft, filled):
+def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
     """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4, as far as all of it counts.
 
     The cosine is that between its direction and the normal inwards.
     """
-    if row < mesh_box[0] or row >= mesh_box[1] or column < mesh_box[2] or column >= mesh_box[3]:
+    if row < w.mesh_box[0] or row >= w.mesh_box[1] or column < w.mesh_box[2] or column >= w.mesh_box[3]:
         return 0.0
-    part = hard[row, column] if g == 1 else soft[row, column]
+    part = w.hard[row, column] if g == 1 else w.soft[row, column]
     y, x = row - j + 0.5, column - i + 0.5
     along = part * (inward_r * x + inward_z * y) / (x * x + y * y)
     if part <= UNDERFILLED or along <= 0.0:
         return 0.0
-    least = min(min(filled[g, row, column], filled[g, row, column + 1]),
-                min(filled[g, row + 1, column], filled[g, row + 1, column + 1]))
+    least = min(min(w.filled[g, row, column], w.filled[g, row, column + 1]),
+                min(w.filled[g, row + 1, column], w.filled[g, row + 1, column + 1]))
     least = min(least, 1.0)
     return sureness(part) * sureness(least) * (along * along) * (along * along)
 
 
 @apart
-def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares, most_squares, factor, r, z, hard, soft,
-                 filled, weights):
+def extend_cells(x, g, j, i, reach, inward_r, inward_z, least_squares, most_squares, factor, w):
     """Adds the linear fields of the cells inward whose weights have squares that sum up to more than least_squares and to no
     more than most_squares, together with the weight `factor`; returns the share of it that is used.
 
@@ -106,26 +107,26 @@ def extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, least_squares,
         for dj in range(-reach, reach):
             for di in range(-reach, reach):
                 row, column = j + dj, i + di
-                w = cell_weight(g, j, i, row, column, inward_r, inward_z, mesh_box, hard, soft, filled)
-                if w == 0.0:
+                weight = cell_weight(g, j, i, row, column, inward_r, inward_z, w)
+                if weight == 0.0:
                     continue
-                a = (r[i] - 0.5 * (r[column] + r[column + 1])) / (r[column + 1] - r[column])
-                b = (z[j] - 0.5 * (z[row] + z[row + 1])) / (z[row + 1] - z[row])
+                a = (w.r[i] - 0.5 * (w.r[column] + w.r[column + 1])) / (w.r[column + 1] - w.r[column])
+                b = (w.z[j] - 0.5 * (w.z[row] + w.z[row + 1])) / (w.z[row + 1] - w.z[row])
                 squares = 0.25 + a * a + b * b
                 if squares <= least_squares or squares > most_squares:
                     continue
-                whole += w if run == 0 else 0.0
+                whole += weight if run == 0 else 0.0
                 if run == 1:
                     shrink = sqrt((least_squares - 0.25) / (squares - 0.25)) if least_squares > 0.0 else 1.0
                     for n in range(4):
                         along = (a if n % 2 == 1 else -a) + (b if n // 2 == 1 else -b)
-                        weights[x, g, SPAN * (dj + REACH + n // 2) + di + REACH + n % 2] += scale * w * (
+                        w.weights[x, g, SPAN * (dj + REACH + n // 2) + di + REACH + n % 2] += scale * weight * (
                             0.25 + 0.5 * shrink * along)
     return smoothstep(whole / ENOUGH)
 
 
 @apart
-def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, filled, weights):
+def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
     """Adds the velocities of single vertices inward, which together have the weight `factor`; returns the share of it used.
 
     Updates  weights [x, g, n]
@@ -137,30 +138,29 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, mesh_box, factor, fil
             for di in range(-reach, reach + 1):
                 row, column = j + dj, i + di
                 if (dj == 0 and di == 0) or not (
-                        mesh_box[0] <= row <= mesh_box[1] and mesh_box[2] <= column <= mesh_box[3]):
+                        w.mesh_box[0] <= row <= w.mesh_box[1] and w.mesh_box[2] <= column <= w.mesh_box[3]):
                     continue
-                share = filled[g, row, column]
+                share = w.filled[g, row, column]
                 along = share * (inward_r * di + inward_z * dj) / (di * di + dj * dj)
                 if share <= UNDERFILLED or along <= 0.0:
                     continue
-                w = sureness(share) * (along * along) * (along * along)
+                weight = sureness(share) * (along * along) * (along * along)
                 if run == 0:
-                    whole += w
+                    whole += weight
                 else:
-                    weights[x, g, SPAN * (dj + REACH) + di + REACH] += scale * w
+                    w.weights[x, g, SPAN * (dj + REACH) + di + REACH] += scale * weight
     return smoothstep(whole / ENOUGH)
 
 
 @point
-def tied_weight(x, g, number, where, weights):
+def tied_weight(x, g, w):
     """Weight that the other group's velocity at its node has for the slave of group g in slot x."""
-    last = number[x, g] - 1
-    return weights[x, g, last] if last >= 0 and where[x, g, last] == TIED else 0.0
+    last = w.masters[x, g] - 1
+    return w.weights[x, g, last] if last >= 0 and w.where[x, g, last] == TIED else 0.0
 
 
-@kernel
-def find_extensions(part, parts, mesh_box, most_squares, r, z, contact_node_count, contact_nodes, first_slot, contact_normal,
-                    hard, soft, filled, group, vof, dmg, strength, masters, where, weights):
+@vertex_rows
+def find_extensions(j, w):
     """Which contact nodes are slaves, how firmly they are tied, and to what.
 
     To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
@@ -173,35 +173,32 @@ def find_extensions(part, parts, mesh_box, most_squares, r, z, contact_node_coun
     Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        for k in range(contact_node_count[j]):
-            i, x = contact_nodes[j, k], first_slot[j] + k
-            for g in range(2):
-                masters[x, g] = 0
-                strength[x, g] = 1.0 - sureness(filled[g, j, i])
-                if strength[x, g] == 0.0:
-                    continue
-                for n in range(MASTERS + 1):
-                    weights[x, g, n] = 0.0
-                sign = 1.0 if g == 0 else -1.0
-                inward_r, inward_z = sign * contact_normal[0, 0, j, i], sign * contact_normal[0, 1, j, i]
-                reach = REACH - 1 if in_debris(g, j, i, mesh_box, group, vof, dmg) else REACH
-                left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, 0.0, most_squares, 1.0, r, z, hard,
-                                          soft, filled, weights)
-                if left > 0.0:
-                    left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, mesh_box, most_squares, 1e300, left, r,
-                                               z, hard, soft, filled, weights)
-                if left > 0.0:
-                    used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, mesh_box, left, filled, weights)
-                    weights[x, g, TIED] = left * (1.0 - used)
-                found = 0
-                for n in range(MASTERS + 1):
-                    w = weights[x, g, n]
-                    if w != 0.0:
-                        where[x, g, found] = n
-                        weights[x, g, found] = w
-                        found += 1
-                masters[x, g] = found
-            slack = SLACK * tied_weight(x, 0, masters, where, weights) * tied_weight(x, 1, masters, where, weights)
-            for g in range(2):
-                strength[x, g] *= 1.0 - slack
+    for k in range(w.contact_node_count[j]):
+        i, x = w.contact_nodes[j, k], w.first_slot[j] + k
+        for g in range(2):
+            w.masters[x, g] = 0
+            w.strength[x, g] = 1.0 - sureness(w.filled[g, j, i])
+            if w.strength[x, g] == 0.0:
+                continue
+            for n in range(MASTERS + 1):
+                w.weights[x, g, n] = 0.0
+            sign = 1.0 if g == 0 else -1.0
+            inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
+            reach = REACH - 1 if in_debris(g, j, i, w) else REACH
+            left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, 0.0, w.most_squares, 1.0, w)
+            if left > 0.0:
+                left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, w.most_squares, 1e300, left, w)
+            if left > 0.0:
+                used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
+                w.weights[x, g, TIED] = left * (1.0 - used)
+            found = 0
+            for n in range(MASTERS + 1):
+                weight = w.weights[x, g, n]
+                if weight != 0.0:
+                    w.where[x, g, found] = n
+                    w.weights[x, g, found] = weight
+                    found += 1
+            w.masters[x, g] = found
+        slack = SLACK * tied_weight(x, 0, w) * tied_weight(x, 1, w)
+        for g in range(2):
+            w.strength[x, g] *= 1.0 - slack

@@ -1,15 +1,15 @@
 """A mesh that travels along z: volumes swept relative to it, and an end to what fades ahead of waves."""
 
-from hydro2d.jit import kernel
-from hydro2d.kernels.column_ranges import columns, outer_rows, past_row, union
+from hydro2d.jit import cell_rows, vertex_rows
+from hydro2d.kernels.column_ranges import columns, outer_rows, union
 from hydro2d.mesh.grid import VOL_R
 
 #: stresses (Pa), energies (J/kg) and strains below this are nothing; a mesh that travels would carry them on, ever smaller
 FADED = 1e-30
 
 
-@kernel
-def leave(part, parts, advance, metrics, group_ranges, fz):
+@vertex_rows
+def leave(j, w):
     """F_z - d A for the faces j0 to j1 along z: what they sweep relative to a mesh that advances by d in the step.
 
     A is the axial area of the column (explanation/following-mesh, equation 1).
@@ -17,31 +17,29 @@ def leave(part, parts, advance, metrics, group_ranges, fz):
     Reads    group_ranges [b, n, j, 2]
     Updates  fz [j, i]
     """
-    for j in range(parts[part], past_row(part, parts, 1)):
-        lo, n = columns(group_ranges[0, 1, j, 0], group_ranges[0, 1, j, 1])
-        face = fz[j]
-        area = metrics[VOL_R]
-        for x in range(n):
-            face[lo + x] -= advance * area[lo + x]
+    lo, n = columns(w.group_ranges[0, 1, j, 0], w.group_ranges[0, 1, j, 1])
+    face = w.fz[j]
+    area = w.metrics[VOL_R]
+    for x in range(n):
+        face[lo + x] -= w.advance * area[lo + x]
 
 
-@kernel
-def leave_contact(part, parts, advance, metrics, contact_columns, own_z):
+@vertex_rows
+def leave_contact(j, w):
     """The same for what each group of a contact sweeps of the faces around contact-interface cells.
 
     Reads    contact_columns [j, 2]
     Updates  own_z [b, j, i]
     """
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], past_row(part, parts, 1)):
-        lo, hi = union(contact_columns, max(j - 1, j0), min(j + 1, j1))
-        for i in range(lo, hi):
-            for g in range(2):
-                own_z[g, j, i] -= advance * metrics[VOL_R, i]
+    j0, j1 = outer_rows(w.parts)
+    lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
+    for i in range(lo, hi):
+        for g in range(2):
+            w.own_z[g, j, i] -= w.advance * w.metrics[VOL_R, i]
 
 
-@kernel
-def silence(part, parts, carried, body_range, q):
+@cell_rows
+def silence(j, w):
     """Sets what has faded to nothing to zero: numbers too small to be normal cost the processor a hundred times as much.
 
     Material that flows through a travelling mesh takes a share of its neighbours' stress along in every step, also ahead of
@@ -50,11 +48,10 @@ def silence(part, parts, carried, body_range, q):
     Reads    carried [m, n], body_range [m, j, 2]
     Updates  q (all but the density) [k, m, j, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        for m in range(body_range.shape[0]):
-            lo, n = columns(body_range[m, j, 0], body_range[m, j, 1])
-            for place in range(1, carried[m, 0] + 1):
-                k = carried[m, place]
-                row = q[k, m, j]
-                for x in range(n):
-                    row[lo + x] = row[lo + x] if abs(row[lo + x]) > FADED else 0.0
+    for m in range(w.body_range.shape[0]):
+        lo, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+        for place in range(1, w.carried[m, 0] + 1):
+            k = w.carried[m, place]
+            row = w.q[k, m, j]
+            for x in range(n):
+                row[lo + x] = row[lo + x] if abs(row[lo + x]) > FADED else 0.0

@@ -6,8 +6,8 @@ stated order bounds their cumulative fraction, void comes last.
 """
 
 
-from hydro2d.jit import apart, kernel, point, rowwise
-from hydro2d.kernels.column_ranges import columns, outer_rows, past_row
+from hydro2d.jit import apart, cell_rows, kernel, point, rowwise
+from hydro2d.kernels.column_ranges import columns, past_row
 from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
 from hydro2d.physics.traction import smoothstep
@@ -31,81 +31,84 @@ SWEPT = 0.1
 
 
 @rowwise
-def report_row(j, first, number, vof, before, turned):
-    """Writes down the first cell of row j with a body in it and no volume left (sweep_volumes_row)."""
+def report_row(j, w):
+    """Writes down the first cell of row j with a body in it and no volume left (`sweep_volumes`)."""
+    first, number = columns(w.active_range[j, 0], w.active_range[j, 1])
     for x in range(number):
         i = first + number - 1 - x
         most = 0.0
-        for m in range(vof.shape[0]):
-            if not before[i] > 0.0 and abs(vof[m, j, i]) > most:
-                most = abs(vof[m, j, i])
-                turned[j, 0], turned[j, 1] = i, m
+        for m in range(w.vof.shape[0]):
+            if not w.pre[j, i] > 0.0 and abs(w.vof[m, j, i]) > most:
+                most = abs(w.vof[m, j, i])
+                w.turned[j, 0], w.turned[j, 1] = i, m
 
 
-@rowwise
-def sweep_volumes_row(j, dj, di, first, volume, active_range, fr, fz, vof, pre, turned):
+@cell_rows
+def sweep_volumes(j, w):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i], vof [m, j, i]
     Writes   pre [j, i]; turned [j, 2], column of the first cell with a body in it that was turned inside out, -1 for none, and
              the body that fills the most of it
     """
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    fr_j = fr[j]
-    fz_b = fz[j]
-    fz_t = fz[j + 1]
-    volume_j = volume[j]
-    out = pre[j]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    fr_j = w.fr[j]
+    fz_b = w.fz[j]
+    fz_t = w.fz[j + 1]
+    volume_j = w.volume[j]
+    out = w.pre[j]
     wrong = 0
     for x in range(n):
         i = lo + x
         along_r = fr_j[i + 1] - fr_j[i]
         along_z = fz_t[i] - fz_b[i]
-        out[i] = volume_j[i] + (along_r + along_z if first else dj * along_z + di * along_r)
+        out[i] = volume_j[i] + (w.dj * along_z + w.di * along_r if w.second else along_r + along_z)
         wrong += 0 if out[i] > 0.0 else 1
-    turned[j, 0] = -1
+    w.turned[j, 0] = -1
     if wrong > 0:
-        report_row(j, lo, n, vof, out, turned)
+        report_row(j, w)
 
 
 @point
-def flux_range(dj, di, i0, i1, m, j, body_ranges):
+def flux_range(dj, m, j, w):
     """Faces of row j through which body m may flow within the active columns: one beyond its own; empty is (0, 0)."""
-    lo, hi = max(body_ranges[2 * dj, m, j, 0] - 1, i0), min(body_ranges[2 * dj, m, j, 1] + 2, i1 + di)
+    lo, hi = max(w.body_ranges[2 * dj, m, j, 0] - 1, w.i0), min(w.body_ranges[2 * dj, m, j, 1] + 2, w.i1 + 1 - dj)
     return (lo, hi) if lo < hi else (0, 0)
 
 
-@rowwise
-def donor_volumes_row(j, dj, di, i0, i1, open_faces, body_ranges, f_face, vof, flux_volume):
+@kernel
+def donor_volumes(part, w):
     """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
 
-    Nothing but void flows in through the faces of the mesh's edge.
+    Nothing but void flows in through the faces of the mesh's edge (void_only).
 
-    Reads    f_face (fr or fz) [j, i], vof [m, j, i], open_faces (j0, j1, i0, i1 of the mesh)
+    Reads    face [j, i], vof [m, j, i]
     Writes   flux_volume [m, j, i]
     """
-    bodies = vof.shape[0]
-    for m in range(bodies):
-        lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
-        if lo >= hi:
-            continue
-        swept = f_face[j, lo:hi]
-        given = flux_volume[m, j, lo:hi]
-        here = vof[m, j, lo:hi]
-        before = vof[m, j - dj, lo - di:hi - di]
-        for x in range(hi - lo):
-            given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
-        swept = f_face[j]
-        out = flux_volume[m, j]
-        if dj == 1:
-            for i in range(lo, hi):
-                if (j == open_faces[0] and swept[i] > 0.0) or (j == open_faces[1] and swept[i] < 0.0):
-                    out[i] = 0.0
-        else:
-            if lo <= open_faces[2] < hi and swept[open_faces[2]] > 0.0:
-                out[open_faces[2]] = 0.0
-            if lo <= open_faces[3] < hi and swept[open_faces[3]] < 0.0:
-                out[open_faces[3]] = 0.0
+    dj, di = w.dj, w.di
+    edges = w.void_only
+    for j in range(w.parts[part], past_row(part, w.parts, dj)):
+        for m in range(w.vof.shape[0]):
+            lo, hi = flux_range(dj, m, j, w)
+            if lo >= hi:
+                continue
+            swept = w.face[j, lo:hi]
+            given = w.flux_volume[m, j, lo:hi]
+            here = w.vof[m, j, lo:hi]
+            before = w.vof[m, j - dj, lo - di:hi - di]
+            for x in range(hi - lo):
+                given[x] = max(swept[x], 0.0) * before[x] + min(swept[x], 0.0) * here[x]
+            swept = w.face[j]
+            out = w.flux_volume[m, j]
+            if dj == 1:
+                for i in range(lo, hi):
+                    if (j == edges[0] and swept[i] > 0.0) or (j == edges[1] and swept[i] < 0.0):
+                        out[i] = 0.0
+            else:
+                if lo <= edges[2] < hi and swept[edges[2]] > 0.0:
+                    out[edges[2]] = 0.0
+                if lo <= edges[3] < hi and swept[edges[3]] < 0.0:
+                    out[edges[3]] = 0.0
 
 
 @point
@@ -209,8 +212,7 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
 
 
 @apart
-def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order, share, void, no_gap, centroid, dr, dz,
-         strips):
+def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, strips, w):
     """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
 
     The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own; those after
@@ -218,6 +220,8 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
+    along_z = w.dj == 1
+    w_low, w_high, w_whole = widths
     around = NO_BODY
     moment_along, moment_across = 0.0, 0.0
     low, high, whole = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
@@ -232,8 +236,8 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
             if f == 0.0:
                 continue
             full = at_most_full(around)
-            along, across = centroid[0, m, j, i], centroid[1, m, j, i]
-            bound = surface(j, i, full, dr, dz, void) if full[4] < 1.0 else NO_SURFACE
+            along, across = w.centroid[0, m, j, i], w.centroid[1, m, j, i]
+            bound = surface(j, i, full, w.dr, w.dz, void) if full[4] < 1.0 else NO_SURFACE
             if along_z:
                 along, across = across, along
                 bound = bound[1], bound[0], bound[3], bound[2], bound[4]
@@ -262,7 +266,7 @@ def nest(j, i, last, along_z, w_low, w_high, w_whole, thin_first, weight, order,
 
 
 @apart
-def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void, group, gases, centroid, dr, dz, strips):
+def fill_strips(j, i, last, widths, order, share, void, strips, w):
     """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
 
     Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
@@ -270,25 +274,24 @@ def fill_strips(j, i, last, along_z, w_low, w_high, w_whole, order, share, void,
     (explanation/interfaces, thin bodies).
 
     last : the body that is asked for, of those after which nothing is found out; ALL for all of them
-    w_low, w_high, w_whole : widths of the strips as shares of the cell, 0 for one that is left out and stays as it is
+    widths : those of the three strips as shares of the cell, 0 for one that is left out and stays as it is
 
     Reads    share [m, j, i], the fractions; void, the share of the cell that is empty; centroid [2, m, j, i]
     Writes   strips [3, 4, m]: shares of the cell; times them, where the centroids lie off the middle of the strip, along the
              sweep in widths of the strip and across; how thin the bodies are
     """
-    for n, width in enumerate((w_low, w_high, w_whole)):
+    for n, width in enumerate(widths):
         if width > 0.0:
             for m in range(order.shape[0]):
                 strips[n, SHARE, m] = 0.0
                 strips[n, ALONG, m] = 0.0
                 strips[n, ACROSS, m] = 0.0
-    ordered, no_gap = keeps_order(j, i, group, gases, share, void)
+    ordered, no_gap = keeps_order(j, i, w.group, w.gases, share, void)
     thinnest = thinnest_body(j, i, ordered, order, share, strips[0, THIN])
     if thinnest < 1.0:
-        nest(j, i, last, along_z, w_low, w_high, w_whole, False, 1.0 - thinnest, order, share, void, no_gap, centroid, dr, dz,
-             strips)
+        nest(j, i, last, widths, False, 1.0 - thinnest, order, share, void, no_gap, strips, w)
     if thinnest > 0.0:
-        nest(j, i, last, along_z, w_low, w_high, w_whole, True, thinnest, order, share, void, no_gap, centroid, dr, dz, strips)
+        nest(j, i, last, widths, True, thinnest, order, share, void, no_gap, strips, w)
 
 
 @point
@@ -301,89 +304,64 @@ def place_of(strip, m):
 
 
 @point
-def by_contact(j, i, dj, di, mesh_box, contact_columns):
+def by_contact(j, i, w):
     """Whether `contact_fluxes` works out what leaves cell (j, i) through either face: not at the edge of the mesh."""
-    inside = mesh_box[2] < i < mesh_box[3] - 1 if di == 1 else mesh_box[0] < j < mesh_box[1] - 1
-    return inside and contact_columns[j, 0] <= i < contact_columns[j, 1]
+    inside = w.mesh_box[2] < i < w.mesh_box[3] - 1 if w.di == 1 else w.mesh_box[0] < j < w.mesh_box[1] - 1
+    return inside and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
 
 
-@rowwise
-def interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, order, group, gases, mixed_count, mixed, f_face, pre,
-                          vof, centroid, flux_volume, flux_place, strips):
+@cell_rows
+def interface_volumes(j, w):
     """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
 
     Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept
     monotone, each body gives no more than it has, and what two opposite strips ask together beyond that is passed on to the
     next body.
 
-    Reads    mixed [j, k], order [k], f_face, pre [j, i], vof [m, j, i]
+    Reads    mixed [j, k], interface_order [k], face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
              centroid [2, m, j, i] of these cells: that of what the interfaces enclose, in full where SWEPT of the cell leaves
     Scratch  strips [j, 3, 4, m]
     """
-    bodies = order.shape[0]
-    left = strips[j, 0]
-    right = strips[j, 1]
-    whole = strips[j, 2]
-    along_z = dj == 1
-    for k in range(mixed_count[j]):
-        i = mixed[j, k]
-        out_low = max(-f_face[j, i], 0.0)
-        out_high = max(f_face[j + dj, i + di], 0.0)
+    dj, di = w.dj, w.di
+    left = w.strips[j, 0]
+    right = w.strips[j, 1]
+    whole = w.strips[j, 2]
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        out_low = max(-w.face[j, i], 0.0)
+        out_high = max(w.face[j + dj, i + di], 0.0)
         if out_low == 0.0 and out_high == 0.0:
             continue
-        size = pre[j, i]
+        size = w.pre[j, i]
         w_low, w_high = out_low / size, out_high / size
         taken = min((w_low + w_high) / SWEPT, 1.0)
-        if by_contact(j, i, dj, di, mesh_box, contact_columns):
+        if by_contact(j, i, w):
             w_low, w_high = 0.0, 0.0
-        void = 1.0 - cumulative(j, i, bodies - 1, order, vof)
-        fill_strips(j, i, ALL, along_z, w_low, w_high, 1.0, order, vof, void, group, gases, centroid, dr, dz, strips[j])
-        for m in range(bodies):
-            f = vof[m, j, i]
+        void = 1.0 - cumulative(j, i, w.interface_order.shape[0] - 1, w.interface_order, w.vof)
+        fill_strips(j, i, ALL, (w_low, w_high, 1.0), w.interface_order, w.vof, void, w.strips[j], w)
+        for m in range(w.interface_order.shape[0]):
+            f = w.vof[m, j, i]
             if f == 0.0:
                 continue
             if w_low > 0.0:
-                flux_place[0, m, j, i], flux_place[1, m, j, i] = place_of(left, m)
+                w.flux_place[0, m, j, i], w.flux_place[1, m, j, i] = place_of(left, m)
             if w_high > 0.0:
-                flux_place[0, m, j + dj, i + di], flux_place[1, m, j + dj, i + di] = place_of(right, m)
+                w.flux_place[0, m, j + dj, i + di], w.flux_place[1, m, j + dj, i + di] = place_of(right, m)
             along, across = place_of(whole, m)
-            centroid[di, m, j, i] = within(centroid[di, m, j, i] + taken * (across - centroid[di, m, j, i]), f)
-            centroid[dj, m, j, i] = within(centroid[dj, m, j, i] + taken * (along - centroid[dj, m, j, i]), f)
+            w.centroid[di, m, j, i] = within(w.centroid[di, m, j, i] + taken * (across - w.centroid[di, m, j, i]), f)
+            w.centroid[dj, m, j, i] = within(w.centroid[dj, m, j, i] + taken * (along - w.centroid[dj, m, j, i]), f)
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0
-            for n in range(bodies):
-                m = order[n]
+            for n in range(w.interface_order.shape[0]):
+                m = w.interface_order[n]
                 right[SHARE, m] += excess
-                kept = min(right[SHARE, m], max(vof[m, j, i] - left[SHARE, m], 0.0))
+                kept = min(right[SHARE, m], max(w.vof[m, j, i] - left[SHARE, m], 0.0))
                 excess = right[SHARE, m] - kept
                 right[SHARE, m] = kept
-        for m in range(bodies):
+        for m in range(w.interface_order.shape[0]):
             if w_low > 0.0:
-                flux_volume[m, j, i] = -left[SHARE, m] * size
+                w.flux_volume[m, j, i] = -left[SHARE, m] * size
             if w_high > 0.0:
-                flux_volume[m, j + dj, i + di] = right[SHARE, m] * size
-
-
-@kernel
-def donor_volumes(dj, di, part, parts, i0, i1, second, void_only, volume, body_ranges, active_range, fr, fz, vof, pre,
-                  flux_volume, turned):
-    """Rows j0 to j1 before a sweep: sweep_volumes_row, and donor_volumes_row, which has one more row of faces along z."""
-    j0, j1 = outer_rows(parts)
-    for j in range(parts[part], past_row(part, parts, dj)):
-        if j < j1:
-            sweep_volumes_row(j, dj, di, not second, volume, active_range, fr, fz, vof, pre, turned)
-        if di == 1:
-            donor_volumes_row(j, dj, di, i0, i1, void_only, body_ranges, fr, vof, flux_volume)
-        else:
-            donor_volumes_row(j, dj, di, i0, i1, void_only, body_ranges, fz, vof, flux_volume)
-
-
-@kernel
-def interface_volumes(dj, di, part, parts, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed,
-                      face, pre, vof, centroid, flux_volume, flux_place, strips):
-    """interface_volumes_row for rows j0 to j1."""
-    for j in range(parts[part], parts[part + 1]):
-        interface_volumes_row(j, dj, di, mesh_box, contact_columns, dr, dz, interface_order, group, gases, mixed_count, mixed,
-                              face, pre, vof, centroid, flux_volume, flux_place, strips)
+                w.flux_volume[m, j + dj, i + di] = right[SHARE, m] * size

@@ -4,7 +4,6 @@ Between two kernels stands a barrier wherever the second reads what the first wr
 first reads there.
 """
 
-import hydro2d.kernels.names  # noqa: F401  (what the names mean)
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.kernels import (
     acceleration,
@@ -115,7 +114,7 @@ deform = Phase(
     WAIT,
     deformation.deform,
     mixed.deform_mixed,
-    when("contact", given(momentum.deposit, ranges="warmed", deficit="heat", sums="deposited")),
+    when("contact", given(momentum.deposit, ranges="warmed", deficit="heat")),
     when("slip_layer", sliding.cut_shear),
     when("remembers",
          memory.update_memory,

@@ -1,7 +1,7 @@
 """Cells in which bodies meet each other or void: void insertion, closure of pressure and volume, shared strength."""
 
 from eos.dispatch import evaluate, zero_pressure_density
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import cell_rows, point, rowwise
 from hydro2d.kernels.centroids import push_bodies
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.cut_cells import (
@@ -12,7 +12,6 @@ from hydro2d.kernels.cut_cells import (
     common_traction,
     fill_cut_cell,
     firm_density,
-    firm_share,
     is_beside_gas,
     normal_deviator,
     tied_work,
@@ -36,7 +35,6 @@ from hydro2d.kernels.mixed_scratch import (
 )
 from hydro2d.kernels.mixed_strength import (
     MATERIAL,
-    SOLID,
     dominant_body,
     return_deviators,
     strain_bodies_across,
@@ -50,7 +48,6 @@ from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
-from hydro2d.physics.stress import stress_scale
 
 #: mixed-cell closure by name
 CLOSURES = ("uniform", "tipton")
@@ -59,65 +56,60 @@ TENSIONS = ("mean", "min")
 
 
 @rowwise
-def insert_void_mixed_row(j, smallest, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin, vof, q, pm, km, p,
-                          solid, bulk, opened):
+def insert_void_mixed_row(j, w):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
-    The threshold is the mean of the bodies' by volume fraction, or the smallest (explanation/fracture). Two groups hold
-    together by nothing and part by themselves (`meet_traction`).
+    The threshold is the mean of the bodies' by volume fraction, or with smallest_tension the least (explanation/fracture).
+    Two groups hold together by nothing and part by themselves (`meet_traction`).
 
     Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
     """
-    bodies = vof.shape[0]
-    for k in range(mixed_count[j]):
-        i = mixed[j, k]
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
         mean, least = 0.0, 1e300
-        if skin[KIND, j, i] == INTERFACE:
+        if w.skin[KIND, j, i] == INTERFACE:
             continue
-        for m in range(bodies):
-            f = vof[m, j, i]
+        for m in range(w.vof.shape[0]):
+            f = w.vof[m, j, i]
             if f > 0.0:
-                limit = tension_limit(materials[m, TENSILE], materials[m, FADES], q[DMG, m, j, i])
+                limit = tension_limit(w.materials[m, TENSILE], w.materials[m, FADES], w.q[DMG, m, j, i])
                 mean += f * limit
                 least = min(least, limit)
-        threshold = least * solid[j, i] if smallest else mean
-        if not p[j, i] < -threshold:
+        threshold = least * w.solid[j, i] if w.smallest_tension else mean
+        if not w.p[j, i] < -threshold:
             continue
         total, pressure = 0.0, 0.0
-        for m in range(bodies):
-            f = vof[m, j, i]
+        for m in range(w.vof.shape[0]):
+            f = w.vof[m, j, i]
             if f == 0.0:
                 continue
-            if pm[m, j, i] < 0.0:
-                rho = q[RHO, m, j, i]
-                e = q[E, m, j, i]
-                model, par = models[m, EOS], materials[m, EOS_AT:]
-                internal = q[models[m, MEMORY]:, m, j, i]
-                share = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), max_opening)
-                opened[j] += f * (1.0 - share) * metrics[VOL_R, i] * dz[j]
+            if w.pm[m, j, i] < 0.0:
+                rho = w.q[RHO, m, j, i]
+                e = w.q[E, m, j, i]
+                model, par = w.models[m, EOS], w.materials[m, EOS_AT:]
+                internal = w.q[w.models[m, MEMORY]:, m, j, i]
+                share = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), w.max_opening)
+                w.opened[j] += f * (1.0 - share) * w.metrics[VOL_R, i] * w.dz[j]
                 f *= share
-                vof[m, j, i] = f
-                q[RHO, m, j, i] = rho / share
-                pm[m, j, i] = evaluate(model, rho / share, e, internal, par)[0]
-            q[SRR, m, j, i] = 0.0
-            q[SZZ, m, j, i] = 0.0
-            q[SRZ, m, j, i] = 0.0
+                w.vof[m, j, i] = f
+                w.q[RHO, m, j, i] = rho / share
+                w.pm[m, j, i] = evaluate(model, rho / share, e, internal, par)[0]
+            w.q[SRR, m, j, i] = 0.0
+            w.q[SZZ, m, j, i] = 0.0
+            w.q[SRZ, m, j, i] = 0.0
             total += f
-            pressure += f * pm[m, j, i]
-        p[j, i] = pressure
-        solid[j, i] = total
+            pressure += f * w.pm[m, j, i]
+        w.p[j, i] = pressure
+        w.solid[j, i] = total
         if total < 1.0 - NO_VOID:
-            skin[KIND, j, i] = FREE_SURFACE
-        if skin[KIND, j, i] != WHOLE:
-            p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
+            w.skin[KIND, j, i] = FREE_SURFACE
+        if w.skin[KIND, j, i] != WHOLE:
+            w.p[j, i], w.bulk[j, i] = common_traction(j, i, w)
 
 
-@kernel
-def close_cells(part, parts, max_opening, smallest_tension, along_compression, viscosity_linear, viscosity_quadratic, courant,
-                advective_courant, mesh_speed, hourglass, metrics, dr, dz, body_range, active_range, mixed_count, mixed, models,
-                materials, u, v, vof, q, pm, km, tm, skin, p, bulk, rhobar, solid, cl, qr, qz, qt, qrz, hg_coefficient, opened,
-                row_step, bad, scratch):
+@cell_rows
+def close_cells(j, part, w):
     """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
 
     The viscosity takes the directions of the mesh, or along_compression that of the strongest compression.
@@ -126,81 +118,75 @@ def close_cells(part, parts, max_opening, smallest_tension, along_compression, v
              steps_row do, and the list of mixed cells
     Scratch  scratch [s, part, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        pressures_row(j, part, max_opening, metrics, dz, body_range, active_range, models, materials, vof, q, pm, km, tm, p,
-                      bulk, rhobar, solid, cl, scratch, opened, bad)
-        if opened[j] > 0.0:
-            mixed_row(j, active_range, vof, scratch[0], part, mixed_count, mixed)
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            if skin[KIND, j, i] == WHOLE and 0.0 < solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
-                skin[KIND, j, i] = FREE_SURFACE
-            if skin[KIND, j, i] != WHOLE:
-                p[j, i], bulk[j, i] = common_traction(j, i, skin, vof, q, pm, km)
-        insert_void_mixed_row(j, smallest_tension, max_opening, metrics, dz, mixed_count, mixed, models, materials, skin,
-                              vof, q, pm, km, p, solid, bulk, opened)
-        if along_compression:
-            compression_viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar,
-                                      bulk, solid, cl, qr, qz, qt, qrz)
-        else:
-            viscosity_row(j, viscosity_linear, viscosity_quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid,
-                          cl, qr, qz, qt)
-        steps_row(j, part, courant, advective_courant, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl,
-                  qr, qz, hg_coefficient, row_step, bad, scratch)
+    pressures_row(j, part, w)
+    if w.opened[j] > 0.0:
+        mixed_row(j, w.active_range, w.scratch[0, part], w)
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        if w.skin[KIND, j, i] == WHOLE and 0.0 < w.solid[j, i] < 1.0 - NO_VOID:  # a pure cell that has fractured
+            w.skin[KIND, j, i] = FREE_SURFACE
+        if w.skin[KIND, j, i] != WHOLE:
+            w.p[j, i], w.bulk[j, i] = common_traction(j, i, w)
+    insert_void_mixed_row(j, w)
+    if w.along_compression:
+        compression_viscosity_row(j, w)
+    else:
+        viscosity_row(j, w)
+    steps_row(j, part, w)
 
 
 @point
-def cell_motion(j, i, g, dt, h, metrics, hg_coefficient, u0, v0, u, v, motion):
+def cell_motion(j, i, g, w):
     """Volume times the velocity gradients of group g in cell (j, i), and the work of its hourglass filter.
 
     Writes   motion [j, g, RR to HOURGLASS]
     """
     a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(
-        i, u0[g, j], u0[g, j + 1], v0[g, j], v0[g, j + 1], metrics, h)
+        i, w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.metrics, w.dz[j])
     rr, tt, zz, rbz, zbr = velocity_gradient(
-        i, u[g, j], u[g, j + 1], v[g, j], v[g, j + 1], metrics, h)
-    h_u0, h_v0 = hourglass_mode(i, u0[g, j], u0[g, j + 1]), hourglass_mode(i, v0[g, j], v0[g, j + 1])
-    h_u, h_v = hourglass_mode(i, u[g, j], u[g, j + 1]), hourglass_mode(i, v[g, j], v[g, j + 1])
-    motion[j, g, RR] = rr
-    motion[j, g, TT] = tt
-    motion[j, g, ZZ] = zz
-    motion[j, g, RBZ] = rbz
-    motion[j, g, ZBR] = zbr
-    motion[j, g, MEAN_RR] = 0.5 * (a_rr + rr)
-    motion[j, g, MEAN_TT] = 0.5 * (a_tt + tt)
-    motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
-    motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-    motion[j, g, HOURGLASS] = 0.5 * dt * hg_coefficient[j, i] * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+        i, w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1], w.metrics, w.dz[j])
+    h_u0, h_v0 = hourglass_mode(i, w.u0[g, j], w.u0[g, j + 1]), hourglass_mode(i, w.v0[g, j], w.v0[g, j + 1])
+    h_u, h_v = hourglass_mode(i, w.u[g, j], w.u[g, j + 1]), hourglass_mode(i, w.v[g, j], w.v[g, j + 1])
+    w.motion[j, g, RR] = rr
+    w.motion[j, g, TT] = tt
+    w.motion[j, g, ZZ] = zz
+    w.motion[j, g, RBZ] = rbz
+    w.motion[j, g, ZBR] = zbr
+    w.motion[j, g, MEAN_RR] = 0.5 * (a_rr + rr)
+    w.motion[j, g, MEAN_TT] = 0.5 * (a_tt + tt)
+    w.motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
+    w.motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
+    w.motion[j, g, HOURGLASS] = 0.5 * w.dt * w.hg_coefficient[j, i] * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
 
 
 @point
-def heat_of_ties(j, i, g, h, metrics, gases, skin, vof, q, u0, v0, u, v, mix):
+def heat_of_ties(j, i, g, w):
     """Gives what the ties of a cell beside a gas take of the motion to its bodies that are none, by mass (`ties`).
 
     Updates  mix [j, HEAT, m]
     """
-    by_r, by_z = ties(j, i, metrics, h, skin, gases, vof, q)
+    by_r, by_z = ties(j, i, w)
     if by_r + by_z == 0.0:
         return
-    work = tied_work(i, by_r, by_z, u0[g, j], u0[g, j + 1], u[g, j], u[g, j + 1]) + tied_work(
-        i, by_r, by_z, v0[g, j], v0[g, j + 1], v[g, j], v[g, j + 1])
-    mass = firm_density(j, i, gases, vof, q)
-    for m in range(vof.shape[0]):
-        if vof[m, j, i] > 0.0 and not gases[m]:
-            mix[j, HEAT, m] += work * q[RHO, m, j, i] * vof[m, j, i] / mass
+    work = tied_work(i, by_r, by_z, w.u0[g, j], w.u0[g, j + 1], w.u[g, j], w.u[g, j + 1]) + tied_work(
+        i, by_r, by_z, w.v0[g, j], w.v0[g, j + 1], w.v[g, j], w.v[g, j + 1])
+    mass = firm_density(j, i, w)
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0 and not w.gases[m]:
+            w.mix[j, HEAT, m] += work * w.q[RHO, m, j, i] * w.vof[m, j, i] / mass
 
 
 @point
-def soften(j, i, tipton, vof, pm, km, mix):
+def soften(j, i, w):
     """(1 over the sum of the bodies' shares in a change of volume, their mean pressure) (explanation/mixed-cells, equation 2).
 
     Writes   mix [j, SOFT, m], a body's share, not yet over their sum
     """
     compliance, mean_p = 0.0, 0.0
-    for m in range(vof.shape[0]):
-        mix[j, SOFT, m] = softness(vof[m, j, i], km[m, j, i], tipton)
-        compliance += mix[j, SOFT, m]
-        mean_p += mix[j, SOFT, m] * pm[m, j, i]
+    for m in range(w.vof.shape[0]):
+        w.mix[j, SOFT, m] = softness(w.vof[m, j, i], w.km[m, j, i], w.tipton)
+        compliance += w.mix[j, SOFT, m]
+        mean_p += w.mix[j, SOFT, m] * w.pm[m, j, i]
     inverse = 1.0 / compliance
     return inverse, mean_p * inverse
 
@@ -217,86 +203,82 @@ def filter_work(j, i, motion, cell_mass):
 
 
 @point
-def pressure_rise(j, i, middle, vof, pm):
-    """What the pressure of a cell rises by until the middle of the step, in which it is `middle`."""
+def pressure_rise(j, i, w):
+    """What the pressure of a cell rises by until the middle of the step."""
     before = 0.0
-    for m in range(vof.shape[0]):
-        before += vof[m, j, i] * pm[m, j, i] if vof[m, j, i] > 0.0 else 0.0
-    return middle - before
+    for m in range(w.vof.shape[0]):
+        before += w.vof[m, j, i] * w.pm[m, j, i] if w.vof[m, j, i] > 0.0 else 0.0
+    return w.ph[j, i] - before
 
 
 @point
-def work_beside_gas(j, i, volume, change, inverse, work, rise, target, relaxed, pm, km, vof, q, mix):
+def work_beside_gas(j, i, volume, change, inverse, work, target, relaxed, w):
     """Work in a cell that a gas shares with stiffer bodies: each body's own pressure on its own change of volume, the remainder
     by mass (explanation/mixed-cells, equation 6).
 
-    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, rise what its pressure
-    rises by to the middle of the step, and relaxed the share of its excess of pressure over the target that a body loses.
+    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, and relaxed the share of
+    its excess of pressure over the target that a body loses.
 
-    Reads    mix [j, SOFT, m]
+    Reads    mix [j, SOFT, m]; ph [j, i]
     Updates  mix [j, HEAT, m], which then has all of the work on a body
     """
-    bodies = vof.shape[0]
+    rise = pressure_rise(j, i, w)
     mass, left = 0.0, work
-    for m in range(bodies):
-        f = vof[m, j, i]
+    for m in range(w.vof.shape[0]):
+        f = w.vof[m, j, i]
         if f > 0.0:
-            mass += q[RHO, m, j, i] * f * volume
-            own = (pm[m, j, i] + rise) * mix[j, SOFT, m] * inverse * change
-            excess = pm[m, j, i] - target
-            own += (pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / km[m, j, i]
-            mix[j, HEAT, m] -= own
+            mass += w.q[RHO, m, j, i] * f * volume
+            own = (w.pm[m, j, i] + rise) * w.mix[j, SOFT, m] * inverse * change
+            excess = w.pm[m, j, i] - target
+            own += (w.pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / w.km[m, j, i]
+            w.mix[j, HEAT, m] -= own
             left += own
-    for m in range(bodies):
-        if vof[m, j, i] > 0.0:
-            mix[j, HEAT, m] += q[RHO, m, j, i] * vof[m, j, i] * volume / mass * left
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0:
+            w.mix[j, HEAT, m] += w.q[RHO, m, j, i] * w.vof[m, j, i] * volume / mass * left
 
 
 @point
-def fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, middle, relaxation, tipton, group, motion,
-              cell_mass, gases, pm, km, vof, q, mix):
+def fill_cell(j, i, change, volume, work_p, work_q, w):
     """Volumes, densities and energies after the step in a cell that bodies of one group fill: by compressibility, then
     relaxation of the pressures.
 
-    middle is the pressure of the cell in the middle of the step, Pa.
+    work_p is that of the pressure on the cell, work_q that of the viscosity.
 
-    Reads    mix [j, SOFT, m], mix [j, HEAT, m]
+    Reads    ph, solid [j, i]; mix [j, HEAT, m]
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
-    bodies = vof.shape[0]
+    inverse, mean_p = soften(j, i, w)
     bound = 1.0
-    for m in range(bodies):
-        if vof[m, j, i] > 0.0 and tipton:
-            bound = min(bound, relaxation_bound(relaxation_strain(relaxation, pm[m, j, i], mean_p, km[m, j, i])))
-    gas = is_beside_gas(j, i, gases, vof)
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0 and w.tipton:
+            bound = min(bound, relaxation_bound(relaxation_strain(w.relaxation, w.pm[m, j, i], mean_p, w.km[m, j, i])))
+    gas = is_beside_gas(j, i, w.gases, w.vof)
     if gas:
-        work = work_p + work_q + filter_work(j, i, motion, cell_mass)
-        relaxed = bound * relaxation if tipton else 0.0
-        rise = pressure_rise(j, i, middle, vof, pm)
-        work_beside_gas(j, i, volume, change, inverse, work, rise, mean_p, relaxed, pm, km, vof, q, mix)
+        work = work_p + work_q + filter_work(j, i, w.motion, w.cell_mass)
+        relaxed = bound * w.relaxation if w.tipton else 0.0
+        work_beside_gas(j, i, volume, change, inverse, work, mean_p, relaxed, w)
     after = volume + change
-    for m in range(bodies):
-        f = vof[m, j, i]
+    for m in range(w.vof.shape[0]):
+        f = w.vof[m, j, i]
         if f == 0.0:
             continue
-        mass = q[RHO, m, j, i] * f * volume
-        shift = bound * f * relaxation * (pm[m, j, i] - mean_p) / km[m, j, i] * volume if tipton else 0.0
-        filled = f * volume + mix[j, SOFT, m] * inverse * change + shift
+        mass = w.q[RHO, m, j, i] * f * volume
+        shift = bound * f * w.relaxation * (w.pm[m, j, i] - mean_p) / w.km[m, j, i] * volume if w.tipton else 0.0
+        filled = f * volume + w.mix[j, SOFT, m] * inverse * change + shift
         filled = max(filled, 0.5 * f * volume)
-        q[RHO, m, j, i] = mass / filled if filled != f * volume else q[RHO, m, j, i]
-        vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
+        w.q[RHO, m, j, i] = mass / filled if filled != f * volume else w.q[RHO, m, j, i]
+        w.vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
         if gas:
-            q[E, m, j, i] += mix[j, HEAT, m] / mass
+            w.q[E, m, j, i] += w.mix[j, HEAT, m] / mass
             continue
-        rubbed = f / total * (work_q + motion[j, group[m], HOURGLASS])
-        gained = mix[j, SOFT, m] * inverse * work_p + rubbed + mix[j, HEAT, m]
-        q[E, m, j, i] += (gained - mean_p * shift) / mass
+        rubbed = f / w.solid[j, i] * (work_q + w.motion[j, w.group[m], HOURGLASS])
+        gained = w.mix[j, SOFT, m] * inverse * work_p + rubbed + w.mix[j, HEAT, m]
+        w.q[E, m, j, i] += (gained - mean_p * shift) / mass
 
 
-@kernel
-def deform_mixed(part, parts, dt, relaxation, tipton, strength_mode, hard_bodies, hard_threshold, metrics, dz, mixed_count,
-                 mixed, group, contact_columns, cell_mass, models, materials, gases, u0, v0, u, v, fr, fz, ph, qr, qz, qt, qrz,
-                 hg_coefficient, skin, p, bulk, solid, pm, km, tm, vof, q, mix, motion, internal, centroid):
+@cell_rows
+def deform_mixed(j, w):
     """The Lagrangian step of the bodies in mixed cells.
 
     Where fluids fill a cell together, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
@@ -312,49 +294,40 @@ def deform_mixed(part, parts, dt, relaxation, tipton, strength_mode, hard_bodies
     Updates  vof [m, j, i] (share of the volume after the step), q [k, m, j, i], centroid [2, m, j, i]
     Scratch  mix [j, 17, m] (rows SOFT to SHIFT_Z), motion [j, b, 10], internal [j, k]
     """
-    groups = cell_mass.shape[0]
-    for j in range(parts[part], parts[part + 1]):
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            volume = metrics[VOL_R, i] * dz[j]
-            change = (fr[j, i + 1] - fr[j, i]) + (fz[j + 1, i] - fz[j, i])
-            work_q, work_p, held = 0.0, 0.0, 0
-            for g in range(groups):
-                if cell_mass[g, j, i] > 0.0:
-                    held += 1
-                    cell_motion(j, i, g, dt, dz[j], metrics, hg_coefficient, u0, v0, u, v, motion)
-                    across = motion[j, g, MEAN_RR] + motion[j, g, MEAN_TT]
-                    work_q = -dt * ((qr[j, i] * across + qz[j, i] * motion[j, g, MEAN_ZZ])
-                                    + ((qt[j, i] - qr[j, i]) * motion[j, g, MEAN_TT] + qrz[j, i] * motion[j, g, MEAN_RZ]))
-                    work_p = -ph[j, i] * dt * (across + motion[j, g, MEAN_ZZ])
-            if groups > 1 and contact_columns[j, 0] <= i < contact_columns[j, 1]:
-                work_q = -qr[j, i] * change
-                work_p = -ph[j, i] * change
-            total, meet = solid[j, i], held > 1
-            dominant = dominant_body(j, i, hard_bodies, hard_threshold, vof)
-            for m in range(vof.shape[0]):
-                mix[j, BEFORE, m] = vof[m, j, i]
-                mix[j, NORMAL, m] = normal_deviator(m, j, i, skin, q) if vof[m, j, i] > 0.0 else 0.0
-            cut, own = skin[KIND, j, i] != WHOLE, strength_mode == MATERIAL or dominant >= 0 or meet
-            target = 0.0
-            work_of_deviators(j, i, dt, dominant, total, stress_scale(strength_mode == SOLID, total), group, motion, vof, q,
-                              mix)
-            for g in range(groups):
-                if cell_mass[g, j, i] > 0.0:
-                    heat_of_ties(j, i, g, dz[j], metrics, gases, skin, vof, q, u0, v0, u, v, mix)
-            firm = firm_share(j, i, total, gases, vof)
-            cell_yield = strain_deviators(j, i, dt / volume, strength_mode, firm, skin, group, models, materials, pm, tm,
-                                          motion, vof, q, mix, internal)
-            if cut:
-                target = strain_bodies_across(j, i, own, cell_yield, change / volume, max(1.0 - total, 0.0), skin, p, bulk,
-                                              models, vof, pm, km, q, mix)
-            return_deviators(j, i, dt, own, cell_yield, dominant, volume, total, models, materials, pm, tm, vof, q, mix,
-                             internal)
-            if cut:
-                fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, motion, cell_mass), vof,
-                              pm, q, mix)
-            else:
-                inverse, mean_p = soften(j, i, tipton, vof, pm, km, mix)
-                fill_cell(j, i, change, volume, total, inverse, mean_p, work_p, work_q, ph[j, i], relaxation, tipton, group,
-                          motion, cell_mass, gases, pm, km, vof, q, mix)
-            push_bodies(j, i, vof, centroid, mix)
+    groups = w.cell_mass.shape[0]
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        volume = w.metrics[VOL_R, i] * w.dz[j]
+        change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
+        work_q, work_p, held = 0.0, 0.0, 0
+        for g in range(groups):
+            if w.cell_mass[g, j, i] > 0.0:
+                held += 1
+                cell_motion(j, i, g, w)
+                across = w.motion[j, g, MEAN_RR] + w.motion[j, g, MEAN_TT]
+                work_q = -w.dt * ((w.qr[j, i] * across + w.qz[j, i] * w.motion[j, g, MEAN_ZZ])
+                                + ((w.qt[j, i] - w.qr[j, i]) * w.motion[j, g, MEAN_TT] + w.qrz[j, i] * w.motion[j, g, MEAN_RZ]))
+                work_p = -w.ph[j, i] * w.dt * (across + w.motion[j, g, MEAN_ZZ])
+        if groups > 1 and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
+            work_q = -w.qr[j, i] * change
+            work_p = -w.ph[j, i] * change
+        meet = held > 1
+        dominant = dominant_body(j, i, w)
+        for m in range(w.vof.shape[0]):
+            w.mix[j, BEFORE, m] = w.vof[m, j, i]
+            w.mix[j, NORMAL, m] = normal_deviator(m, j, i, w.skin, w.q) if w.vof[m, j, i] > 0.0 else 0.0
+        cut, own = w.skin[KIND, j, i] != WHOLE, w.strength_mode == MATERIAL or dominant >= 0 or meet
+        target = 0.0
+        work_of_deviators(j, i, dominant, w)
+        for g in range(groups):
+            if w.cell_mass[g, j, i] > 0.0:
+                heat_of_ties(j, i, g, w)
+        cell_yield = strain_deviators(j, i, w.dt / volume, w)
+        if cut:
+            target = strain_bodies_across(j, i, own, cell_yield, change / volume, w)
+        return_deviators(j, i, own, cell_yield, dominant, w)
+        if cut:
+            fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, w.motion, w.cell_mass), w)
+        else:
+            fill_cell(j, i, change, volume, work_p, work_q, w)
+        push_bodies(j, i, w)

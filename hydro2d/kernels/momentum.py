@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, plus, point, rowwise
+from hydro2d.jit import apart, cell_rows, kernel, plus, point, rowwise
 from hydro2d.kernels.boundaries import held_at
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
@@ -17,8 +17,14 @@ MOMENTUM, KE, BOTH = range(3)
 SLIGHT = 1e-4
 
 
+@point
+def dual_range(j, group_ranges, w):
+    """Vertices of row j from which something may flow within the active columns."""
+    return max(group_ranges[1 + w.dj, j, 0], w.i0) - w.di, min(group_ranges[1 + w.dj, j, 1] + 1, w.i1 + 1)
+
+
 @rowwise
-def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steepness, mass, w, dual):
+def dual_row(g, j, slot, w):
     """Mass, momentum and kinetic energy of group g that flow between the vertices of row j and those at higher r or z.
 
     r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
@@ -27,29 +33,30 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steep
 
     No slope is larger than steepness times the smaller difference to a neighbour.
 
-    Reads    flux_mass, mass [b, j, i], w = (u, v) [c, b, j, i]
+    Reads    flux_mass, mass [b, j, i], velocity0 [c, b, j, i]
     Writes   dual [k, slot, i]: mass, radial and axial momentum, and kinetic energy of each component
     """
-    lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
+    dj, di = w.dj, w.di
+    lo, hi = dual_range(j, w.group_ranges[g], w)
     n = hi - lo
     if n > 0:
-        flow = dual[0, slot, lo:hi]
-        half = dual[5, slot, lo:hi]
-        here = flux_mass[g, j, lo - 1:hi + 1]
-        inner = metrics[CM_IN, lo:hi]
-        outer = metrics[CM_OUT, lo - dj:hi]
+        flow = w.dual[0, slot, lo:hi]
+        half = w.dual[5, slot, lo:hi]
+        here = w.flux_mass[g, j, lo - 1:hi + 1]
+        inner = w.metrics[CM_IN, lo:hi]
+        outer = w.metrics[CM_OUT, lo - dj:hi]
         if di == 1:
-            below = flux_mass[g, j - 1, lo:hi + 1]
+            below = w.flux_mass[g, j - 1, lo:hi + 1]
             for x in range(n):
                 flow[x] = outer[x] * (below[x] + here[x + 1]) + inner[x] * (below[x + 1] + here[x + 2])
         else:
-            above = flux_mass[g, j + 1, lo - 1:hi]
+            above = w.flux_mass[g, j + 1, lo - 1:hi]
             for x in range(n):
                 flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
-        m_ll = mass[g, j - dj, lo - di:hi - di]
-        m_l = mass[g, j, lo:hi]
-        m_r = mass[g, j + dj, lo + di:hi + di]
-        m_rr = mass[g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
+        m_ll = w.mass[g, j - dj, lo - di:hi - di]
+        m_l = w.mass[g, j, lo:hi]
+        m_r = w.mass[g, j + dj, lo + di:hi + di]
+        m_rr = w.mass[g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
         for x in range(n):
             up = flow[x] > 0.0
             whole = max(m_l[x], TINY) if up else max(m_r[x], TINY)
@@ -58,186 +65,178 @@ def dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steep
             there = smoothstep(least / (SLIGHT * max(most, TINY)))
             half[x] = 0.5 * there * (1.0 - min(abs(flow[x]) / whole, 1.0))
         for c in range(2):
-            a_ll = w[c, g, j - dj, lo - di:hi - di]
-            a_l = w[c, g, j, lo:hi]
-            a_r = w[c, g, j + dj, lo + di:hi + di]
-            a_rr = w[c, g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
-            carried = dual[1 + c, slot, lo:hi]
-            kinetic = dual[3 + c, slot, lo:hi]
+            a_ll = w.velocity0[c, g, j - dj, lo - di:hi - di]
+            a_l = w.velocity0[c, g, j, lo:hi]
+            a_r = w.velocity0[c, g, j + dj, lo + di:hi + di]
+            a_rr = w.velocity0[c, g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
+            carried = w.dual[1 + c, slot, lo:hi]
+            kinetic = w.dual[3 + c, slot, lo:hi]
             for x in range(n):
                 up = flow[x] > 0.0
-                donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x], steepness)
+                donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x], w.steepness)
                 carried[x] = flow[x] * (donor + half[x] * slope)
                 donor, slope = upwind(up, 0.5 * a_ll[x] * a_ll[x], 0.5 * a_l[x] * a_l[x], 0.5 * a_r[x] * a_r[x],
-                                      0.5 * a_rr[x] * a_rr[x], steepness)
+                                      0.5 * a_rr[x] * a_rr[x], w.steepness)
                 kinetic[x] = flow[x] * (donor + half[x] * slope)
 
 
-@point
-def dual_range(dj, di, i0, i1, j, group_ranges):
-    """Vertices of row j from which something may flow within the active columns."""
-    return max(group_ranges[1 + dj, j, 0], i0) - di, min(group_ranges[1 + dj, j, 1] + 1, i1 + 1)
-
-
 @apart
-def rest_on_anvil(edge, g, j, lo, hi, at, new_j, w_old, w, left, sums):
-    """Takes the normal velocity of vertices in column or row `at` that rest on an edge that only pushes or would go beyond it.
+def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
+    """Takes the normal velocity of vertices that rest on an edge that only pushes or would go beyond it.
 
-    Reads    new_j [x], masses of the columns from lo;  w_old = (u, v) [c, b, j, i]
-    Updates  w = (u, v) [c, b, j, i]; left [x], energy that is given to cells, per mass; sums [5, j] as in vertex_row
+    Reads    new_j [x], masses of the columns from lo;  velocity0 [c, b, j, i]
+    Updates  velocity [c, b, j, i]; left [x], energy that is given to cells, per mass; momentum_sums [5, j] as in vertex_row
     """
-    c = edge // 2
+    c, at = edge // 2, w.pushing[edge]
     if c == 1 and j != at:
         return
     for i in range(max(at, lo) if c == 0 else lo, min(at + 1, hi) if c == 0 else hi):
-        after = w[c, g, j, i]
-        if after == 0.0 or (w_old[c, g, j, i] != 0.0 and held_at(edge, True, 0.0, after) != 0.0):
+        after = w.velocity[c, g, j, i]
+        if after == 0.0 or (w.velocity0[c, g, j, i] != 0.0 and held_at(edge, True, 0.0, after) != 0.0):
             continue
-        w[c, g, j, i] = 0.0
+        w.velocity[c, g, j, i] = 0.0
         left[i - lo] += 0.5 * after * after
-        sums[1, j] -= 0.5 * new_j[i - lo] * after * after
+        w.momentum_sums[1, j] -= 0.5 * new_j[i - lo] * after * after
         if c == 1:
-            sums[4, j] += new_j[i - lo] * after
+            w.momentum_sums[4, j] += new_j[i - lo] * after
 
 
 @rowwise
-def vertex_row(g, dj, di, j, i0, i1, below, above, advection, bound, constrained, pushing, held, metrics, group_ranges,
-               cell_mass, dual, w_old, w, mass, deficit, sums):
+def vertex_row(g, j, below, above, w):
     """Velocities of group g in row j after the sweep, by the kind of advection (explanation/remap, equations 7 to 9).
 
     momentum   u = P/M
-    ke         u = sign(P) sqrt(2 K/M) per component, |u| <= bound |P/M|
+    ke         u = sign(P) sqrt(2 K/M) per component, |u| <= ke_bound |P/M|
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
     open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
-    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, held what it is. That on edges
-    that only push, likewise in `pushing`, stays 0 where it is, and is 0 where it would go beyond.
+    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, edge_velocity what it is. On
+    edges that only push, likewise in `pushing`, it stays 0 where it is, and is 0 where it would go beyond.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
-             w_old = (u, v) [c, b, j, i] and mass [b, j, i] before it
-    Writes   velocity = (u, v) [c, b, j, i] for the whole row; deficit [b, j, i]
-    Updates  sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the bound;
-             axial momentum given to walls
+             velocity0 [c, b, j, i] and mass [b, j, i] before it
+    Writes   velocity [c, b, j, i] for the whole row; deficit [b, j, i]
+    Updates  momentum_sums [5, j]: kinetic energy before and after; axial momentum after less P; kinetic energy cut by the
+             bound; axial momentum given to walls
     """
-    lo, hi = max(group_ranges[g, 1, j, 0], i0), min(group_ranges[g, 1, j, 1] + 1, i1)
+    dj, di = w.dj, w.di
+    lo, hi = max(w.group_ranges[g, 1, j, 0], w.i0), min(w.group_ranges[g, 1, j, 1] + 1, w.i1 + 1)
     n = hi - lo
     for c in range(2):
-        copy_beside(w_old[c, g, j], w[c, g, j], i0 - GHOSTS, lo, hi, i1 + GHOSTS)
+        copy_beside(w.velocity0[c, g, j], w.velocity[c, g, j], w.i0 - GHOSTS, lo, hi, w.i1 + 1 + GHOSTS)
     if n > 0:
-        low = cell_mass[g, j - 1, lo - 1:hi]
-        high = cell_mass[g, j, lo - 1:hi]
-        inner = metrics[CM_IN, lo:hi]
-        outer = metrics[CM_OUT, lo - 1:hi]
-        m_j = mass[g, j, lo:hi]
-        left = deficit[g, j, lo:hi]
-        f_in = dual[0, below, lo - di:hi - di]
-        f_out = dual[0, above, lo:hi]
-        new_j = dual[5, below, lo:hi]  # the weights that stood there have done their work
+        low = w.cell_mass[g, j - 1, lo - 1:hi]
+        high = w.cell_mass[g, j, lo - 1:hi]
+        inner = w.metrics[CM_IN, lo:hi]
+        outer = w.metrics[CM_OUT, lo - 1:hi]
+        m_j = w.mass[g, j, lo:hi]
+        left = w.deficit[g, j, lo:hi]
+        f_in = w.dual[0, below, lo - di:hi - di]
+        f_out = w.dual[0, above, lo:hi]
+        new_j = w.dual[5, below, lo:hi]  # the weights that stood there have done their work
         for x in range(n):
             left[x] = 0.0
             new_j[x] = outer[x] * (low[x] + high[x]) + inner[x] * (low[x + 1] + high[x + 1])
         for c in range(2):
-            p_in = dual[1 + c, below, lo - di:hi - di]
-            p_out = dual[1 + c, above, lo:hi]
-            k_in = dual[3 + c, below, lo - di:hi - di]
-            k_out = dual[3 + c, above, lo:hi]
-            a_j = w_old[c, g, j, lo:hi]
-            a_low = w_old[c, g, j - dj, lo - di:hi - di]
-            a_high = w_old[c, g, j + dj, lo + di:hi + di]
-            out = w[c, g, j, lo:hi]
+            p_in = w.dual[1 + c, below, lo - di:hi - di]
+            p_out = w.dual[1 + c, above, lo:hi]
+            k_in = w.dual[3 + c, below, lo - di:hi - di]
+            k_out = w.dual[3 + c, above, lo:hi]
+            a_j = w.velocity0[c, g, j, lo:hi]
+            a_low = w.velocity0[c, g, j - dj, lo - di:hi - di]
+            a_high = w.velocity0[c, g, j + dj, lo + di:hi + di]
+            out = w.velocity[c, g, j, lo:hi]
             k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
-            wall_row = c == 1 and (j == constrained[2] or j == constrained[3])
-            given = held[2 * c] if c == 0 or j == constrained[2] else held[3]  # at the low edge, if this is one
+            wall_row = c == 1 and (j == w.constrained[2] or j == w.constrained[3])
+            low_edge = c == 0 or j == w.constrained[2]
+            given = w.edge_velocity[2 * c] if low_edge else w.edge_velocity[3]
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
                 new = new_j[x]
                 resting = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
-                wall = wall_row or (c == 0 and (lo + x == constrained[0] or lo + x == constrained[1]))
-                fixed = held[1] if c == 0 and lo + x == constrained[1] else given
+                wall = wall_row or (c == 0 and (lo + x == w.constrained[0] or lo + x == w.constrained[1]))
+                fixed = w.edge_velocity[1] if c == 0 and lo + x == w.constrained[1] else given
                 over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
                 mean = min(max(momentum * over, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
                 mean = fixed if wall else mean
                 kinetic = max(0.5 * old * a * a + (k_in[x] - k_out[x]), 0.0)
-                speed = min(sqrt(2.0 * kinetic * over), bound * abs(mean))
+                speed = min(sqrt(2.0 * kinetic * over), w.ke_bound * abs(mean))
                 speed = speed if mean > 0.0 else -speed
-                after = speed if advection == KE else mean
+                after = speed if w.advection == KE else mean
                 after = fixed if wall else after
                 after = a if resting else after
                 after = after if new > 0.0 else 0.0
                 out[x] = after
                 k_before = plus(k_before, 0.5 * old * a * a)
                 k_after = plus(k_after, 0.5 * new * after * after)
-                if advection == KE:
+                if w.advection == KE:
                     moves = not resting and new > 0.0
-                    k_cut = plus(k_cut, max(kinetic - 0.5 * new * (bound * mean) * (bound * mean), 0.0) if moves else 0.0)
+                    most = w.ke_bound * mean
+                    k_cut = plus(k_cut, max(kinetic - 0.5 * new * most * most, 0.0) if moves else 0.0)
                 gained = new * (after - momentum * over) if new > 0.0 else -momentum
                 p_gained = plus(p_gained, 0.0 if resting or wall else gained)
-                if advection == BOTH:
+                if w.advection == BOTH:
                     left[x] += 0.0 if resting else (kinetic - 0.5 * new * mean * mean) * over
                 p_wall = plus(p_wall, momentum - new * fixed if wall and not resting else 0.0)
-            sums[0, j] += k_before
-            sums[1, j] += k_after
-            sums[3, j] += k_cut
+            w.momentum_sums[0, j] += k_before
+            w.momentum_sums[1, j] += k_after
+            w.momentum_sums[3, j] += k_cut
             if c == 1:
-                sums[2, j] += p_gained
-                sums[4, j] += p_wall
+                w.momentum_sums[2, j] += p_gained
+                w.momentum_sums[4, j] += p_wall
         for edge in range(4):
-            if pushing[edge] >= 0:
-                rest_on_anvil(edge, g, j, lo, hi, pushing[edge], new_j, w_old, w, left, sums)
+            if w.pushing[edge] >= 0:
+                rest_on_anvil(edge, g, j, lo, hi, new_j, left, w)
 
 
 @kernel
-def sweep_momentum(dj, di, part, parts, i0, i1, advection, ke_bound, constrained, pushing, edge_velocity, mesh_box, metrics,
-                   group_ranges, cell_mass, flux_mass, steepness, mass, velocity0, velocity, dual, edge_dual, deficit,
-                   momentum_sums):
-    """Carries the momentum of the vertices j0 to j1 along one direction.
+def sweep_momentum(part, w):
+    """Carries the momentum of vertices along one direction.
 
     Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
-    Writes   velocity = (u, v) [c, b, j, i]; deficit [b, j, i], momentum_sums [5, j]; edge_dual [b, side, k, j or i],
+    Writes   velocity [c, b, j, i]; deficit [b, j, i], momentum_sums [5, j]; edge_dual [b, side, k, j or i],
              what flows over the mesh's edges
     Scratch  dual [k, slot, i], two slots to a part; in z they take turns
     """
-    first, last = parts[part], past_row(part, parts, 1)
-    for g in range(mass.shape[0]):
+    dj, di = w.dj, w.di
+    first, last = w.parts[part], past_row(part, w.parts, 1)
+    for g in range(w.mass.shape[0]):
         for j in range(first - dj, last):
             slot = 2 * part + dj * (j % 2)
-            dual_row(g, dj, di, j, i0, i1, slot, metrics, group_ranges, flux_mass, steepness, mass, velocity0, dual)
-            lo, hi = dual_range(dj, di, i0, i1, j, group_ranges[g])
+            dual_row(g, j, slot, w)
+            lo, hi = dual_range(j, w.group_ranges[g], w)
             for side in range(2):
-                at = mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
+                at = w.mesh_box[2 * di + side] + side - 1  # the edge from a ghost vertex to the mesh, or from the mesh to one
                 for k in range(5):
                     if di == 1:
-                        edge_dual[g, side, k, j] = dual[k, slot, at] if lo <= at < hi else 0.0
+                        w.edge_dual[g, side, k, j] = w.dual[k, slot, at] if lo <= at < hi else 0.0
                     elif j == at and (j >= first or part == 0):
-                        for i in range(i0, i1 + 1):
-                            edge_dual[g, side, k, i] = dual[k, slot, i] if lo <= i < hi else 0.0
+                        for i in range(w.i0, w.i1 + 1):
+                            w.edge_dual[g, side, k, i] = w.dual[k, slot, i] if lo <= i < hi else 0.0
             if j >= first:
                 below = 2 * part + dj * ((j - 1) % 2)
                 for row in range(5):
-                    momentum_sums[row, j] = 0.0 if g == 0 else momentum_sums[row, j]
-                vertex_row(g, dj, di, j, i0, i1 + 1, below, slot, advection, ke_bound, constrained, pushing, edge_velocity,
-                           metrics, group_ranges, cell_mass, dual, velocity0, velocity, mass, deficit, momentum_sums)
+                    w.momentum_sums[row, j] = 0.0 if g == 0 else w.momentum_sums[row, j]
+                vertex_row(g, j, below, slot, w)
 
 
-@kernel
-def deposit(part, parts, metrics, ranges, group, deficit, cell_mass, vof, q, sums):
+@cell_rows
+def deposit(j, ranges, deficit, w):
     """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
 
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
-    Updates  q (e) [k, m, j, i];  writes sums [j], the energy given
+    Updates  q (e) [k, m, j, i];  writes deposited [j], the energy given
     """
-    bodies = vof.shape[0]
-    for j in range(parts[part], parts[part + 1]):
-        given = 0.0
-        for g in range(deficit.shape[0]):
-            low = deficit[g, j]
-            high = deficit[g, j + 1]
-            for i in range(ranges[j, 0], ranges[j, 1]):
-                gain = metrics[CM_IN, i] * (low[i] + high[i]) + metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
-                given += gain * cell_mass[g, j, i]
-                for m in range(bodies):
-                    if group[m] == g and vof[m, j, i] > 0.0:
-                        q[E, m, j, i] += gain
-        sums[j] = given
+    given = 0.0
+    for g in range(deficit.shape[0]):
+        low = deficit[g, j]
+        high = deficit[g, j + 1]
+        for i in range(ranges[j, 0], ranges[j, 1]):
+            gain = w.metrics[CM_IN, i] * (low[i] + high[i]) + w.metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
+            given += gain * w.cell_mass[g, j, i]
+            for m in range(w.vof.shape[0]):
+                if w.group[m] == g and w.vof[m, j, i] > 0.0:
+                    w.q[E, m, j, i] += gain
+    w.deposited[j] = given

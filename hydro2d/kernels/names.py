@@ -126,12 +126,22 @@ TIES = (
     Work("rubbing", "3 x", "friction of a node"),
 )
 
+#: how the detonation of an explosive runs through a body (`hydro2d.kernels.light_times`); its axes are those of the mesh alone
+LIGHT = (
+    Work("points", "n 3", "points that it starts from: r, z, m, and when, s"),
+    Work("speed", "", "at which it runs, m/s"),
+    Work("share", "j i", "of a cell that the body fills"),
+    Work("light", "j i", "when it arrives, s"),
+    Work("front", "3 j i", "the point from which it comes straight to a cell, m, and when it was there, s"),
+)
+
 _AXES = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
 
 #: everything that kernels of the step can name
 NAMES = (
     *(Work(field.symbol, _AXES[field.centring], field.meaning) for field in fields.FIELDS),
     *fields.WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *BLOCKS, *BODIES, *METHOD, *TIES,
+    *LIGHT,
 )
 
 declare({name.symbol: (name.kind, len(name.axes.split())) for name in NAMES})

@@ -7,7 +7,7 @@ still in the processor's cache (explanation/remap, parts of the rows).
 
 from math import inf
 
-from hydro2d.jit import kernel, point, rowwise
+from hydro2d.jit import cell_rows, kernel, point, rowwise
 from hydro2d.kernels.column_ranges import columns, mixed_row, outer_rows
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.mesh.fields import DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
@@ -22,7 +22,7 @@ FILLED = 0.9
 
 
 @rowwise
-def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, flux_volume, steepness, vof, q, scratch, flux):
+def flux_row(dj, j, m, slot, b, w):
     """Fluxes of what body m carries through the faces of row j.
 
     Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to cells
@@ -31,80 +31,81 @@ def flux_row(dj, di, j, i0, i1, m, carried, rules, slot, b, body_ranges, pre, fl
     deviators in the volume coordinate (explanation/remap, equation 4), both of the body alone: it leaves no cell with more than
     it has there.
 
-    Reads    carried [n], how many rows of q the body carries beside its density, and which; pre (pre-sweep volume) [j, i];
+    Reads    carried [m, n], how many rows of q the body carries beside its density, and which; pre (pre-sweep volume) [j, i];
              flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
-    lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
+    di = 1 - dj
+    lo, hi = flux_range(dj, m, j, w)
     n = hi - lo
     if n > 0:
-        swept = flux_volume[m, j, lo:hi]
-        f_ll = vof[m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
-        f_l = vof[m, j - dj, lo - di:hi - di]
-        f_r = vof[m, j, lo:hi]
-        f_rr = vof[m, j + dj, lo + di:hi + di]
-        pre_l = pre[j - dj, lo - di:hi - di]
-        pre_r = pre[j, lo:hi]
-        r_ll = q[RHO, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
-        r_l = q[RHO, m, j - dj, lo - di:hi - di]
-        r_r = q[RHO, m, j, lo:hi]
-        r_rr = q[RHO, m, j + dj, lo + di:hi + di]
-        mass = flux[RHO, m, slot, lo:hi]
-        half_v = scratch[0, b, lo:hi]
-        half_m = scratch[1, b, lo:hi]
+        swept = w.flux_volume[m, j, lo:hi]
+        f_ll = w.vof[m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
+        f_l = w.vof[m, j - dj, lo - di:hi - di]
+        f_r = w.vof[m, j, lo:hi]
+        f_rr = w.vof[m, j + dj, lo + di:hi + di]
+        pre_l = w.pre[j - dj, lo - di:hi - di]
+        pre_r = w.pre[j, lo:hi]
+        r_ll = w.q[RHO, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
+        r_l = w.q[RHO, m, j - dj, lo - di:hi - di]
+        r_r = w.q[RHO, m, j, lo:hi]
+        r_rr = w.q[RHO, m, j + dj, lo + di:hi + di]
+        mass = w.flux[RHO, m, slot, lo:hi]
+        half_v = w.scratch[0, b, lo:hi]
+        half_m = w.scratch[1, b, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
             both = min(f_l[x], f_r[x])
             least = min(both, f_ll[x]) if up else min(both, f_rr[x])
             clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
-            donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], steepness)
+            donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], w.steepness)
             volume = max(f_l[x] * pre_l[x] if up else f_r[x] * pre_r[x], TINY)
             half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
             mass[x] = flow
-        for place in range(1, carried[0] + 1):
-            k = carried[place]
-            a_ll = q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
-            a_l = q[k, m, j - dj, lo - di:hi - di]
-            a_r = q[k, m, j, lo:hi]
-            a_rr = q[k, m, j + dj, lo + di:hi + di]
-            out = flux[k, m, slot, lo:hi]
-            by_mass = rules[m, k, PER_MASS] > 0.0
-            carrier = flux[RHO, m, slot, lo:hi] if by_mass else flux_volume[m, j, lo:hi]
-            weight = scratch[1 if by_mass else 0, b, lo:hi]
+        for place in range(1, w.carried[m, 0] + 1):
+            k = w.carried[m, place]
+            a_ll = w.q[k, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
+            a_l = w.q[k, m, j - dj, lo - di:hi - di]
+            a_r = w.q[k, m, j, lo:hi]
+            a_rr = w.q[k, m, j + dj, lo + di:hi + di]
+            out = w.flux[k, m, slot, lo:hi]
+            by_mass = w.rules[m, k, PER_MASS] > 0.0
+            carrier = w.flux[RHO, m, slot, lo:hi] if by_mass else w.flux_volume[m, j, lo:hi]
+            weight = w.scratch[1 if by_mass else 0, b, lo:hi]
             for x in range(n):
-                donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x], steepness)
+                donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x], w.steepness)
                 out[x] = carrier[x] * (donor + weight[x] * slope)
 
 
 @rowwise
-def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, body_ranges, face, pre, flux_volume, flux, scratch, vof,
-               q):
+def update_row(dj, j, m, below, above, b, w):
     """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
 
     Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
 
-    Reads    carried [n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
+    Reads    carried [m, n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
              flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
-    lo, hi = max(body_ranges[dj, m, j, 0] - di, i0), min(body_ranges[dj, m, j, 1] + di, i1)
+    di = 1 - dj
+    lo, hi = max(w.body_ranges[dj, m, j, 0] - di, w.i0), min(w.body_ranges[dj, m, j, 1] + di, w.i1)
     n = hi - lo
     if n > 0:
-        v_in = flux_volume[m, j, lo:hi]
-        v_out = flux_volume[m, j + dj, lo + di:hi + di]
-        s_in = face[j, lo:hi]
-        s_out = face[j + dj, lo + di:hi + di]
-        m_in = flux[RHO, m, below, lo:hi]
-        m_out = flux[RHO, m, above, lo + di:hi + di]
-        f_j = vof[m, j, lo:hi]
-        r_j = q[RHO, m, j, lo:hi]
-        pre_j = pre[j, lo:hi]
-        old_v = scratch[0, b, lo:hi]
-        old_m = scratch[1, b, lo:hi]
-        new_v = scratch[2, b, lo:hi]
-        new_m = scratch[3, b, lo:hi]
+        v_in = w.flux_volume[m, j, lo:hi]
+        v_out = w.flux_volume[m, j + dj, lo + di:hi + di]
+        s_in = w.face[j, lo:hi]
+        s_out = w.face[j + dj, lo + di:hi + di]
+        m_in = w.flux[RHO, m, below, lo:hi]
+        m_out = w.flux[RHO, m, above, lo + di:hi + di]
+        f_j = w.vof[m, j, lo:hi]
+        r_j = w.q[RHO, m, j, lo:hi]
+        pre_j = w.pre[j, lo:hi]
+        old_v = w.scratch[0, b, lo:hi]
+        old_m = w.scratch[1, b, lo:hi]
+        new_v = w.scratch[2, b, lo:hi]
+        new_m = w.scratch[3, b, lo:hi]
         for x in range(n):
             volume = f_j[x] * pre_j[x]
             mass = volume * r_j[x]
@@ -122,69 +123,69 @@ def update_row(dj, di, j, i0, i1, m, carried, rules, below, above, b, body_range
             old_m[x] = 1.0 if same else mass
             new_v[x] = 1.0 if same else (1.0 / after if after > TINY else 0.0)  # less has no inverse
             new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > TINY else 0.0)
-        for place in range(1, carried[0] + 1):
-            k = carried[place]
-            a_j = q[k, m, j, lo:hi]
-            a_in = flux[k, m, below, lo:hi]
-            a_out = flux[k, m, above, lo + di:hi + di]
-            by_mass = rules[m, k, PER_MASS] > 0.0
-            before = scratch[1 if by_mass else 0, b, lo:hi]
-            inverse = scratch[3 if by_mass else 2, b, lo:hi]
+        for place in range(1, w.carried[m, 0] + 1):
+            k = w.carried[m, place]
+            a_j = w.q[k, m, j, lo:hi]
+            a_in = w.flux[k, m, below, lo:hi]
+            a_out = w.flux[k, m, above, lo + di:hi + di]
+            by_mass = w.rules[m, k, PER_MASS] > 0.0
+            before = w.scratch[1 if by_mass else 0, b, lo:hi]
+            inverse = w.scratch[3 if by_mass else 2, b, lo:hi]
             for x in range(n):
                 a_j[x] = (a_j[x] * before[x] + (a_in[x] - a_out[x])) * inverse[x]
-            least, most = rules[m, k, LEAST], rules[m, k, MOST]
+            least, most = w.rules[m, k, LEAST], w.rules[m, k, MOST]
             if least > -inf or most < inf:
                 full = FULL * most
                 for x in range(n):
                     a_j[x] = most if a_j[x] > full else max(a_j[x], least)
             if k == DMG:
                 for component in range(SRR, SRZ + 1):
-                    s_j = q[component, m, j, lo:hi]
+                    s_j = w.q[component, m, j, lo:hi]
                     for x in range(n):
                         s_j[x] = s_j[x] if a_j[x] < 1.0 else 0.0
 
 
 @rowwise
-def mass_flux_row(dj, di, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass):
+def mass_flux_row(dj, j, slot, w):
     """Mass flux of each group through the faces of row j, zero wherever the dual fluxes read it and nothing flows.
 
     Reads    group [m]; flux [k, m, slot, i];  writes flux_mass [b, j, i]
     """
-    for g in range(flux_mass.shape[0]):
-        lo, n = columns(max(group_ranges[g, 3, j, 0] - 2, i0 - 2), min(group_ranges[g, 3, j, 1] + 3, i1 + 3))
-        total = flux_mass[g, j]
+    for g in range(w.flux_mass.shape[0]):
+        lo, n = columns(max(w.group_ranges[g, 3, j, 0] - 2, w.i0 - 2), min(w.group_ranges[g, 3, j, 1] + 3, w.i1 + 3))
+        total = w.flux_mass[g, j]
         for x in range(n):
             total[lo + x] = 0.0
-    for m in range(body_ranges.shape[1]):
-        lo, hi = flux_range(dj, di, i0, i1, m, j, body_ranges)
+    for m in range(w.body_ranges.shape[1]):
+        lo, hi = flux_range(dj, m, j, w)
         lo, n = columns(lo, hi)
-        mass = flux[RHO, m, slot]
-        total = flux_mass[group[m], j]
+        mass = w.flux[RHO, m, slot]
+        total = w.flux_mass[w.group[m], j]
         for x in range(n):
             total[lo + x] += mass[lo + x]
 
 
 @rowwise
-def cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof, q, cell_mass):
+def cell_mass_row(dj, di, j, pre, face, second, w):
     """Mass of each group in the cells of row j, in the volume that they have after the sweep.
 
     Reads    group [m]; pre (pre-sweep volume), face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
-    for g in range(cell_mass.shape[0]):
-        lo, n = columns(group_ranges[g, 0, j, 0], group_ranges[g, 0, j, 1])
-        out = cell_mass[g, j]
+    for g in range(w.cell_mass.shape[0]):
+        lo, n = columns(w.group_ranges[g, 0, j, 0], w.group_ranges[g, 0, j, 1])
+        out = w.cell_mass[g, j]
         for x in range(n):
             out[lo + x] = 0.0
-        for m in range(vof.shape[0]):
-            if group[m] == g:
-                f_j = vof[m, j]
-                rho_j = q[RHO, m, j]
+        for m in range(w.vof.shape[0]):
+            if w.group[m] == g:
+                f_j = w.vof[m, j]
+                rho_j = w.q[RHO, m, j]
                 for x in range(n):
                     i = lo + x
                     out[i] += f_j[i] * rho_j[i]
         if second:
-            volume_j = volume[j]
+            volume_j = w.volume[j]
             for x in range(n):
                 out[lo + x] *= volume_j[lo + x]
         else:
@@ -196,15 +197,14 @@ def cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof
                 out[i] *= pre_j[i] - (s_out[i + di] - s_in[i])
 
 
-@kernel
-def sum_cell_mass(part, parts, group_ranges, group, volume, vof, q, cell_mass):
+@cell_rows
+def sum_cell_mass(j, w):
     """Mass of each group in every cell, without a sweep.
 
     Reads    group [m]; volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        cell_mass_row(0, 0, j, group_ranges, group, volume, volume, volume, True, vof, q, cell_mass)
+    cell_mass_row(0, 0, j, w.volume, w.volume, True, w)
 
 
 @point
@@ -220,24 +220,21 @@ def forget_centroids(j, i, vof, centroid):
 
 
 @rowwise
-def sweep_row(dj, di, j, i0, i1, below, above, b, carried, rules, group, body_ranges, group_ranges, face, pre, volume, second,
-              flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed, centroid):
+def sweep_row(dj, j, below, above, b, w):
     """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed.
 
     Cells that were mixed and are no more have no centroids.
     """
-    for m in range(body_ranges.shape[1]):
-        update_row(dj, di, j, i0, i1, m, carried[m], rules, below, above, b, body_ranges, face, pre, flux_volume, flux, scratch,
-                   vof, q)
-    cell_mass_row(dj, di, j, group_ranges, group, pre, face, volume, second, vof, q, cell_mass)
-    for k in range(mixed_count[j]):
-        forget_centroids(j, mixed[j, k], vof, centroid)
-    mixed_row(j, group_ranges[0, 0], vof, scratch[0], b, mixed_count, mixed)
+    for m in range(w.body_ranges.shape[1]):
+        update_row(dj, j, m, below, above, b, w)
+    cell_mass_row(dj, 1 - dj, j, w.pre, w.face, w.second, w)
+    for k in range(w.mixed_count[j]):
+        forget_centroids(j, w.mixed[j, k], w.vof, w.centroid)
+    mixed_row(j, w.group_ranges[0, 0], w.scratch[0, b], w)
 
 
-@kernel
-def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
-            flux_volume, steepness, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
+@cell_rows
+def sweep_r(j, part, w):
     """Carries every body along r: fluxes and update row by row.
 
     Reads    carried [m, n]; group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
@@ -247,18 +244,15 @@ def sweep_r(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, g
     Scratch  scratch [s, part, i], flux [k, m, slot, i]
     """
     slot = 6 * part + 3
-    for j in range(parts[part], parts[part + 1]):
-        for m in range(body_ranges.shape[1]):
-            flux_row(0, 1, j, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, steepness, vof, q,
-                     scratch, flux)
-            lo, hi = flux_range(0, 1, i0, i1, m, j, body_ranges)
-            for side in range(2):
-                i = mesh_box[2 + side]
-                edge_flux[side, RHO, m, j] = flux[RHO, m, slot, i] if lo <= i < hi else 0.0
-                edge_flux[side, E, m, j] = flux[E, m, slot, i] if lo <= i < hi else 0.0
-        mass_flux_row(0, 1, j, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
-        sweep_row(0, 1, j, i0, i1, slot, slot, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
-                  second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed, centroid)
+    for m in range(w.body_ranges.shape[1]):
+        flux_row(0, j, m, slot, part, w)
+        lo, hi = flux_range(0, m, j, w)
+        for side in range(2):
+            i = w.mesh_box[2 + side]
+            w.edge_flux[side, RHO, m, j] = w.flux[RHO, m, slot, i] if lo <= i < hi else 0.0
+            w.edge_flux[side, E, m, j] = w.flux[E, m, slot, i] if lo <= i < hi else 0.0
+    mass_flux_row(0, j, slot, w)
+    sweep_row(0, j, slot, slot, part, w)
 
 
 @point
@@ -282,50 +276,46 @@ def slot_of(f, part, parts):
 
 
 @kernel
-def shared_fluxes(part, parts, i0, i1, carried, rules, body_ranges, pre, flux_volume, steepness, vof, q, scratch, flux):
+def shared_fluxes(part, w):
     """Fluxes along z through the faces that a part shares with the part below, before either changes.
 
     Reads    as sweep_z;  writes flux [k, m, slot, i];  scratch [s, part, i]
     """
     if part > 0:
-        for f in range(parts[part] - 1, parts[part] + 2):
-            for m in range(body_ranges.shape[1]):
-                flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot_of(f, part, parts), part, body_ranges, pre, flux_volume,
-                         steepness, vof, q, scratch, flux)
+        for f in range(w.parts[part] - 1, w.parts[part] + 2):
+            for m in range(w.body_ranges.shape[1]):
+                flux_row(1, f, m, slot_of(f, part, w.parts), part, w)
 
 
 @kernel
-def sweep_z(part, parts, i0, i1, carried, rules, group, mesh_box, body_ranges, group_ranges, face, pre, volume, second,
-            flux_volume, steepness, scratch, flux, flux_mass, edge_flux, vof, q, cell_mass, mixed_count, mixed, centroid):
+def sweep_z(part, w):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
     Reads    flux of the faces that two parts share (shared_fluxes), and what sweep_r reads
     Updates, writes and scratch as sweep_r; edge_flux [side, k, m, i]
     """
-    _, end = outer_rows(parts)
-    first, last = parts[part], parts[part + 1]
+    _, end = outer_rows(w.parts)
+    first, last = w.parts[part], w.parts[part + 1]
     for f in range(first, last + 2):
         if f <= last:
-            slot = slot_of(f, part, parts)
-            if shared_slot(f, part, parts) < 0:
-                for m in range(body_ranges.shape[1]):
-                    flux_row(1, 0, f, i0, i1, m, carried[m], rules, slot, part, body_ranges, pre, flux_volume, steepness, vof,
-                             q, scratch, flux)
+            slot = slot_of(f, part, w.parts)
+            if shared_slot(f, part, w.parts) < 0:
+                for m in range(w.body_ranges.shape[1]):
+                    flux_row(1, f, m, slot, part, w)
             if f < last or last == end:
-                mass_flux_row(1, 0, f, i0, i1, slot, group_ranges, body_ranges, group, flux, flux_mass)
+                mass_flux_row(1, f, slot, w)
             for side in range(2):
-                if f == mesh_box[side]:
-                    for m in range(body_ranges.shape[1]):
-                        lo, hi = flux_range(1, 0, i0, i1, m, f, body_ranges)
+                if f == w.mesh_box[side]:
+                    for m in range(w.body_ranges.shape[1]):
+                        lo, hi = flux_range(1, m, f, w)
                         for k in range(2):
-                            for i in range(i0, i1):
-                                edge_flux[side, k, m, i] = flux[k, m, slot, i] if lo <= i < hi else 0.0
+                            for i in range(w.i0, w.i1):
+                                w.edge_flux[side, k, m, i] = w.flux[k, m, slot, i] if lo <= i < hi else 0.0
         j = f - 2 if f <= last else last - 1
         if j >= first and (f > last or j < last - 1):
-            below = slot_of(j, part, parts)
-            above = slot_of(j + 1, part, parts)
-            sweep_row(1, 0, j, i0, i1, below, above, part, carried, rules, group, body_ranges, group_ranges, face, pre, volume,
-                      second, flux_volume, flux, scratch, vof, q, cell_mass, mixed_count, mixed, centroid)
+            below = slot_of(j, part, w.parts)
+            above = slot_of(j + 1, part, w.parts)
+            sweep_row(1, j, below, above, part, w)
 
 
 #: shares of a cell that are round-off
@@ -342,9 +332,8 @@ def fade(share, cutoff):
     return left if left > ROUND_OFF else 0.0
 
 
-@kernel
-def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, dj, di, fr, fz, second, u, v, vof, q, cell_mass,
-         removed, centroid):
+@cell_rows
+def tidy(j, w):
     """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
@@ -356,62 +345,64 @@ def tidy(part, parts, cutoff, metrics, volume, group, mixed_count, mixed, pre, d
              cell_mass [b, j, i]; centroid [2, m, j, i]
     Writes   removed [4 + m, j]: internal energy, kinetic energy, axial momentum, volume closed; then mass of each body
     """
-    bodies = vof.shape[0]
-    for j in range(parts[part], parts[part + 1]):
-        for row in range(4 + bodies):
-            removed[row, j] = 0.0
-        left = 0
-        for k in range(mixed_count[j]):
-            i = mixed[j, k]
-            post = volume[j, i]
-            if not second:
-                post = pre[j, i] - (dj * (fz[j + 1, i] - fz[j, i]) + di * (fr[j, i + 1] - fr[j, i]))
-            total, present, ended = 0.0, 0, False
-            for m in range(bodies):
-                f = vof[m, j, i]
-                rho = q[RHO, m, j, i]
-                if f > 0.0 and (f < 2.0 * cutoff or not rho > 0.0):
-                    left_over = fade(f, cutoff) if rho > 0.0 else 0.0
-                    mass = (f - left_over) * rho * post
-                    inner, outer = metrics[CM_IN, i] * mass, metrics[CM_OUT, i] * mass
-                    g = group[m]
-                    v_in, v_out = v[g, j, i] + v[g, j + 1, i], v[g, j, i + 1] + v[g, j + 1, i + 1]
-                    k_in = (v[g, j, i] ** 2 + v[g, j + 1, i] ** 2) + (u[g, j, i] ** 2 + u[g, j + 1, i] ** 2)
-                    k_out = (v[g, j, i + 1] ** 2 + v[g, j + 1, i + 1] ** 2) + (u[g, j, i + 1] ** 2 + u[g, j + 1, i + 1] ** 2)
-                    removed[0, j] += mass * q[E, m, j, i]
-                    removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
-                    removed[2, j] += inner * v_in + outer * v_out
-                    removed[4 + m, j] += mass
-                    f = left_over
-                    vof[m, j, i] = f
-                    ended = True
-                if f == 0.0:
-                    for field in range(q.shape[0]):
-                        q[field, m, j, i] = 0.0
-                total += f
-                present += 1 if f > 0.0 else 0
-            if total > 1.0 - 2.0 * cutoff and total != 1.0:
-                void = fade(1.0 - total, cutoff)
-                removed[3, j] += (max(1.0 - total, 0.0) - void) * post
-                scale = (1.0 - void) / total
-                for m in range(bodies):
-                    if vof[m, j, i] > 0.0:
-                        f = vof[m, j, i] * scale
-                        f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
-                        q[RHO, m, j, i] *= vof[m, j, i] / f
-                        vof[m, j, i] = f
+    for row in range(4 + w.vof.shape[0]):
+        w.removed[row, j] = 0.0
+    left = 0
+    for k in range(w.mixed_count[j]):
+        i = w.mixed[j, k]
+        post = w.volume[j, i]
+        if not w.second:
+            post = w.pre[j, i] - (w.dj * (w.fz[j + 1, i] - w.fz[j, i]) + w.di * (w.fr[j, i + 1] - w.fr[j, i]))
+        total, present, ended = 0.0, 0, False
+        for m in range(w.vof.shape[0]):
+            f = w.vof[m, j, i]
+            rho = w.q[RHO, m, j, i]
+            if f > 0.0 and (f < 2.0 * w.cutoff or not rho > 0.0):
+                left_over = fade(f, w.cutoff) if rho > 0.0 else 0.0
+                mass = (f - left_over) * rho * post
+                inner, outer = w.metrics[CM_IN, i] * mass, w.metrics[CM_OUT, i] * mass
+                g = w.group[m]
+                ub = w.u[g, j]
+                ut = w.u[g, j + 1]
+                vb = w.v[g, j]
+                vt = w.v[g, j + 1]
+                v_in, v_out = vb[i] + vt[i], vb[i + 1] + vt[i + 1]
+                k_in = (vb[i] ** 2 + vt[i] ** 2) + (ub[i] ** 2 + ut[i] ** 2)
+                k_out = (vb[i + 1] ** 2 + vt[i + 1] ** 2) + (ub[i + 1] ** 2 + ut[i + 1] ** 2)
+                w.removed[0, j] += mass * w.q[E, m, j, i]
+                w.removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
+                w.removed[2, j] += inner * v_in + outer * v_out
+                w.removed[4 + m, j] += mass
+                f = left_over
+                w.vof[m, j, i] = f
                 ended = True
-            if ended:
-                forget_centroids(j, i, vof, centroid)
-            for g in range(cell_mass.shape[0]):
-                mass = 0.0
-                for m in range(bodies):
-                    if group[m] == g:
-                        mass += vof[m, j, i] * q[RHO, m, j, i]
-                cell_mass[g, j, i] = mass * post
-            kind = 0.0
-            for m in range(bodies):
-                kind += (1000.0 if vof[m, j, i] == 1.0 else 0.0) + (1.0 if vof[m, j, i] > 0.0 else 0.0)
-            mixed[j, left] = i
-            left += 0 if kind == 0.0 or kind == 1001.0 else 1
-        mixed_count[j] = left
+            if f == 0.0:
+                for field in range(w.q.shape[0]):
+                    w.q[field, m, j, i] = 0.0
+            total += f
+            present += 1 if f > 0.0 else 0
+        if total > 1.0 - 2.0 * w.cutoff and total != 1.0:
+            void = fade(1.0 - total, w.cutoff)
+            w.removed[3, j] += (max(1.0 - total, 0.0) - void) * post
+            scale = (1.0 - void) / total
+            for m in range(w.vof.shape[0]):
+                if w.vof[m, j, i] > 0.0:
+                    f = w.vof[m, j, i] * scale
+                    f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
+                    w.q[RHO, m, j, i] *= w.vof[m, j, i] / f
+                    w.vof[m, j, i] = f
+            ended = True
+        if ended:
+            forget_centroids(j, i, w.vof, w.centroid)
+        for g in range(w.cell_mass.shape[0]):
+            mass = 0.0
+            for m in range(w.vof.shape[0]):
+                if w.group[m] == g:
+                    mass += w.vof[m, j, i] * w.q[RHO, m, j, i]
+            w.cell_mass[g, j, i] = mass * post
+        kind = 0.0
+        for m in range(w.vof.shape[0]):
+            kind += (1000.0 if w.vof[m, j, i] == 1.0 else 0.0) + (1.0 if w.vof[m, j, i] > 0.0 else 0.0)
+        w.mixed[j, left] = i
+        left += 0 if kind == 0.0 or kind == 1001.0 else 1
+    w.mixed_count[j] = left

@@ -3,7 +3,6 @@
 (dj, di) is (0, 1) along r and (1, 0) along z.
 """
 
-import hydro2d.kernels.names  # noqa: F401  (what the names mean)
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.kernels import (
     acceleration,
@@ -25,6 +24,7 @@ carry_bodies = Phase(
     boundaries.ghost_rows,
     unless("second", column_ranges.list_mixed),  # cells may have been filled by the Lagrangian step
     WAIT,
+    interfaces.sweep_volumes,
     interfaces.donor_volumes,
     WAIT,
     interfaces.interface_volumes,
@@ -54,7 +54,7 @@ carry_momentum = Phase(
     boundaries.ghost_vertices_r,
     boundaries.ghost_vertices_z,
     WAIT,
-    when("both", given(momentum.deposit, ranges="active_range", sums="deposited")),
+    when("both", given(momentum.deposit, ranges="active_range")),
     remap.tidy,
     WAIT,
     alone(edge_sums.sum_kinetic_outflow),

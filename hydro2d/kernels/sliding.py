@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from hydro2d.jit import kernel, point, serial
+from hydro2d.jit import cell_rows, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.physics.interfaces import line_centre, youngs_difference
@@ -19,44 +19,45 @@ SURFACE = 1e-3
 
 
 @point
-def paint(j, i, r0, z0, n_r, n_z, half, reach, rc, zc, low_j, high_j, low_i, high_i, hard, distance, normal):
+def paint(j, i, r0, z0, n_r, n_z, half, w):
     """Distance of the cells around (j, i) to a piece of surface at (r0, z0), where it is the nearest so far.
 
     half is half the length of the piece; cells on its inner side are left out. Mirror images across the axis follow from
     the column range, which begins there.
     """
+    low_j, high_j = outer_rows(w.parts)
+    reach = w.width_bl + w.width_sl
     j_first = j
-    while j_first > low_j and z0 - zc[j_first - 1] <= reach:
+    while j_first > low_j and z0 - w.zc[j_first - 1] <= reach:
         j_first -= 1
     j_last = j
-    while j_last < high_j - 1 and zc[j_last + 1] - z0 <= reach:
+    while j_last < high_j - 1 and w.zc[j_last + 1] - z0 <= reach:
         j_last += 1
     i_first = i
-    while i_first > low_i and r0 - rc[i_first - 1] <= reach:
+    while i_first > w.i0 and r0 - w.rc[i_first - 1] <= reach:
         i_first -= 1
     i_last = i
-    while i_last < high_i - 1 and rc[i_last + 1] - r0 <= reach:
+    while i_last < w.i1 - 1 and w.rc[i_last + 1] - r0 <= reach:
         i_last += 1
     for row in range(j_first, j_last + 1):
         for column in range(i_first, i_last + 1):
-            a, b = rc[column] - r0, zc[row] - z0
+            a, b = w.rc[column] - r0, w.zc[row] - z0
             along_n, along_t = a * n_r + b * n_z, abs(b * n_r - a * n_z)
-            if along_n < 0.0 or hard[row, column] >= 1.0:
+            if along_n < 0.0 or w.hard[row, column] >= 1.0:
                 continue
             beside = max(along_t - half, 0.0)
             d = sqrt(along_n * along_n + beside * beside)
-            if d < distance[row, column]:
-                distance[row, column] = d
+            if d < w.distance[row, column]:
+                w.distance[row, column] = d
                 size = d if d > 0.0 else 1.0
                 # beyond the end of the piece the nearest point is its end, and the normal points from there
                 t_sign = 1.0 if b * n_r - a * n_z > 0.0 else -1.0
-                normal[0, row, column] = (along_n * n_r - beside * t_sign * n_z) / size if d > 0.0 else n_r
-                normal[1, row, column] = (along_n * n_z + beside * t_sign * n_r) / size if d > 0.0 else n_z
+                w.normal[0, row, column] = (along_n * n_r - beside * t_sign * n_z) / size if d > 0.0 else n_r
+                w.normal[1, row, column] = (along_n * n_z + beside * t_sign * n_r) / size if d > 0.0 else n_z
 
 
 @serial
-def slip_zones(parts, i0, i1, width_bl, width_sl, hard_threshold, rc, zc, dr, dz, hard_bodies, vof, hard, distance, zone,
-               normal):
+def slip_zones(w):
     """Zones of the slip layer from the distance to the reconstructed surface of the hard bodies.
 
     zone is HARD where the hard fraction reaches the threshold, BOUNDARY_LAYER up to a distance width_bl, SLIP_LAYER up to
@@ -65,65 +66,61 @@ def slip_zones(parts, i0, i1, width_bl, width_sl, hard_threshold, rc, zc, dr, dz
     Reads    vof [m, j, i], hard_bodies [m]
     Writes   hard, distance, zone [j, i]; normal [2, j, i], outward from the hard body
     """
-    j0, j1 = outer_rows(parts)
-    reach = width_bl + width_sl
+    j0, j1 = outer_rows(w.parts)
+    reach = w.width_bl + w.width_sl
     for j in range(j0 - 1, j1 + 1):
-        for i in range(i0 - 1, i1 + 1):
+        for i in range(w.i0 - 1, w.i1 + 1):
             total = 0.0
-            for m in range(vof.shape[0]):
-                total += vof[m, j, i] if hard_bodies[m] else 0.0
-            hard[j, i] = total if total < 1.0 - 1e-12 else 1.0
-            distance[j, i] = 1e300
-            zone[j, i] = OUTSIDE
+            for m in range(w.vof.shape[0]):
+                total += w.vof[m, j, i] if w.hard_bodies[m] else 0.0
+            w.hard[j, i] = total if total < 1.0 - 1e-12 else 1.0
+            w.distance[j, i] = 1e300
+            w.zone[j, i] = OUTSIDE
     for j in range(j0, j1):
-        for i in range(i0, i1):
-            f = hard[j, i]
+        for i in range(w.i0, w.i1):
+            f = w.hard[j, i]
             if f < SURFACE:
                 continue
-            w = hard[j, i - 1]
-            e = hard[j, i + 1]
-            s = hard[j - 1, i]
-            n = hard[j + 1, i]
+            west = w.hard[j, i - 1]
+            east = w.hard[j, i + 1]
+            south = w.hard[j - 1, i]
+            north = w.hard[j + 1, i]
             if f == 1.0:
-                half_r, half_z = 0.5 * dr[i], 0.5 * dz[j]
-                if e < SURFACE:
-                    paint(j, i, rc[i] + half_r, zc[j], 1.0, 0.0, half_z, reach, rc, zc, j0, j1, i0, i1, hard, distance,
-                          normal)
-                if w < SURFACE:
-                    paint(j, i, rc[i] - half_r, zc[j], -1.0, 0.0, half_z, reach, rc, zc, j0, j1, i0, i1, hard, distance,
-                          normal)
-                if n < SURFACE:
-                    paint(j, i, rc[i], zc[j] + half_z, 0.0, 1.0, half_r, reach, rc, zc, j0, j1, i0, i1, hard, distance,
-                          normal)
-                if s < SURFACE:
-                    paint(j, i, rc[i], zc[j] - half_z, 0.0, -1.0, half_r, reach, rc, zc, j0, j1, i0, i1, hard, distance,
-                          normal)
+                half_r, half_z = 0.5 * w.dr[i], 0.5 * w.dz[j]
+                if east < SURFACE:
+                    paint(j, i, w.rc[i] + half_r, w.zc[j], 1.0, 0.0, half_z, w)
+                if west < SURFACE:
+                    paint(j, i, w.rc[i] - half_r, w.zc[j], -1.0, 0.0, half_z, w)
+                if north < SURFACE:
+                    paint(j, i, w.rc[i], w.zc[j] + half_z, 0.0, 1.0, half_r, w)
+                if south < SURFACE:
+                    paint(j, i, w.rc[i], w.zc[j] - half_z, 0.0, -1.0, half_r, w)
                 continue
-            sw = hard[j - 1, i - 1]
-            se = hard[j - 1, i + 1]
-            nw = hard[j + 1, i - 1]
-            ne = hard[j + 1, i + 1]
-            n_r, n_z = youngs_difference(sw, s, se, w, e, nw, n, ne)  # not weighted where the mesh is graded
+            sw = w.hard[j - 1, i - 1]
+            se = w.hard[j - 1, i + 1]
+            nw = w.hard[j + 1, i - 1]
+            ne = w.hard[j + 1, i + 1]
+            n_r, n_z = youngs_difference(sw, south, se, west, east, nw, north, ne)  # not weighted where the mesh is graded
             size = abs(n_r) + abs(n_z)
             if size < 1e-14:
                 continue
             x, y = line_centre(n_r / size, n_z / size, f)
-            g_r, g_z = n_r / dr[i], n_z / dz[j]
+            g_r, g_z = n_r / w.dr[i], n_z / w.dz[j]
             length = sqrt(g_r * g_r + g_z * g_z)
-            paint(j, i, rc[i] + (x - 0.5) * dr[i], zc[j] + (y - 0.5) * dz[j], g_r / length, g_z / length,
-                  0.5 * max(dr[i], dz[j]), reach, rc, zc, j0, j1, i0, i1, hard, distance, normal)
+            paint(j, i, w.rc[i] + (x - 0.5) * w.dr[i], w.zc[j] + (y - 0.5) * w.dz[j], g_r / length, g_z / length,
+                  0.5 * max(w.dr[i], w.dz[j]), w)
     for j in range(j0, j1):
-        for i in range(i0, i1):
-            if hard[j, i] >= hard_threshold:
-                zone[j, i] = HARD
-            elif distance[j, i] <= width_bl:
-                zone[j, i] = BOUNDARY_LAYER
-            elif distance[j, i] <= reach:
-                zone[j, i] = SLIP_LAYER
+        for i in range(w.i0, w.i1):
+            if w.hard[j, i] >= w.hard_threshold:
+                w.zone[j, i] = HARD
+            elif w.distance[j, i] <= w.width_bl:
+                w.zone[j, i] = BOUNDARY_LAYER
+            elif w.distance[j, i] <= reach:
+                w.zone[j, i] = SLIP_LAYER
 
 
-@kernel
-def cut_shear(part, parts, shear, friction, occupied, zone, normal, hard_bodies, vof, pm, q):
+@cell_rows
+def cut_shear(j, w):
     """Takes the shear from soft material in the slip layer: all of the deviator, or what the surface carries beyond friction.
 
     `shear`: with s turned to (n, t), |s_nt| <= friction max(-sigma_nn, 0).
@@ -131,27 +128,26 @@ def cut_shear(part, parts, shear, friction, occupied, zone, normal, hard_bodies,
     Reads    zone [j, i], normal [2, j, i]; vof, pm [m, j, i]
     Updates  q (deviators) [k, m, j, i]
     """
-    for j in range(parts[part], parts[part + 1]):
-        for i in range(occupied[0, j, 0], occupied[0, j, 1]):
-            if zone[j, i] != SLIP_LAYER:
+    for i in range(w.occupied[0, j, 0], w.occupied[0, j, 1]):
+        if w.zone[j, i] != SLIP_LAYER:
+            continue
+        n_r = w.normal[0, j, i]
+        n_z = w.normal[1, j, i]
+        for m in range(w.vof.shape[0]):
+            if w.hard_bodies[m] or w.vof[m, j, i] == 0.0:
                 continue
-            n_r = normal[0, j, i]
-            n_z = normal[1, j, i]
-            for m in range(vof.shape[0]):
-                if hard_bodies[m] or vof[m, j, i] == 0.0:
-                    continue
-                if shear == FLUID:
-                    q[SRR, m, j, i] = 0.0
-                    q[SZZ, m, j, i] = 0.0
-                    q[SRZ, m, j, i] = 0.0
-                    continue
-                rr = q[SRR, m, j, i]
-                zz = q[SZZ, m, j, i]
-                rz = q[SRZ, m, j, i]
-                nn = n_r * n_r * rr + 2.0 * n_r * n_z * rz + n_z * n_z * zz
-                nt = n_r * n_z * (zz - rr) + (n_r * n_r - n_z * n_z) * rz
-                limit = friction * max(pm[m, j, i] - nn, 0.0)
-                change = min(max(nt, -limit), limit) - nt
-                q[SRR, m, j, i] = rr - 2.0 * change * n_r * n_z
-                q[SZZ, m, j, i] = zz + 2.0 * change * n_r * n_z
-                q[SRZ, m, j, i] = rz + change * (n_r * n_r - n_z * n_z)
+            if w.shear == FLUID:
+                w.q[SRR, m, j, i] = 0.0
+                w.q[SZZ, m, j, i] = 0.0
+                w.q[SRZ, m, j, i] = 0.0
+                continue
+            rr = w.q[SRR, m, j, i]
+            zz = w.q[SZZ, m, j, i]
+            rz = w.q[SRZ, m, j, i]
+            nn = n_r * n_r * rr + 2.0 * n_r * n_z * rz + n_z * n_z * zz
+            nt = n_r * n_z * (zz - rr) + (n_r * n_r - n_z * n_z) * rz
+            limit = w.friction * max(w.pm[m, j, i] - nn, 0.0)
+            change = min(max(nt, -limit), limit) - nt
+            w.q[SRR, m, j, i] = rr - 2.0 * change * n_r * n_z
+            w.q[SZZ, m, j, i] = zz + 2.0 * change * n_r * n_z
+            w.q[SRZ, m, j, i] = rz + change * (n_r * n_r - n_z * n_z)

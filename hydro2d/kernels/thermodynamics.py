@@ -42,83 +42,91 @@ SOUND_FLOOR = 1.0
 
 
 @apart
-def insert_void_row(m, j, first, number, model, memory, par, fracture_pressure, fades, max_opening, metrics, h, vof, q):
+def insert_void_row(m, j, w):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
     Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
 
     Updates  vof [m, j, i], q (rho and deviators) [k, m, j, i]
     """
+    model, par, memory = w.models[m, EOS], w.materials[m, EOS_AT:], w.models[m, MEMORY]
+    tensile, fades = w.materials[m, TENSILE], w.materials[m, FADES]
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     opened = 0.0
     for x in range(number):
         i = first + x
-        rho, e = q[RHO, m, j, i], q[E, m, j, i]
-        internal = q[memory:, m, j, i]
+        rho, e = w.q[RHO, m, j, i], w.q[E, m, j, i]
+        internal = w.q[memory:, m, j, i]
         p = evaluate(model, rho, e, internal, par)[0]
-        if vof[m, j, i] == 1.0 and p < -tension_limit(fracture_pressure, fades, q[DMG, m, j, i]):
-            f = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), max_opening)
-            opened += (1.0 - f) * metrics[VOL_R, i] * h
-            vof[m, j, i] = f
-            q[RHO, m, j, i] = rho / f
-            q[SRR, m, j, i] = 0.0
-            q[SZZ, m, j, i] = 0.0
-            q[SRZ, m, j, i] = 0.0
+        if w.vof[m, j, i] == 1.0 and p < -tension_limit(tensile, fades, w.q[DMG, m, j, i]):
+            f = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), w.max_opening)
+            opened += (1.0 - f) * w.metrics[VOL_R, i] * w.dz[j]
+            w.vof[m, j, i] = f
+            w.q[RHO, m, j, i] = rho / f
+            w.q[SRR, m, j, i] = 0.0
+            w.q[SZZ, m, j, i] = 0.0
+            w.q[SRZ, m, j, i] = 0.0
     return opened
 
 
 @apart
-def fail_row(m, j, first, number, most_stress, vof, q, pm):
-    """Makes body m fail in the cells of row j in which its largest principal stress is beyond most_stress, Pa.
+def fail_row(m, j, w):
+    """Makes body m fail in the cells of row j in which its largest principal stress is beyond its fracture stress.
 
     Failed material has no deviator and bears no tension, for good (explanation/fracture).
 
     Reads    vof, pm [m, j, i];  updates  q (damage, deviators) [k, m, j, i]
     """
+    most_stress = w.materials[m, MOST_STRESS]
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     for x in range(number):
         i = first + x
-        if not (vof[m, j, i] > 0.0 and q[DMG, m, j, i] < 1.0):
+        if not (w.vof[m, j, i] > 0.0 and w.q[DMG, m, j, i] < 1.0):
             continue
-        stress = largest_principal(q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i]) - pm[m, j, i]
+        stress = largest_principal(w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i]) - w.pm[m, j, i]
         if stress > most_stress:
-            q[DMG, m, j, i] = FAILED
-            q[SRR, m, j, i] = 0.0
-            q[SZZ, m, j, i] = 0.0
-            q[SRZ, m, j, i] = 0.0
+            w.q[DMG, m, j, i] = FAILED
+            w.q[SRR, m, j, i] = 0.0
+            w.q[SZZ, m, j, i] = 0.0
+            w.q[SRZ, m, j, i] = 0.0
 
 
 @apart
-def report_row(m, j, first, number, vof, q, pm, bad):
+def report_row(m, j, w):
     """Counts the cells of row j in which body m is not finite.
 
     Updates  bad [j, :3]: their number, the column and body of the first
     """
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
     for x in range(number):
         i = first + x
-        good = q[RHO, m, j, i] > 0.0 and abs(pm[m, j, i]) < 1e300 and abs(q[EP, m, j, i]) < 1e300
-        if vof[m, j, i] > 0.0 and not good:
-            bad[j, 1] = i if bad[j, 0] == 0 else bad[j, 1]
-            bad[j, 2] = m if bad[j, 0] == 0 else bad[j, 2]
-            bad[j, 0] += 1
+        good = w.q[RHO, m, j, i] > 0.0 and abs(w.pm[m, j, i]) < 1e300 and abs(w.q[EP, m, j, i]) < 1e300
+        if w.vof[m, j, i] > 0.0 and not good:
+            w.bad[j, 1] = i if w.bad[j, 0] == 0 else w.bad[j, 1]
+            w.bad[j, 2] = m if w.bad[j, 0] == 0 else w.bad[j, 2]
+            w.bad[j, 0] += 1
 
 
 @rowwise
-def add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch):
+def add_row(m, j, b, w):
     """Adds what body m gives to the cells of row j: pressure, compressibility, density, fraction; and its wave speed squared.
 
     Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, of no avail up to the cutoff density
     Updates  km [m, j, i], which holds the square of the sound speed and then the bulk modulus; p, bulk (1/K), rhobar, solid,
              cl (squared) [j, i]
     """
-    f_j = vof[m, j]
-    r_j = q[RHO, m, j]
-    pm_j = pm[m, j]
-    km_j = km[m, j]
-    p_j = p[j]
-    bulk_j = bulk[j]
-    rhobar_j = rhobar[j]
-    solid_j = solid[j]
-    cl_j = cl[j]
-    shear_j = scratch[0, b]
+    cutoff_density = w.materials[m, CUTOFF_DENSITY]
+    first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
+    f_j = w.vof[m, j]
+    r_j = w.q[RHO, m, j]
+    pm_j = w.pm[m, j]
+    km_j = w.km[m, j]
+    p_j = w.p[j]
+    bulk_j = w.bulk[j]
+    rhobar_j = w.rhobar[j]
+    solid_j = w.solid[j]
+    cl_j = w.cl[j]
+    shear_j = w.scratch[0, b]
     for x in range(number):
         i = first + x
         f = f_j[i]
@@ -136,8 +144,7 @@ def add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rho
 
 
 @rowwise
-def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, models, materials, vof, q, pm, km, tm, p, bulk,
-                  rhobar, solid, cl, scratch, opened, bad):
+def pressures_row(j, b, w):
     """Equation of state of every body, void inserted in pure cells that fracture, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
@@ -151,14 +158,13 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [s, b, i]
     """
-    bodies = vof.shape[0]
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    p_j = p[j]
-    bulk_j = bulk[j]
-    rhobar_j = rhobar[j]
-    solid_j = solid[j]
-    cl_j = cl[j]
-    shear_j = scratch[0, b]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    p_j = w.p[j]
+    bulk_j = w.bulk[j]
+    rhobar_j = w.rhobar[j]
+    solid_j = w.solid[j]
+    cl_j = w.cl[j]
+    shear_j = w.scratch[0, b]
     for x in range(n):
         i = lo + x
         p_j[i] = 0.0
@@ -167,29 +173,28 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
         solid_j[i] = 0.0
         cl_j[i] = 0.0
     new_void = 0.0
-    bad[j, 0] = 0
-    for m in range(bodies):
-        model = models[m, EOS]
-        memory = models[m, MEMORY]
-        par = materials[m, EOS_AT:]
-        tensile, fades = materials[m, TENSILE], materials[m, FADES]
-        cutoff_density = materials[m, CUTOFF_DENSITY]
-        f_j = vof[m, j]
-        r_j = q[RHO, m, j]
-        e_j = q[E, m, j]
-        d_j = q[DMG, m, j]
-        ep_j = q[EP, m, j]
-        pm_j = pm[m, j]
-        km_j = km[m, j]
-        tm_j = tm[m, j]
-        first, number = columns(body_range[m, j, 0], body_range[m, j, 1])
+    w.bad[j, 0] = 0
+    for m in range(w.vof.shape[0]):
+        model = w.models[m, EOS]
+        memory = w.models[m, MEMORY]
+        par = w.materials[m, EOS_AT:]
+        tensile, fades = w.materials[m, TENSILE], w.materials[m, FADES]
+        f_j = w.vof[m, j]
+        r_j = w.q[RHO, m, j]
+        e_j = w.q[E, m, j]
+        d_j = w.q[DMG, m, j]
+        ep_j = w.q[EP, m, j]
+        pm_j = w.pm[m, j]
+        km_j = w.km[m, j]
+        tm_j = w.tm[m, j]
+        first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
         for attempt in range(2):  # once more where a cell has fractured
             if model in WITH_MEMORY:
-                pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, vof, q, pm, km)
+                pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, w.vof, w.q, w.pm, w.km)
             else:
                 pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
-            if attempt == 0 and materials[m, MOST_STRESS] < inf:
-                fail_row(m, j, first, number, materials[m, MOST_STRESS], vof, q, pm)
+            if attempt == 0 and w.materials[m, MOST_STRESS] < inf:
+                fail_row(m, j, w)
             fractured = 0
             wrong = 0
             for x in range(number):
@@ -200,25 +205,24 @@ def pressures_row(j, b, max_opening, metrics, dz, body_range, active_range, mode
                 wrong += 0 if good or f_j[i] == 0.0 else 1
             if fractured == 0 or attempt == 1:
                 break
-            new_void += insert_void_row(m, j, first, number, model, memory, par, tensile, fades, max_opening, metrics,
-                                        dz[j], vof, q)
+            new_void += insert_void_row(m, j, w)
         if wrong > 0:
-            report_row(m, j, first, number, vof, q, pm, bad)
-        line = materials[m, MELTING_AT:EOS_AT]
-        if feels_temperature(models[m, STRENGTH], models[m, DAMAGE], line):
+            report_row(m, j, w)
+        line = w.materials[m, MELTING_AT:EOS_AT]
+        if feels_temperature(w.models[m, STRENGTH], w.models[m, DAMAGE], line):
             if model in WITH_MEMORY:
-                temperature_row_with_memory(model, par, m, j, memory, first, number, vof, q, tm)
+                temperature_row_with_memory(model, par, m, j, memory, first, number, w.vof, w.q, w.tm)
             else:
                 temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
-        modulus_row(models[m, STRENGTH], materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
+        modulus_row(w.models[m, STRENGTH], w.materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
         end_at_melt(line, first, number, r_j, tm_j, shear_j)
-        add_row(m, j, b, first, number, cutoff_density, vof, q, pm, km, p, bulk, rhobar, solid, cl, scratch)
+        add_row(m, j, b, w)
     for x in range(n):
         i = lo + x
         full = solid_j[i] > 1.0 - 1e-12
         bulk_j[i] = 1.0 / bulk_j[i] if full and bulk_j[i] > 0.0 else 0.0
         cl_j[i] = sqrt(cl_j[i])
-    opened[j] = new_void
+    w.opened[j] = new_void
 
 
 @point
@@ -236,7 +240,7 @@ def row_minimum(a, first, number):
 
 
 @rowwise
-def viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt):
+def viscosity_row(j, w):
     """Artificial viscosity direction by direction of the mesh.
 
     q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
@@ -247,21 +251,21 @@ def viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rho
     Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
     Writes   qr, qz, qt [j, i]
     """
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    ub = u[0, j]
-    ut = u[0, j + 1]
-    vbb = v[0, j - 1]
-    vb = v[0, j]
-    vt = v[0, j + 1]
-    vtt = v[0, j + 2]
-    qr_j = qr[j]
-    qz_j = qz[j]
-    qt_j = qt[j]
-    rho_j = rhobar[j]
-    cl_j = cl[j]
-    bulk_j = bulk[j]
-    solid_j = solid[j]
-    h = dz[j]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    ub = w.u[0, j]
+    ut = w.u[0, j + 1]
+    vbb = w.v[0, j - 1]
+    vb = w.v[0, j]
+    vt = w.v[0, j + 1]
+    vtt = w.v[0, j + 2]
+    qr_j = w.qr[j]
+    qz_j = w.qz[j]
+    qt_j = w.qt[j]
+    rho_j = w.rhobar[j]
+    cl_j = w.cl[j]
+    bulk_j = w.bulk[j]
+    solid_j = w.solid[j]
+    h = w.dz[j]
     for x in range(n):
         i = lo + x
         void = rho_j[i] == 0.0
@@ -274,20 +278,19 @@ def viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rho
         dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
         c = bulk_j[i] / rho
         c = sqrt(c) if c > 0.0 else cl_j[i]
-        loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
-        du_q = max(du, -max(loss, 0.0) * dr[i])
+        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
+        du_q = max(du, -max(loss, 0.0) * w.dr[i])
         dv_q = max(dv, -max(loss, 0.0) * h)
         full = shut(solid_j[i])
-        q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear, quadratic)
-        q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear, quadratic)
+        q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), w.viscosity_linear, w.viscosity_quadratic)
+        q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), w.viscosity_linear, w.viscosity_quadratic)
         qr_j[i] = 0.0 if void else q_r
         qz_j[i] = 0.0 if void else q_z
         qt_j[i] = qr_j[i]
 
 
 @rowwise
-def compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_range, u, v, rhobar, bulk, solid, cl, qr, qz, qt,
-                              qrz):
+def compression_viscosity_row(j, w):
     """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, none on the hoop.
 
     q answers to the difference of the velocity along n over the cell, at most to the loss of volume times its length, and is
@@ -298,24 +301,24 @@ def compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_rang
     Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
     Writes   qr, qz, qt, qrz [j, i]
     """
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    ubb = u[0, j - 1]
-    ub = u[0, j]
-    ut = u[0, j + 1]
-    utt = u[0, j + 2]
-    vbb = v[0, j - 1]
-    vb = v[0, j]
-    vt = v[0, j + 1]
-    vtt = v[0, j + 2]
-    qr_j = qr[j]
-    qz_j = qz[j]
-    qt_j = qt[j]
-    qrz_j = qrz[j]
-    rho_j = rhobar[j]
-    cl_j = cl[j]
-    bulk_j = bulk[j]
-    solid_j = solid[j]
-    h = dz[j]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    ubb = w.u[0, j - 1]
+    ub = w.u[0, j]
+    ut = w.u[0, j + 1]
+    utt = w.u[0, j + 2]
+    vbb = w.v[0, j - 1]
+    vb = w.v[0, j]
+    vt = w.v[0, j + 1]
+    vtt = w.v[0, j + 2]
+    qr_j = w.qr[j]
+    qz_j = w.qz[j]
+    qt_j = w.qt[j]
+    qrz_j = w.qrz[j]
+    rho_j = w.rhobar[j]
+    cl_j = w.cl[j]
+    bulk_j = w.bulk[j]
+    solid_j = w.solid[j]
+    h = w.dz[j]
     for x in range(n):
         i = lo + x
         void = rho_j[i] == 0.0
@@ -333,15 +336,15 @@ def compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_rang
         sv = 0.5 * ((vb[i + 1] - vb[i]) + (vt[i + 1] - vt[i]))
         sv_l = 0.5 * ((vb[i] - vb[i - 1]) + (vt[i] - vt[i - 1]))
         sv_r = 0.5 * ((vb[i + 2] - vb[i + 1]) + (vt[i + 2] - vt[i + 1]))
-        rate, n_r, n_z = strongest_compression(du / dr[i], dv / h, 0.5 * (su / h + sv / dr[i]))
-        loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
-        jump = max(rate, -max(loss, 0.0)) * length_along(n_r, n_z, dr[i], h)
+        rate, n_r, n_z = strongest_compression(du / w.dr[i], dv / h, 0.5 * (su / h + sv / w.dr[i]))
+        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
+        jump = max(rate, -max(loss, 0.0)) * length_along(n_r, n_z, w.dr[i], h)
         psi_r = smoothness(n_r * du_l + n_z * sv_l, n_r * du + n_z * sv, n_r * du_r + n_z * sv_r)
         psi_z = smoothness(n_r * su_b + n_z * dv_b, n_r * su + n_z * dv, n_r * su_t + n_z * dv_t)
         psi = n_r * n_r * psi_r + n_z * n_z * psi_z
         c = bulk_j[i] / rho
         c = sqrt(c) if c > 0.0 else cl_j[i]
-        q = shut(solid_j[i]) * directional_viscosity(rho, c, jump, psi, linear, quadratic)
+        q = shut(solid_j[i]) * directional_viscosity(rho, c, jump, psi, w.viscosity_linear, w.viscosity_quadratic)
         q = 0.0 if void else q
         qr_j[i] = q * (n_r * n_r)
         qz_j[i] = q * (n_z * n_z)
@@ -350,11 +353,10 @@ def compression_viscosity_row(j, linear, quadratic, dr, dz, metrics, active_rang
 
 
 @rowwise
-def steps_row(j, b, courant, advective, mesh_speed, hourglass, dr, dz, metrics, active_range, u, v, rhobar, cl, qr, qz,
-              hg_coefficient, row_step, bad, scratch):
+def steps_row(j, b, w):
     """The time step that every cell allows, and the coefficient of its hourglass filter.
 
-    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective dx, |div u| dt <= 0.2 in compression
+    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), |u| dt <= advective_courant dx, |div u| dt <= 0.2 in compression
     (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, cl, qr, qz [j, i]
@@ -362,18 +364,18 @@ def steps_row(j, b, courant, advective, mesh_speed, hourglass, dr, dz, metrics, 
              bad [j, 3] velocities that are not finite
     Scratch  scratch [s, b, i]
     """
-    lo, n = columns(active_range[j, 0], active_range[j, 1])
-    ub = u[0, j]
-    ut = u[0, j + 1]
-    vb = v[0, j]
-    vt = v[0, j + 1]
-    qr_j = qr[j]
-    qz_j = qz[j]
-    rho_j = rhobar[j]
-    cl_j = cl[j]
-    step_j = scratch[1, b]
-    hg_j = hg_coefficient[j]
-    h = dz[j]
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    ub = w.u[0, j]
+    ut = w.u[0, j + 1]
+    vb = w.v[0, j]
+    vt = w.v[0, j + 1]
+    qr_j = w.qr[j]
+    qz_j = w.qz[j]
+    rho_j = w.rhobar[j]
+    cl_j = w.cl[j]
+    step_j = w.scratch[1, b]
+    hg_j = w.hg_coefficient[j]
+    h = w.dz[j]
     wrong = 0
     for x in range(n):
         i = lo + x
@@ -381,51 +383,50 @@ def steps_row(j, b, courant, advective, mesh_speed, hourglass, dr, dz, metrics, 
         rho = 1.0 if void else rho_j[i]
         du = (ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i])
         dv = (vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1])
-        loss = volume_loss(i, ub, ut, vb, vt, metrics, h)
+        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
         sound, radial, axial, volume = step_limits(
-            i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
-        hg_j[i] = 0.25 * hourglass * rho_j[i] * cl_j[i] * metrics[VOL_R, i] * h / max(dr[i], h)
+            i, ub, ut, vb, vt, w.courant, w.advective_courant, w.mesh_speed, w.dr, h, rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
+        hg_j[i] = 0.25 * w.hourglass * rho_j[i] * cl_j[i] * w.metrics[VOL_R, i] * h / max(w.dr[i], h)
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
         wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
-    row_step[j] = row_minimum(step_j, lo, n)
-    bad[j, 3] = wrong
+    w.row_step[j] = row_minimum(step_j, lo, n)
+    w.bad[j, 3] = wrong
 
 
 @serial
-def least_step(parts, row_step, bad, least_row):
+def least_step(w):
     """Row of the least time step, and the first rows with cells and with velocities that are not finite, -1 for none.
 
     Reads    row_step [j], bad [j, 4]
     Writes   least_row [3]
     """
-    j0, j1 = outer_rows(parts)
-    least_row[0], least_row[1], least_row[2] = j0, -1, -1
+    j0, j1 = outer_rows(w.parts)
+    w.least_row[0], w.least_row[1], w.least_row[2] = j0, -1, -1
     for j in range(j1 - 1, j0 - 1, -1):
-        least_row[0] = j if row_step[j] <= row_step[least_row[0]] else least_row[0]
-        least_row[1] = j if bad[j, 0] > 0 else least_row[1]
-        least_row[2] = j if bad[j, 3] > 0 else least_row[2]
+        w.least_row[0] = j if w.row_step[j] <= w.row_step[w.least_row[0]] else w.least_row[0]
+        w.least_row[1] = j if w.bad[j, 0] > 0 else w.least_row[1]
+        w.least_row[2] = j if w.bad[j, 3] > 0 else w.least_row[2]
 
 
 @serial
-def step_cause(courant, advective_courant, mesh_speed, dr, dz, metrics, least_row, active_range, u, v, rhobar, cl, qr, qz,
-               cause):
+def step_cause(w):
     """Which cell of the row with the least step allows it, and which of the bounds it is.
 
     Reads    what steps_row read; least_row [3]
     Writes   cause [2]: index into CAUSES, column
     """
-    j = least_row[0]
+    j = w.least_row[0]
     best = 1e300
-    for i in range(active_range[j, 0], active_range[j, 1]):
-        if rhobar[j, i] > 0.0:
-            loss = volume_loss(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], metrics, dz[j])
-            limits = step_limits(i, u[0, j], u[0, j + 1], v[0, j], v[0, j + 1], courant, advective_courant, mesh_speed, dr,
-                                 dz[j], rhobar[j, i], cl[j, i], max(qr[j, i], qz[j, i]), loss)
+    for i in range(w.active_range[j, 0], w.active_range[j, 1]):
+        if w.rhobar[j, i] > 0.0:
+            loss = volume_loss(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.metrics, w.dz[j])
+            limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.advective_courant,
+                                 w.mesh_speed, w.dr, w.dz[j], w.rhobar[j, i], w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)
             for k in range(4):
                 if limits[k] < best:
                     best = limits[k]
-                    cause[0] = k
-                    cause[1] = i
+                    w.cause[0] = k
+                    w.cause[1] = i
 
 
 @point

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -43,9 +44,10 @@ def arrival(grid, share: np.ndarray, points: np.ndarray, speed: float) -> np.nda
 
     light, front = np.full(share.shape, np.inf), np.zeros((3, *share.shape))
     rows, columns = grid.inside
-    mesh = grid.r_edges, grid.z_edges, grid.rc[columns].copy(), grid.zc[rows].copy(), np.ascontiguousarray(share)
-    light_points(points, speed, *mesh, light, front)
-    while bend_around(speed, *mesh, light, front):
+    given = SimpleNamespace(points=points, speed=speed, r=grid.r_edges, z=grid.z_edges, rc=grid.rc[columns].copy(),
+                            zc=grid.zc[rows].copy(), share=np.ascontiguousarray(share), light=light, front=front)
+    light_points(given)
+    while bend_around(given):
         pass
     return light
 

@@ -22,15 +22,15 @@ def text(*steps) -> list[str]:
 
 def test_a_list_becomes_a_function():
     assert text(column_ranges.widen_ranges, WAIT, when("travels", alone(thermodynamics.least_step), WAIT),
-                unless("dj", given(momentum.deposit, ranges="warmed", deficit="heat", sums="deposited"))) == [
-        "    _0(part, w.parts, w.body_ranges, w.group_ranges)",
+                unless("dj", given(momentum.deposit, ranges="warmed", deficit="heat"))) == [
+        "    _0(part, w.body_ranges, w.group_ranges, w.parts)",
         "    wait(w.gate, w.parts)",
         "    if w.travels:",
         "        if part == 0:",
-        "            _1(w.parts, w.row_step, w.bad, w.least_row)",
+        "            _1(w.bad, w.least_row, w.parts, w.row_step)",
         "        wait(w.gate, w.parts)",
         "    if not w.dj:",
-        "        _2(part, w.parts, w.metrics, w.warmed, w.group, w.heat, w.cell_mass, w.vof, w.q, w.deposited)",
+        "        _2(part, w.warmed, w.heat, w.cell_mass, w.deposited, w.group, w.metrics, w.parts, w.q, w.vof)",
     ]  # fmt: skip
 
 
@@ -43,8 +43,9 @@ def test_what_a_phase_takes():
     ((thermodynamics.least_step,), "least_step takes no part: only one part can run it"),
     ((alone(column_ranges.widen_ranges),), "widen_ranges takes a part: it is not for one alone"),
     ((momentum.deposit,), "deposit takes ranges, which is no name"),
-    ((given(momentum.deposit, ranges="warmed", deficit="heat", sums="nonsense"),), "deposit takes nonsense, which is no name"),
+    ((given(momentum.deposit, ranges="warmed", deficit="nonsense"),), "deposit takes nonsense, which is no name"),
     ((given(momentum.deposit, range="warmed"),), "deposit has no parameter range"),
+    ((given(momentum.deposit, vof="q"),), "deposit has no parameter vof"),
     ((when("nonsense", WAIT),), "nonsense is no number"),
     ((when("u", WAIT),), "u is no number"),
     ((unless("parts", WAIT),), "parts is no number"),

@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
-import inspect
+from types import SimpleNamespace
 
 import numpy as np
 
+from hydro2d.jit import by_name
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import GHOSTS, Grid
 from hydro2d.mesh.state import State
 
 
+def handle(**values) -> SimpleNamespace:
+    """What a function of kernels takes by name."""
+    return SimpleNamespace(**values)
+
+
+def handles(function, values: dict) -> list[SimpleNamespace]:
+    """The last arguments of a call of a function: a handle of these values, if it takes one."""
+    return [handle(**values)] if by_name.takes_handle(function) else []
+
+
+def source(function):
+    """A compiled function as Python runs it."""
+    return by_name.source(function) if by_name.takes_handle(function) else getattr(function, "compiled", function).py_func
+
+
 class Cells:
     """A mesh of square cells of 1 m, planar if not told otherwise; its first cell is (2, 2), as ghosts come before it.
 
-    All of it is the active box, in one part, and every body may be in every cell.
+    All of it is the active box, in one part, and every body may be in every cell. A sweep goes along r.
     """
 
     def __init__(self, nr: int = 4, nz: int = 4, bodies: int = 1, group=None, geometry: str = "planar"):
@@ -26,17 +42,18 @@ class Cells:
         none = np.full(4, -1)
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
                       "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": none, "pushing": none,
-                      "transmitting": none, "along_compression": False, "steepness": 2.0,
+                      "transmitting": none, "along_compression": False, "dj": 0, "di": 1, "steepness": 2.0,
                       "gases": np.zeros(bodies, dtype=bool),
                       "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 
     def __getattr__(self, name: str):
         return getattr(self.__dict__["state"], name)
 
-    def call(self, function, **given):
-        """Calls a kernel: what is not given is what the state or the mesh has by the name of the parameter."""
-        taken = inspect.signature(getattr(function, "py_func", function)).parameters
+    def call(self, function, as_python: bool = False, **given):
+        """Calls a function of kernels: what is not given is what the state or the mesh has by its name."""
+        own, taken = by_name.own_parameters(function), by_name.takes(function)
         assert set(given) <= set(taken), set(given) - set(taken)
         found = {**self.known, **given}
-        return function(*(found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
-                          else getattr(self.grid, name) for name in taken))  # fmt: skip
+        values = {name: found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
+                  else getattr(self.grid, name) for name in taken}  # fmt: skip
+        return (source(function) if as_python else function)(*(values[name] for name in own), *handles(function, values))

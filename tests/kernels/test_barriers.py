@@ -1,7 +1,6 @@
 """Between two barriers no part of the mesh touches what another one writes: every access of a step, seen in Python."""
 
 import functools
-import inspect
 import sys
 import threading
 from types import SimpleNamespace
@@ -14,10 +13,13 @@ from hydro2d.deck import deck
 from hydro2d.kernels import contact_motion, extension
 from hydro2d.mesh import state
 from hydro2d.solver.simulation import Simulation
+from tests.kernels.cells import source
 from tests.kernels.test_compiled_equals_source import CONTACT, LAYER, text_of
 from tests.kernels.test_phases import PHASES
 
 PARTS = 4
+#: functions of several cells at once that are left compiled
+PLAIN = ("exp", "log", "power")
 DECKS = {"slip-layer": text_of("both", LAYER), "contact": text_of("both", CONTACT, tip="5 mm", follows=False),
          "following": text_of("ke", CONTACT)}  # fmt: skip
 
@@ -67,9 +69,9 @@ class Races:
         for module in list(sys.modules.values()):
             if module.__name__.startswith(("hydro2d.kernels", "hydro2d.physics", "eos", "strength", "hydro2d_")):
                 for name, value in list(vars(module).items()):
-                    source = getattr(getattr(value, "compiled", value), "py_func", None)
-                    if source is not None and (module, name) not in PHASES and not name.startswith(("exp", "log", "power")):
-                        monkeypatch.setattr(module, name, source)
+                    compiled = getattr(value, "compiled", value)
+                    if hasattr(compiled, "py_func") and (module, name) not in PHASES and not name.startswith(PLAIN):
+                        monkeypatch.setattr(module, name, source(value))
         for module, name in PHASES:
             monkeypatch.setattr(module, name, functools.partial(self, getattr(module, name)))
 
@@ -87,8 +89,8 @@ class Races:
     def __call__(self, phase, handle):
         number, failed = len(handle.parts) - 1, []
         turns, logs, running = [threading.Semaphore(0) for _ in range(number)], [[] for _ in range(number)], set(range(number))
-        watched = SimpleNamespace(values={name: each.view(Watched) if isinstance(each, np.ndarray) else each
-                                          for name, each in handle.values.items()})
+        watched = SimpleNamespace(**{name: each.view(Watched) if isinstance(each, np.ndarray) else each
+                                     for name, each in handle.values.items()})
 
         def work(place):
             self.own.turn, self.own.log = turns[place], logs[place]
@@ -134,11 +136,10 @@ def everything_happens(monkeypatch) -> None:
     for name in ("meeting", "come_apart"):
         monkeypatch.setattr(contact_motion, name, lambda *_: True)
     monkeypatch.setattr(extension, "sureness", lambda share: 0.0)
-    source = contact_motion.contact_viscosity
-    at = list(inspect.signature(source).parameters).index("p")
+    viscosity = contact_motion.contact_viscosity
 
-    def without_pressure(*arguments):
-        source(*arguments[:at], np.zeros_like(arguments[at], subok=False), *arguments[at + 1:])
+    def without_pressure(part, w):
+        viscosity(part, SimpleNamespace(**{**vars(w), "p": np.zeros_like(w.p, subok=False)}))
 
     monkeypatch.setattr(contact_motion, "contact_viscosity", without_pressure)
 

@@ -6,13 +6,13 @@ import pytest
 from hydro2d.kernels import boundaries, centroids, column_ranges, interfaces, remap
 from hydro2d.kernels.mixed_scratch import BEFORE, SHIFT_Z
 from hydro2d.mesh.fields import RHO
-from tests.kernels.cells import Cells
+from tests.kernels.cells import Cells, handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-push_bodies = centroids.push_bodies.py_func
-size_after = centroids.size_after.py_func
-volume_before = centroids.volume_before.py_func
-donor_place = centroids.donor_place.py_func
+push_bodies = centroids.push_bodies.source
+size_after = centroids.size_after.source
+volume_before = centroids.volume_before.source
+donor_place = centroids.donor_place.source
 forget_centroids = remap.forget_centroids.py_func
 
 #: nothing moves with a velocity of its own
@@ -61,7 +61,8 @@ def sweep(cells, dj, swept, order) -> None:
     cells.call(boundaries.ghost_columns, di=1, **{name: mirrors[name] for name in ("mirror_r_min", "mirror_r_max")})
     cells.call(boundaries.ghost_rows, dj=1, leading=-1, **{name: mirrors[name] for name in ("mirror_z_min", "mirror_z_max")})
     cells.call(column_ranges.list_mixed)
-    cells.call(interfaces.donor_volumes, dj=dj, di=1 - dj, second=True, void_only=cells.mesh_box)
+    cells.call(interfaces.sweep_volumes, dj=dj, di=1 - dj, second=True)
+    cells.call(interfaces.donor_volumes, void_only=cells.mesh_box, **way)
     cells.call(interfaces.interface_volumes, interface_order=order, gases=np.zeros(len(order), dtype=bool), **way)
     cells.call(remap.sweep_z if dj else remap.sweep_r, second=True, face=face)
     cells.call(centroids.carry_centroids, second=True, own=ONE_GROUP, contact_columns=NO_CONTACT, **way)
@@ -280,13 +281,15 @@ def test_sizes_and_volumes_of_a_cell_around_a_sweep():
     """After the first of two sweeps the faces say how large a cell is, after the second it is as on the mesh."""
     volume, pre, face = np.full((3, 3), 2.0), np.full((3, 3), 1.75), np.zeros((4, 4))
     face[1, 1], face[1, 2], face[2, 1] = 0.5, 0.25, 0.125
-    assert size_after(1, 1, 0, 1, True, volume, pre, face) == 2.0
-    assert size_after(1, 1, 0, 1, False, volume, pre, face) == 2.0
-    assert size_after(1, 1, 1, 0, False, volume, pre, face) == 2.125
+    assert size_after(1, 1, handle(dj=0, di=1, second=True, volume=volume, pre=pre, face=face)) == 2.0
+    assert size_after(1, 1, handle(dj=0, di=1, second=False, volume=volume, pre=pre, face=face)) == 2.0
+    assert size_after(1, 1, handle(dj=1, di=0, second=False, volume=volume, pre=pre, face=face)) == 2.125
     vof, flux = np.full((1, 3, 3), 0.5), np.zeros((1, 4, 4))
     flux[0, 1, 1], flux[0, 1, 2], flux[0, 2, 1] = 0.25, 0.125, 0.0625
-    assert volume_before(0, 1, 1, 0, 1, True, volume, pre, face, vof, flux) == 0.875
-    assert volume_before(0, 1, 1, 1, 0, False, volume, pre, face, vof, flux) == 0.875
+    assert volume_before(0, 1, 1, handle(dj=0, di=1, second=True, volume=volume, pre=pre, face=face, vof=vof,
+                         flux_volume=flux)) == 0.875
+    assert volume_before(0, 1, 1, handle(dj=1, di=0, second=False, volume=volume, pre=pre, face=face, vof=vof,
+                         flux_volume=flux)) == 0.875
 
 
 def test_a_donor_gives_from_where_it_was_cut_or_all_across_or_from_beyond_the_edge():
@@ -296,7 +299,8 @@ def test_a_donor_gives_from_where_it_was_cut_or_all_across_or_from_beyond_the_ed
     place[:, 0, 1, 2], centroid[:, 0] = (0.25, -0.125), 0.0625
 
     def given(j, i):
-        return donor_place(0, j, i, 1, 2, 0, 1, True, box, volume, volume, face, vof, flux, place, centroid)
+        return donor_place(0, j, i, 1, 2, handle(dj=0, di=1, second=True, mesh_box=box, volume=volume, pre=volume, face=face,
+                           vof=vof, flux_volume=flux, flux_place=place, centroid=centroid))
 
     assert given(1, 1) == (0.25, -0.125)
     assert given(1, 3) == (0.0, 0.0625)
@@ -313,7 +317,7 @@ def pushed(before, after, where, axis) -> np.ndarray:
     centroid[axis, :, 1, 1], mix[1, BEFORE] = where, before
     vof = np.zeros((len(before), 2, 2))
     vof[:, 1, 1] = after
-    push_bodies(1, 1, vof, centroid, mix)
+    push_bodies(1, 1, handle(vof=vof, centroid=centroid, mix=mix))
     assert not centroid[1 - axis].any()
     return centroid[axis, :, 1, 1]
 

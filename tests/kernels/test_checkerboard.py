@@ -6,6 +6,7 @@ import pytest
 from hydro2d.kernels import contact_checkerboard as kernels
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import Grid
+from tests.kernels.cells import handle
 
 #: cells along either side of the mesh, and those that the hard body fills
 N, FILLED = 10, np.s_[2:12, 2:9]
@@ -43,12 +44,12 @@ class Block:
         self.fr, self.fz = np.zeros(g.vertex_shape), np.zeros(g.vertex_shape)
         self.own_r, self.own_z = np.zeros((2, *g.vertex_shape)), np.zeros((2, *g.vertex_shape))
         group = np.array([0, 1])
-        kernels.find_insides(0, rows, j0, j1, group, ranges, self.vof, inside)
-        kernels.find_checkerboards(0, rows, j0, j1, group, ranges, self.vof, self.q, self.pm, inside, found)
-        kernels.fade_deviators(0, rows, STEP, group, ranges, g.volume, hg, cell_mass, inside, found, self.vof, self.km, self.q,
-                               room)
-        kernels.fade_pressures(0, rows, j0, j1, group, ranges, columns, cell_mass, room, self.vof, self.pm, self.fr, self.fz,
-                               self.own_r, self.own_z, self.q)
+        names = handle(
+            parts=rows, mesh_box=np.array([j0, j1, j0, j1]), dt=STEP, group=group, group_ranges=ranges, volume=g.volume,
+            hg_coefficient=hg, cell_mass=cell_mass, contact_columns=columns, inside=inside, checkerboard=found, room=room,
+            vof=self.vof, pm=self.pm, km=self.km, q=self.q, fr=self.fr, fz=self.fz, own_r=self.own_r, own_z=self.own_z)
+        for kernel in (kernels.find_insides, kernels.find_checkerboards, kernels.fade_deviators, kernels.fade_pressures):
+            kernel(0, names)
         return self
 
     @property

@@ -10,9 +10,11 @@ import pytest
 import hydro2d.kernels
 from hydro2d import jit
 from hydro2d.deck import deck
+from hydro2d.jit import by_name
 from hydro2d.jit.options import ONLY_CALLS
 from hydro2d.solver.simulation import Simulation
 from tests.decks import material, mesh, plate, rod, stop, table
+from tests.kernels.cells import handles, source
 
 
 def _kernels():
@@ -65,19 +67,20 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     seen, kernels = set(), list(_kernels())
 
     def held_against_source(module, name, function):
-        source = function.compiled.py_func
+        taken, own = by_name.takes(function), len(by_name.own_parameters(function))
 
         def call(*arguments):
-            copies = [a.copy() if isinstance(a, np.ndarray) else a for a in arguments]
-            given = [a for a in arguments if isinstance(a, np.ndarray) and a.size]
-            for one, other in itertools.combinations(given, 2):  # hydro2d.jit promises it to the compiler
+            given = dict(zip(taken, by_name.values(function, arguments), strict=True))
+            copies = {of: a.copy() if isinstance(a, np.ndarray) else a for of, a in given.items()}
+            arrays = [a for a in given.values() if isinstance(a, np.ndarray) and a.size]
+            for one, other in itertools.combinations(arrays, 2):  # hydro2d.jit promises it to the compiler
                 assert not np.shares_memory(one, other), f"arguments of {name} overlap"
             function(*arguments)
             with np.errstate(all="ignore"):
-                source(*copies)
-            for number, (mine, other) in enumerate(zip(arguments, copies, strict=True)):
+                source(function)(*list(copies.values())[:own], *handles(function, copies))
+            for of, mine in given.items():
                 if isinstance(mine, np.ndarray):
-                    np.testing.assert_allclose(mine, other, rtol=1e-11, atol=1e-300, err_msg=f"{name}, argument {number}")
+                    np.testing.assert_allclose(mine, copies[of], rtol=1e-11, atol=1e-300, err_msg=f"{name}, {of}")
             seen.add(name)
 
         monkeypatch.setattr(module, name, call)

@@ -7,9 +7,10 @@ from hydro2d.kernels import contact_volumes, interfaces
 from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
 from hydro2d.physics.contact import GAP
+from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-take = contact_volumes.take.py_func
+take = contact_volumes.take.source
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
@@ -36,9 +37,11 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None, pla
     centroid = np.zeros((2, *vof.shape)) if centroid is None else centroid
     first = [np.array(order, dtype=np.int64) for order in ((0, 1), (1, 0))]
     swept = np.array(own)[:, None, None] * np.ones(SHAPE)
-    contact_fluxes(0, 1, 0, ROWS, MESH_BOX, np.ones(SHAPE[1]), np.ones(SHAPE[0]), *first, GROUP, SOLIDS, COLUMNS, line,
-                   np.full(SHAPE, face), swept, vof.copy() if part is None else part, np.ones(SHAPE) if size is None else size,
-                   vof, centroid, result, place, np.zeros((SHAPE[0], 3, 4, 2)))
+    contact_fluxes(0, handle(
+        dj=0, di=1, parts=ROWS, mesh_box=MESH_BOX, dr=np.ones(SHAPE[1]), dz=np.ones(SHAPE[0]), hard_first=first[0],
+        soft_first=first[1], group=GROUP, gases=SOLIDS, contact_columns=COLUMNS, line=line, face=np.full(SHAPE, face),
+        own=swept, own_share=vof.copy() if part is None else part, size=np.ones(SHAPE) if size is None else size, vof=vof,
+        centroid=centroid, flux_volume=result, flux_place=place, strips=np.zeros((SHAPE[0], 3, 4, 2))))
     return tuple(result[:, ROW, GIVER])
 
 
@@ -146,7 +149,8 @@ def test_a_cell_is_full_by_degrees(share):
 def shares(hard: float, soft: float, stretch: float) -> tuple[float, float]:
     """(scale of the fractions, size) of a cell of 1 m^3 whose volume before the sweep is stretch."""
     vof, part, size = upright(hard, soft), np.zeros((2, *SHAPE)), np.zeros(SHAPE)
-    contact_shares(0, ROWS, MESH_BOX, COLUMNS, np.ones(SHAPE), np.full(SHAPE, stretch), vof, part, size)
+    contact_shares(0, handle(parts=ROWS, mesh_box=MESH_BOX, contact_columns=COLUMNS, volume=np.ones(SHAPE),
+                   pre=np.full(SHAPE, stretch), vof=vof, own_share=part, size=size))
     return part[0, ROW, GIVER] / hard, size[ROW, GIVER]
 
 
@@ -171,9 +175,10 @@ def corner_of(scale: float, void: float) -> list[float]:
     vof[1, 2, 2] -= void
     share, rest = np.where(vof == 1.0, 1.0, vof * scale), 1.0 - vof[:, 2, 2].sum()
     strips, given = np.zeros((3, 4, 2)), []
-    for along_z in (False, True):
-        fill_strips(2, 2, interfaces.ALL, along_z, 0.1, 0.1, 0.0, np.arange(2), share, rest, np.zeros(2, dtype=np.int64),
-                    SOLIDS, np.zeros((2, 2, 5, 5)), np.ones(5), np.ones(5), strips)
+    for dj in (0, 1):
+        fill_strips(2, 2, interfaces.ALL, (0.1, 0.1, 0.0), np.arange(2), share, rest, strips, handle(
+            group=np.zeros(2, dtype=np.int64), gases=SOLIDS, centroid=np.zeros((2, 2, 5, 5)), dr=np.ones(5), dz=np.ones(5),
+            dj=dj))
         given += list(strips[:2, interfaces.SHARE].ravel() / scale)
     return given
 
@@ -195,7 +200,8 @@ def taken(g, more, vof, flux):
     """(what group g of bodies soft, hard, soft cannot take, fluxes of all): cells of 2 m^3 left and right of the face."""
     vof, result = np.array(vof)[:, None, :], np.zeros((3, 1, 2))
     result[:, 0, 1] = flux
-    left = take(g, more, 0, 1, 0, 1, np.array([0, 1, 0]), vof, np.full((1, 2), 2.0), vof, result)
+    left = take(g, more, 0, 1, handle(dj=0, di=1, group=np.array([0, 1, 0]), own_share=vof, size=np.full((1, 2), 2.0),
+                vof=vof, flux_volume=result))
     return left, list(result[:, 0, 1])
 
 

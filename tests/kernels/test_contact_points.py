@@ -12,20 +12,21 @@ from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact import GAP
+from tests.kernels.cells import handle
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 from tests.physics.continuity import changes_in_proportion
 
 master = contact_velocities.master.py_func
 held = contact_velocities.held.py_func
-give = contact_velocities.give.py_func
-give_tie = contact_velocities.give_tie.py_func
-mismatch = contact_velocities.mismatch.py_func
-list_ties = contact_velocities.list_ties.py_func
-masters_mobility = contact_velocities.masters_mobility.py_func
-mobility = contact_velocities.mobility.py_func
-warm_up = contact_velocities.warm_up.py_func
-pressed = contact_velocities.pressed.py_func
-face_aperture = contact_geometry.face_aperture.py_func
+give = contact_velocities.give.source
+give_tie = contact_velocities.give_tie.source
+mismatch = contact_velocities.mismatch.source
+list_ties = contact_velocities.list_ties.source
+masters_mobility = contact_velocities.masters_mobility.source
+mobility = contact_velocities.mobility.source
+warm_up = contact_velocities.warm_up.source
+pressed = contact_velocities.pressed.source
+face_aperture = contact_geometry.face_aperture.source
 
 NOWHERE = np.full(4, -1)
 
@@ -67,7 +68,7 @@ def test_axis_and_walls_hold_one_component():
                                                (np.array([-1, -1, 1, -1]), (1.5, 0.0))])
 def test_an_impulse_moves_what_is_not_held(constrained, gained):
     mass, u, v, transfer = np.full((2, 3, 3), 2.0), np.zeros((2, 3, 3)), np.zeros((2, 3, 3)), np.zeros((5, 3))
-    give(0, 1, 1, 3.0, -4.0, constrained, mass, u, v, transfer)
+    give(0, 1, 1, 3.0, -4.0, handle(constrained=constrained, mass=mass, u=u, v=v, transfer=transfer))
     assert (u[0, 1, 1], v[0, 1, 1]) == gained
     assert np.count_nonzero(u) + np.count_nonzero(v) == np.count_nonzero(gained)
     assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
@@ -78,7 +79,7 @@ def room_for_ties(slots: int, vertices=(7, 7)):
     most = 2 * slots * (MASTERS + 1)
     nodes, starts, entries, places = (np.zeros(shape, dtype=np.int64) for shape in (
         (6, 2 * slots), 2 * slots + 1, (4, most), (2, *vertices)))
-    return nodes, starts, entries, np.full((most, 4), np.nan), places
+    return {"nodes": nodes, "starts": starts, "entries": entries, "portions": np.full((most, 4), np.nan), "places": places}
 
 
 def apart(number, where, weights, mass, u, v, constrained):
@@ -86,16 +87,19 @@ def apart(number, where, weights, mass, u, v, constrained):
     count, nodes, first = np.zeros(7, dtype=np.int64), np.full((7, 7), 3), np.zeros(8, dtype=np.int64)
     count[3] = 1
     listed, strength = room_for_ties(1), np.array([[0.0, 1.0]])
-    tied, vertices = list_ties(0, 6, constrained, count, nodes, first, strength, number, where, weights, mass, *listed)
+    ties = handle(parts=np.array([0, 6]), constrained=constrained, contact_node_count=count, contact_nodes=nodes,
+                  first_slot=first, strength=strength, masters=number, where=where, weights=weights, mass=mass, **listed)
+    tied, vertices = list_ties(ties)
     assert (tied, vertices) == (1, 1 + number[0, 1])
-    assert not listed[-1].any()
-    return mismatch(0, *listed[:-1], u, v)
+    assert not ties.places.any()
+    return mismatch(0, u, v, ties)
 
 
 def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
     number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
     mass, u, v, transfer = np.full((2, 7, 7), 2.0), np.zeros((2, 7, 7)), np.zeros((2, 7, 7)), np.zeros((5, 7))
-    give_tie(1, 3, 3, 0, 8.0, -4.0, NOWHERE, number, where, weights, mass, u, v, transfer)
+    give_tie(1, 3, 3, 0, 8.0, -4.0, handle(constrained=NOWHERE, masters=number, where=where, weights=weights, mass=mass, u=u,
+             v=v, transfer=transfer))
     assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
     np.testing.assert_array_equal(v, -0.5 * u)
     assert apart(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
@@ -107,24 +111,26 @@ def test_a_slave_is_as_heavy_as_it_and_its_masters():
     mass, strength = np.full((2, 7, 7), 4.0), np.array([[0.0, 1.0]])
     mass[0, 3, 3] = 2.0
     ease = 0.75**2 / 4.0 + 0.25**2 / 2.0
-    assert masters_mobility(1, 3, 3, 0, NOWHERE, number, where, weights, mass) == pytest.approx((ease, ease))
-    assert masters_mobility(1, 3, 3, 0, np.array([2, -1, -1, -1]), number, where, weights, mass)[0] == pytest.approx(0.03125)
-    assert mobility(0, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == 0.5
+    ties = handle(constrained=NOWHERE, strength=strength, masters=number, where=where, weights=weights, mass=mass)
+    assert masters_mobility(1, 3, 3, 0, ties) == pytest.approx((ease, ease))
+    assert mobility(0, 3, 3, 0, ties) == 0.5
     tied = 1.0 / (4.0 + 1.0 / ease)
-    assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(tied)
+    assert mobility(1, 3, 3, 0, ties) == pytest.approx(tied)
     strength[0, 1] = 0.25
-    assert mobility(1, 3, 3, 0, NOWHERE, strength, number, where, weights, mass) == pytest.approx(0.25 * tied + 0.75 / 4.0)
+    assert mobility(1, 3, 3, 0, ties) == pytest.approx(0.25 * tied + 0.75 / 4.0)
+    ties.constrained = np.array([2, -1, -1, -1])
+    assert masters_mobility(1, 3, 3, 0, ties)[0] == pytest.approx(0.03125)
 
 
 def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
     """By mass, times the size of the weight for a master: a tie of a heavy slave to a light node must not burn that."""
     number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
     mass, heat = np.arange(1.0, 99.0).reshape(2, 7, 7), np.zeros((2, 7, 7))
-    warm_up(1, 3, 3, 0, 6.0, number, where, weights, mass, heat)
+    warm_up(1, 3, 3, 0, 6.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
     assert heat[1, 3, 3] == pytest.approx(6.0 / (
         mass[1, 3, 3] + 0.75 * mass[1, 3, 2] + 0.25 * mass[1, 4, 4] + 0.5 * mass[0, 3, 3]))
     assert heat[0, 3, 3] == pytest.approx(0.5 * heat[1, 3, 3])
-    warm_up(0, 3, 3, 0, 5.0, number, where, weights, mass, heat)
+    warm_up(0, 3, 3, 0, 5.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
     assert np.sum(heat * mass) == pytest.approx(11.0)
     assert heat[1, 3, 2] == pytest.approx(3.0 * heat[1, 4, 4])
 
@@ -144,17 +150,20 @@ class Settled:
         line[contact_geometry.SHARE] = found.hard
         listed = room_for_ties(slots, vertices)
         rows = np.array([g.g, g.g + N])
-        impulses = np.full((2, slots, 2), np.nan), np.full((3, slots), np.nan)
-        settle(rows, 1e-3, friction, constrained, g.metrics, g.dz, np.tile(rows, (cells[0], 1)), line, found.count,
-               found.nodes, found.first, found.normal, np.ones(vertices), *ties,
-               pressure, pressure.copy(), np.zeros(cells), self.mass, w[0], w[1], *listed, np.full((2 * slots, 12), np.nan),
-               np.full((2 * slots * (MASTERS + 2), 2), np.nan), *impulses, self.transfer)
-        warm_contact(rows, found.count, found.nodes, found.first, *ties, self.mass, before[0].copy(), before[1].copy(), w[0],
-                     w[1], *listed[:-1], *impulses, self.heat, self.transfer)
+        names = handle(
+            parts=rows, dt=1e-3, friction=friction, constrained=constrained, metrics=g.metrics, dz=g.dz,
+            contact_columns=np.tile(rows, (cells[0], 1)), line=line, contact_node_count=found.count, contact_nodes=found.nodes,
+            first_slot=found.first, contact_normal=found.normal, touch=np.ones(vertices), strength=ties[0], masters=ties[1],
+            where=ties[2], weights=ties[3], sig_rr=pressure, sig_zz=pressure.copy(), sig_rz=np.zeros(cells), mass=self.mass,
+            u0=before[0].copy(), v0=before[1].copy(), u=w[0], v=w[1], **listed, impulses=np.full((2 * slots, 12), np.nan),
+            gain=np.full((2 * slots * (MASTERS + 2), 2), np.nan), taken=np.full((2, slots, 2), np.nan),
+            rubbing=np.full((3, slots), np.nan), heat=self.heat, transfer=self.transfer)
+        settle(names)
+        warm_contact(names)
         self.after = w
-        slot, group = listed[0][:2]
+        slot, group = names.nodes[:2]
         #: of every slave: its strength, and by what it differs from its masters before and after
-        self.slaves = [(ties[0][slot[t], group[t]], *(np.array(mismatch(t, *listed[:-1], *u)) for u in (before, w)))
+        self.slaves = [(ties[0][slot[t], group[t]], *(np.array(mismatch(t, *u, names)) for u in (before, w)))
                        for t in range(np.count_nonzero(ties[0]))]
 
     def sums(self, w):
@@ -275,35 +284,44 @@ def test_pressure_on_a_flat_surface_is_force_over_its_area():
     line[contact_geometry.SHARE, :j] = 1.0  # the hard body lies below
     zz = np.full(shape, -3e9)
     nothing = np.zeros(shape)
-    force = pressed(j, i, 0.0, 1.0, contact_columns, g.metrics, g.dz, line, nothing, zz, nothing)
+    force = pressed(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
+                    sig_rr=nothing, sig_zz=zz, sig_rz=nothing))
     area = g.az_out[i - 1] + g.az_in[i]
     assert area == pytest.approx(g.face_r[i] * 1e-3, rel=0.02)
     assert force == pytest.approx(3e9 * area)
-    assert pressed(j, i, 0.0, 1.0, contact_columns, g.metrics, g.dz, line, nothing, -zz, nothing) == 0.0
+    assert pressed(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
+                   sig_rr=nothing, sig_zz=-zz, sig_rz=nothing)) == 0.0
+
+
+def one_cell(line, hard: float, soft: float, inside: bool = True):
+    """The cell (0, 0), among the contact-interface cells or not."""
+    return handle(line=line, hard=np.full((1, 1), hard), soft=np.full((1, 1), soft),
+                  contact_columns=np.array([[0, int(inside)]]))
 
 
 def test_the_line_of_a_cell_wets_its_edges():
-    line, hard, soft = np.zeros((10, 1, 1)), np.full((1, 1), 0.25), np.full((1, 1), 0.75)
+    line = np.zeros((10, 1, 1))
     line[contact_geometry.SHARE], line[contact_geometry.LINE_R] = 0.25, 1.0
     line[contact_geometry.CONSTANT] = 0.25  # hard where x <= 1/4
-    assert face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, True, line, hard, soft) == (1.0, 1.0, 1.0)
-    assert face_aperture(0, 0, 1.0, 0.0, 1.0, 1.0, True, line, hard, soft) == (1.0, 0.0, 0.0)
-    solid, low, high = face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, True, line, hard, soft)
+    cell = one_cell(line, 0.25, 0.75)
+    assert face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, cell) == (1.0, 1.0, 1.0)
+    assert face_aperture(0, 0, 1.0, 0.0, 1.0, 1.0, cell) == (1.0, 0.0, 0.0)
+    solid, low, high = face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, cell)
     assert (solid, low + high) == (1.0, pytest.approx(2.0 * 0.25))  # the two ends share the quarter that is open
     assert low > high
 
 
 @pytest.mark.parametrize("inside", [True, False])
 def test_without_a_line_an_edge_has_the_share_of_its_cell(inside):
-    line, hard, soft = np.zeros((10, 1, 1)), np.full((1, 1), 0.3), np.full((1, 1), 0.3)
+    line = np.zeros((10, 1, 1))
     line[contact_geometry.SHARE] = 0.5
-    assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, hard, soft) == (1.0, 0.5, 0.5)
+    assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.3, 0.3, inside)) == (1.0, 0.5, 0.5)
 
 
 def test_an_edge_of_a_void_cell_has_no_weight():
-    line, nothing = np.full((10, 1, 1), -1.0), np.zeros((1, 1))
+    line = np.full((10, 1, 1), -1.0)
     for inside in (True, False):
-        assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, inside, line, nothing, nothing) == (0.0, 0.0, 0.0)
+        assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.0, 0.0, inside)) == (0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize(("other", "void"), [(1.0, 0.5 * GAP), (1.0, 1.5 * GAP), (1.0 - GAP, 0.5), (1.0, 0.5)])
@@ -357,8 +375,10 @@ def evened(pressure, kind=INTERFACE, viscosity=0.0):
         (2, *vertices), np.nan)
     q[RHO] = np.array([2.0, 6.0])[:, None, None]
     skin[KIND] = kind
-    even_out(0, np.array([0, 6]), columns, volume, skin, bulk, pressure, qr, r, z)
-    warm_evened(0, np.array([0, 6]), columns, volume, pressure, qr, r, z, vof, q)
+    even_out(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, skin=skin, bulk=bulk, ph=pressure,
+             qr=qr, even_r=r, even_z=z))
+    warm_evened(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, ph=pressure, qr=qr, even_r=r,
+                even_z=z, vof=vof, q=q))
     return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
 
 
@@ -411,7 +431,8 @@ def carried(last_mass: float) -> list[float]:
     w[0, 0], w[1, 0] = 3.0 * np.arange(columns) ** 2, -np.arange(columns) ** 2
     w[:, :, :, :4] = 0.0
     dual = np.zeros((6, 2, columns))
-    momentum.dual_row.py_func(0, 0, 1, 5, 4, 7, 0, g.metrics, ranges, flux, 2.0, mass, w, dual)
+    momentum.dual_row.source(0, 5, 0, handle(dj=0, di=1, i0=4, i1=7, metrics=g.metrics, group_ranges=ranges, flux_mass=flux,
+                              steepness=2.0, mass=mass, velocity0=w, dual=dual))
     return list(dual[:5, 0, 5:7].ravel())
 
 

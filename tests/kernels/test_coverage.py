@@ -10,7 +10,7 @@ from tests.rules import source
 PACKAGE = "hydro2d.kernels"
 #: files of which every compiled function has a test of its own: what they do is physics, one cell at a time
 MIXED = {"cut_cells", "mixed", "mixed_strength", "plastic_return"}
-LOOPS = ("kernel", "serial", "threaded")
+LOOPS = ("kernel", "cell_rows", "vertex_rows", "serial", "threaded")
 CALLED = sorted(
     (name.removeprefix(f"{PACKAGE}."), function.name)
     for name, file in source.modules().items()

@@ -11,6 +11,7 @@ from hydro2d.physics.fracture import crack_opening
 from hydro2d.solver.simulation import Simulation
 from strength import cochran_banner
 from tests.decks import box, material, mesh, stop, table, walls
+from tests.kernels.cells import handle
 
 TENSION, OPENING, SIZE = 1.2e9, 20e-6, 50e-6
 TEXT = (mesh((4 * SIZE, 4), (12 * SIZE, 12), geometry="planar") + walls("r_max", "z_min", "z_max")
@@ -36,12 +37,14 @@ class Block:
 
     def open(self):
         s = self.state
-        cracks.open_cracks(0, self.parts, s.body_range, self.models, self.materials, s.vof, s.q)
+        cracks.open_cracks(0, handle(parts=self.parts, body_range=s.body_range, models=self.models, materials=self.materials,
+                           vof=s.vof, q=s.q))
 
     def damage(self):
         s, g = self.state, self.simulation.grid
-        cracks.damage_by_cracks(0, self.parts, self.mesh_box, g.dr, g.dz, s.group, s.body_range, self.models, self.materials,
-                                s.u, s.v, s.vof, s.q)
+        cracks.damage_by_cracks(0, handle(parts=self.parts, mesh_box=self.mesh_box, dr=g.dr, dz=g.dz, group=s.group,
+                                body_range=s.body_range, models=self.models, materials=self.materials, u=s.u, v=s.v,
+                                vof=s.vof, q=s.q))
 
     def pressure(self):
         from eos.dispatch import evaluate

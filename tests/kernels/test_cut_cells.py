@@ -9,18 +9,19 @@ from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, H
 from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.traction import SURE
+from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-common_traction = cut_cells.common_traction.py_func
+common_traction = cut_cells.common_traction.source
 normal_deviator = cut_cells.normal_deviator.py_func
-skin_deviator = cut_cells.skin_deviator.py_func
+skin_deviator = cut_cells.skin_deviator.source
 surface_weight = cut_cells.surface_weight.py_func
 pull_of = cut_cells.pull_of.py_func
-cut_pressure = cut_cells.cut_pressure.py_func
-grow = cut_cells.grow.py_func
-fill_room = cut_cells.fill_room.py_func
-meet_traction = cut_cells.meet_traction.py_func
-fill_cut_cell = cut_cells.fill_cut_cell.py_func
+cut_pressure = cut_cells.cut_pressure.source
+grow = cut_cells.grow.source
+fill_room = cut_cells.fill_room.source
+meet_traction = cut_cells.meet_traction.source
+fill_cut_cell = cut_cells.fill_cut_cell.source
 
 RIGID = 1e6  # a yield stress, in units of the modulus, that nothing reaches
 
@@ -37,7 +38,7 @@ class Cell:
         self.q[RHO, :, 0, 0] = 2.0 + np.arange(self.number)
         self.mix[0, MODULUS], self.mix[0, FLOW] = shear, flow
         self.skin[NORMAL_R], self.skin[KIND] = np.sqrt(weight), kind
-        self.void = max(1.0 - f.sum(), 0.0)
+        self.void, self.solid = max(1.0 - f.sum(), 0.0), np.full((1, 1), f.sum())
 
     def strained(self, along, beside):
         """The bodies after strain along the surface: n . s . n, of uniaxial deviators, and its trace."""
@@ -46,11 +47,12 @@ class Cell:
         return self
 
     def common(self):
-        return common_traction(0, 0, self.skin, self.vof, self.q, self.pm, self.km)
+        return common_traction(0, 0, handle(skin=self.skin, vof=self.vof, q=self.q, pm=self.pm, km=self.km))
 
     def meet(self, change: float) -> float:
         p, bulk = (np.full((1, 1), x) for x in self.common())
-        return meet_traction(0, 0, change, self.void, self.skin, p, bulk, self.vof, self.pm, self.km, self.mix)
+        return meet_traction(0, 0, change, handle(skin=self.skin, p=p, bulk=bulk, vof=self.vof, pm=self.pm, km=self.km,
+                             mix=self.mix, solid=self.solid))
 
     @property
     def grown(self) -> float:
@@ -144,18 +146,18 @@ def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight)
         return cell.meet(change), *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
 
     free = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
-    total, _ = grow(0, 0, 0.0, weight, free.vof, free.pm, free.km, free.mix)
+    total, _ = grow(0, 0, 0.0, handle(vof=free.vof, pm=free.pm, km=free.km, mix=free.mix, skin=free.skin))
     for change in (total, total - void):
         changes_in_proportion(after, change, 10.0)
     assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
 
 
 def test_what_bodies_grow_by_falls_with_the_pressure_as_stated():
-    cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM)).strained([-0.002, 0.001], [0.003, -0.001])
-    low, give = grow(0, 0, 0.0, 0.6, cell.vof, cell.pm, cell.km, cell.mix)
+    cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM), weight=0.6).strained([-0.002, 0.001], [0.003, -0.001])
+    low, give = grow(0, 0, 0.0, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     by_hand = sum(f * (0.6 / (k + 0.6 * 4.0 / 3.0 * g) + 0.4 / k) for f, (k, g) in ((0.3, STEEL), (0.5, ALUMINIUM)))
     assert give == pytest.approx(by_hand, rel=1e-12)
-    high, _ = grow(0, 0, 1e-3, 0.6, cell.vof, cell.pm, cell.km, cell.mix)
+    high, _ = grow(0, 0, 1e-3, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     assert (low - high) / 1e-3 == pytest.approx(give, rel=1e-9)  # no body flows, so that is exact
     assert high == pytest.approx(cell.grown)
 
@@ -163,7 +165,7 @@ def test_what_bodies_grow_by_falls_with_the_pressure_as_stated():
 @pytest.mark.parametrize("start", [-0.01, 0.0, 0.03])
 def test_a_room_is_filled_from_anywhere(start):
     cell = Cell((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM))
-    target = fill_room(0, 0, -0.004, start, 1.0, cell.vof, cell.pm, cell.km, cell.mix)
+    target = fill_room(0, 0, -0.004, start, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     assert cell.grown == pytest.approx(-0.004, rel=1e-9)
     assert cell.normal_pressures() == pytest.approx([target] * 2, rel=1e-9)
 
@@ -175,7 +177,9 @@ def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
     cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
     cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
     assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
-    assert skin_deviator(0, 0, cell.skin, 2.0, cell.vof, cell.q) == pytest.approx(2.0 * (0.25 * 0.004 - 0.5 * 0.003))
+    for by_what_is_solid, scale in ((True, 2.0), (False, 1.0)):
+        assert skin_deviator(0, 0, handle(skin=cell.skin, vof=cell.vof, q=cell.q, by_what_is_solid=by_what_is_solid,
+                             solid=np.full((1, 1), 0.5))) == pytest.approx(scale * (0.25 * 0.004 - 0.5 * 0.003))
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.48, 0.64  # a weight of 0.64
     cell.q[SZZ, 0], cell.q[SRZ, 0] = -0.003, 0.002
     expected = 0.48**2 * 0.004 - 0.64**2 * 0.003 + 2.0 * 0.48 * 0.64 * 0.002
@@ -192,9 +196,11 @@ def test_groups_do_not_pull_at_each_other():
 
 def test_at_half_the_step_half_of_the_strain_has_come():
     cell, one = Cell((0.99, 0.0, *STEEL)), np.ones((1, 1))
-    assert cut_pressure(0, 0, 0.1, -0.4, cell.skin, 0.005 * one, one, 0.99 * one) == pytest.approx(0.005 + 0.02 - 0.01)
-    assert cut_pressure(0, 0, 0.1, 0.4, cell.skin, 0.005 * one, one, 0.99 * one) == 0.0
-    assert cut_pressure(0, 0, 0.1, -0.4, cell.skin, 0.005 * one, one, (1.0 + 1e-15) * one) == pytest.approx(0.025)
+    names = handle(dt=0.1, skin=cell.skin, p=0.005 * one, bulk=one, solid=0.99 * one)
+    assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.005 + 0.02 - 0.01)
+    assert cut_pressure(0, 0, 0.4, names) == 0.0
+    names.solid = (1.0 + 1e-15) * one
+    assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.025)
 
 
 # ------------------------------------------------------------------------------------------------- after the step
@@ -206,7 +212,7 @@ def filled(change: float, target: float, void: float, growth):
     for cell in (before, after):
         cell.mix[0, GROWTH], cell.mix[0, NORMAL], cell.mix[0, HEAT] = growth, (0.001, -0.002), (0.02, 0.05)
         cell.q[E, :, 0, 0] = 0.4, 0.9
-    fill_cut_cell(0, 0, 3.0 * change, 3.0, target, 0.07, after.vof, after.pm, after.q, after.mix)
+    fill_cut_cell(0, 0, 3.0 * change, 3.0, target, 0.07, handle(vof=after.vof, pm=after.pm, q=after.q, mix=after.mix))
     return before, after
 
 
@@ -261,9 +267,10 @@ def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False,
     for j in range(SIZE_OF_MESH):
         count[j] = is_mixed[j].sum()
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
-    cut_cells.find_surfaces(0, MESH_BOX[:2], 2, SIZE_OF_MESH - 2, MESH_BOX, np.full(SIZE_OF_MESH, dr),
-                            np.full(SIZE_OF_MESH, dz), tipton, np.array(group), np.array(hard), 0.5, np.array(strong),
-                            np.array(gas), count, mixed, vof, skin)
+    cut_cells.find_surfaces(0, handle(parts=MESH_BOX[:2], i0=2, i1=SIZE_OF_MESH - 2, mesh_box=MESH_BOX,
+                            dr=np.full(SIZE_OF_MESH, dr), dz=np.full(SIZE_OF_MESH, dz), tipton=tipton, group=np.array(group),
+                            hard_bodies=np.array(hard), hard_threshold=0.5, strong=np.array(strong), gases=np.array(gas),
+                            mixed_count=count, mixed=mixed, vof=vof, skin=skin))
     return skin
 
 
@@ -357,19 +364,21 @@ def test_what_a_body_has_of_vertices_in_a_gas_is_tied_to_it():
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.6, 0.8
     metrics, gases = np.zeros((8, 2)), np.array([False, True])
     metrics[VOL_R, 0], metrics[CM_IN, 0], metrics[CM_OUT, 0] = 1.5, 2 / 9, 5 / 18
-    given = metrics, 2.0, cell.skin, gases, cell.vof, cell.q
-    at_a_vertex = 0.25 * 2.0 * 3.0 * 2 / 9
-    by_r, by_z = cut_cells.ties.py_func(0, 0, *given)
-    assert (by_r, by_z) == pytest.approx((MOST_TIED * at_a_vertex * 0.36, MOST_TIED * at_a_vertex * 0.64))
     u0 = np.array([[[1.0, 3.0], [6.0, 10.0]]])
-    pull = cut_cells.pull_of_ties.py_func
-    pulls = [pull(0, j, i, 0, 0, by_r, by_z, u0) for j in (0, 1) for i in (0, 1)]
+    names = handle(metrics=metrics, dz=np.array([2.0]), skin=cell.skin, gases=gases, vof=cell.vof, q=cell.q, u0=u0,
+                   v0=-2.0 * u0)
+    at_a_vertex = 0.25 * 2.0 * 3.0 * 2 / 9
+    by_r, by_z = cut_cells.ties.source(0, 0, names)
+    assert (by_r, by_z) == pytest.approx((MOST_TIED * at_a_vertex * 0.36, MOST_TIED * at_a_vertex * 0.64))
+    both = [cut_cells.pull_of_ties.source(0, j, i, 0, 0, by_r, by_z, names) for j in (0, 1) for i in (0, 1)]
+    pulls = [radial for radial, _ in both]
+    assert [axial for _, axial in both] == pytest.approx([-2.0 * radial for radial in pulls])
     assert pulls == pytest.approx([2 * by_r + 5 * by_z, -2 * by_r + 7 * by_z, 4 * by_r - 5 * by_z, -4 * by_r - 7 * by_z])
     after = u0[0] + np.reshape(pulls, (2, 2))  # on vertices of 1 kg
     lost = 0.5 * (u0**2).sum() - 0.5 * (after**2).sum()
     assert cut_cells.tied_work.py_func(0, by_r, by_z, *u0[0], *after) == pytest.approx(lost)
     cell.skin[KIND] = JOINT
-    assert cut_cells.ties.py_func(0, 0, *given) == (0.0, 0.0)
+    assert cut_cells.ties.source(0, 0, names) == (0.0, 0.0)
 
 
 def test_bodies_that_are_joined_hold_in_tension():

@@ -7,12 +7,13 @@ from hydro2d.kernels import extension
 from hydro2d.kernels.contact_geometry import REACH
 from hydro2d.kernels.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
 from hydro2d.mesh.grid import Grid
+from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-filled_share = extension.filled_share.py_func
+filled_share = extension.filled_share.source
 sureness = extension.sureness.py_func
-in_debris = extension.in_debris.py_func
-cell_weight = extension.cell_weight.py_func
+in_debris = extension.in_debris.source
+cell_weight = extension.cell_weight.source
 
 #: cells of the mesh along either side, and those of a mesh whose cells differ
 N = 11
@@ -49,9 +50,12 @@ class Extensions:
         rows, dmg = mesh_box[:2], np.zeros_like(vof)
         dmg[1] = damage
         filled = np.full((2, *g.vertex_shape), np.nan)
-        find_filled(0, rows, mesh_box, g.volume, g.metrics, count, nodes, vof[1], vof[0], mass, filled)
-        find_extensions(0, rows, mesh_box, most_squares, g.r, g.z, count, nodes, first, directions, vof[1], vof[0], filled,
-                        np.array([0, 1]), vof, dmg, strength, number, where, weights)
+        find_filled(0, handle(parts=rows, mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, contact_node_count=count,
+                    contact_nodes=nodes, hard=vof[1], soft=vof[0], mass=mass, filled=filled))
+        find_extensions(0, handle(parts=rows, mesh_box=mesh_box, most_squares=most_squares, r=g.r, z=g.z,
+                        contact_node_count=count, contact_nodes=nodes, first_slot=first, contact_normal=directions,
+                        hard=vof[1], soft=vof[0], filled=filled, group=np.array([0, 1]), vof=vof, dmg=dmg, strength=strength,
+                        masters=number, where=where, weights=weights))
         self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
         self.count, self.nodes, self.hard = count, nodes, vof[1]
         #: by group, row and column: strength, and weights of all places of masters
@@ -106,7 +110,8 @@ def test_a_share_of_a_dual_cell_is_none_without_mass_or_beyond_the_mesh():
     hard, soft, mass = np.zeros(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
 
     def share(j, i):
-        return filled_share(1, j, i, mesh_box, g.volume, g.metrics, hard, soft, mass)
+        return filled_share(1, j, i, handle(mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, hard=hard, soft=soft,
+                            mass=mass))
 
     hard[3, 3:5], hard[4, 4] = 1.0, 0.4
     assert share(4, 4) == pytest.approx(0.6)
@@ -127,13 +132,14 @@ def test_debris_is_failed_material_of_the_other_group_that_fills_half_of_a_cell(
     vof, dmg = np.zeros((2, 6, 6)), np.zeros((2, 6, 6))
     vof[1, 2, 3], dmg[1, 2, 3] = 0.5, 1.0
     mesh_box, group = np.array([0, 6, 0, 6]), np.array([0, 1])
-    assert [(j, i) for j in range(7) for i in range(7) if in_debris(0, j, i, mesh_box, group, vof, dmg)] == [
+    assert [(j, i) for j in range(7) for i in range(7) if in_debris(0, j, i, handle(mesh_box=mesh_box, group=group, vof=vof,
+                                                                    dmg=dmg))] == [
         (2, 3), (2, 4), (3, 3), (3, 4)]
-    assert not in_debris(1, 2, 3, mesh_box, group, vof, dmg)
+    assert not in_debris(1, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, dmg=dmg))
     vof[1, 2, 3] = 0.49
-    assert not in_debris(0, 2, 3, mesh_box, group, vof, dmg)
+    assert not in_debris(0, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, dmg=dmg))
     vof[1, 2, 3], dmg[1, 2, 3] = 1.0, 0.99
-    assert not in_debris(0, 2, 3, mesh_box, group, vof, dmg)
+    assert not in_debris(0, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, dmg=dmg))
 
 
 @pytest.mark.parametrize(("row", "column", "expected"), [(5, 5, (0.5 / 0.5) ** 4), (5, 6, (1.5 / 2.5) ** 4), (5, 4, 0.0),
@@ -144,7 +150,7 @@ def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
     hard, soft, filled = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
     for size in (9, 8, 6):
         mesh_box = np.array([0, size, 0, size])
-        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, mesh_box, hard, soft, filled)
+        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, handle(mesh_box=mesh_box, hard=hard, soft=soft, filled=filled))
         assert found == pytest.approx(expected if row < size and column < size else 0.0)
 
 

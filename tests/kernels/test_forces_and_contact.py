@@ -38,7 +38,7 @@ def stressed(**q) -> Cells:
     cells.q[SRR], cells.q[SZZ], cells.q[SRZ] = 10.0, -4.0, 3.0
     cells.p[...], cells.bulk[...], cells.solid[...], cells.qr[...], cells.qz[...] = 100.0, 50.0, 1.0, 5.0, 7.0
     cells.qt[...], cells.qrz[...] = 2.0, 0.5
-    cells.v[0] = np.arange(9.0)[:, None]
+    cells.v0[0] = np.arange(9.0)[:, None]
     cells.vof[0] = 1.0
     return cells
 

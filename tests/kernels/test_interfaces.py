@@ -10,6 +10,7 @@ from hydro2d.deck import deck
 from hydro2d.kernels import interfaces
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, stop, table, walls
+from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 #: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, a prototype's: flow, cells -> error
@@ -156,6 +157,8 @@ SOLIDS, GAS_BETWEEN = np.zeros(3, dtype=bool), np.array([False, True, False])
 ONE_GROUP = np.zeros(3, dtype=np.int64)
 #: the mesh goes on around the middle one of 5 x 5 cells, and no cell is one of a contact
 INSIDE, NO_CONTACT = np.array([0, 5, 0, 5]), np.zeros((5, 2), dtype=np.int64)
+#: its row, as a part of the mesh
+ONE_ROW = np.array([2, 3])
 
 
 def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywhere: bool = False) -> np.ndarray:
@@ -173,10 +176,11 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     vof = np.array([body, rest])
     mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
     face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes_row.py_func(
-        2, dj, 1 - dj, INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(2), ONE_GROUP[:2], SOLIDS[:2],
-        np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof, np.zeros((2, 2, 5, 5)), flux, np.zeros((2, 2, 5, 5)),
-        np.zeros((5, 3, 4, 2)))
+    interfaces.interface_volumes.source(0, handle(
+        parts=ONE_ROW, dj=dj, di=1 - dj, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
+        interface_order=np.arange(2), group=ONE_GROUP[:2], gases=SOLIDS[:2], mixed_count=np.ones(5, dtype=np.int64),
+        mixed=mixed, face=face, pre=np.ones((5, 5)), vof=vof, centroid=np.zeros((2, 2, 5, 5)), flux_volume=flux,
+        flux_place=np.zeros((2, 2, 5, 5)), strips=np.zeros((5, 3, 4, 2))))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
 
@@ -204,8 +208,8 @@ def test_what_a_cell_gives_does_not_jump_as_the_body_around_a_corner_becomes_thi
 
 # ------------------------------------------------------------------------------------------- thin bodies among others
 
-fill_strips = interfaces.fill_strips.py_func
-nest = interfaces.nest.py_func
+fill_strips = interfaces.fill_strips.source
+nest = interfaces.nest.source
 next_body = interfaces.next_body.py_func
 thinnest_body = interfaces.thinnest_body.py_func
 place_of = interfaces.place_of.py_func
@@ -239,8 +243,8 @@ def in_strip(slab, low, high):
 def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases=SOLIDS, last=interfaces.ALL):
     strips = np.full((3, 4, len(vof)), np.nan)
     void = 1.0 - vof[:, 2, 2].sum()
-    fill_strips(2, 2, last, along_z, *widths, np.array(order), vof, void, ONE_GROUP[:len(vof)], gases, centroid, np.ones(5),
-                np.ones(5), strips)
+    fill_strips(2, 2, last, widths, np.array(order), vof, void, strips, handle(
+        dj=int(along_z), group=ONE_GROUP[:len(vof)], gases=gases, centroid=centroid, dr=np.ones(5), dz=np.ones(5)))
     return strips
 
 
@@ -354,9 +358,11 @@ def test_of_contact_interface_cells_within_the_mesh_only_the_centroids_are_worke
         centroid = exact.copy()
         centroid[:, [0, 2], 2, 2] = 0.0
         flux, place = np.zeros((3, 5, 5)), np.zeros((2, 3, 5, 5))
-        interfaces.interface_volumes_row.py_func(
-            2, dj, di, mesh_box, columns, np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64),
-            mixed, face, np.ones((5, 5)), vof, centroid, flux, place, np.zeros((5, 3, 4, 3)))
+        interfaces.interface_volumes.source(0, handle(
+            parts=ONE_ROW, dj=dj, di=di, mesh_box=mesh_box, contact_columns=columns, dr=np.ones(5), dz=np.ones(5),
+            interface_order=np.arange(3), group=ONE_GROUP, gases=SOLIDS, mixed_count=np.ones(5, dtype=np.int64), mixed=mixed,
+            face=face, pre=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=flux, flux_place=place,
+            strips=np.zeros((5, 3, 4, 3))))
         np.testing.assert_allclose(centroid, exact, atol=1e-14)
         assert flux.any() != left
 
@@ -382,11 +388,11 @@ def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
     vof, centroid = stack(((-2.5, -0.2), (-0.1, 0.1)))
     strips = np.zeros((3, 4, 2))
     strips[0, THIN] = 0.0, 1.0
-    common = (0.4, 0.0, 0.0), (np.arange(2), vof, 0.5, False, centroid, np.ones(5), np.ones(5), strips)
-    nest(2, 2, interfaces.ALL, False, *common[0], True, 0.25, *common[1])
+    widths, names = (0.4, 0.0, 0.0), handle(dj=0, centroid=centroid, dr=np.ones(5), dz=np.ones(5))
+    nest(2, 2, interfaces.ALL, widths, True, 0.25, np.arange(2), vof, 0.5, False, strips, names)
     np.testing.assert_allclose(strips[0, SHARE], [0.25 * 0.3, 0.0], atol=1e-15)
     assert not strips[1:, :THIN].any()
-    nest(2, 2, interfaces.ALL, False, *common[0], False, 0.75, *common[1])
+    nest(2, 2, interfaces.ALL, widths, False, 0.75, np.arange(2), vof, 0.5, False, strips, names)
     np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows upon the gas
 
 
@@ -430,9 +436,11 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     mixed, face = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5))
     face[2, 2], face[2 + dj, 2 + di] = -0.1, 0.6
     flux, place = np.zeros((3, 5, 5)), np.full((2, 3, 5, 5), np.nan)
-    given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(3), ONE_GROUP, SOLIDS, np.ones(5, dtype=np.int64), mixed,
-             face, np.ones((5, 5)), vof)
-    interfaces.interface_volumes_row.py_func(2, dj, di, *given, centroid, flux, place, np.zeros((5, 3, 4, 3)))
+    interfaces.interface_volumes.source(0, handle(
+        parts=ONE_ROW, dj=dj, di=di, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
+        interface_order=np.arange(3), group=ONE_GROUP, gases=SOLIDS, mixed_count=np.ones(5, dtype=np.int64), mixed=mixed,
+        face=face, pre=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=flux, flux_place=place,
+        strips=np.zeros((5, 3, 4, 3))))
     np.testing.assert_allclose(flux[:, 2, 2], [-0.1, 0.0, 0.0], atol=1e-15)
     np.testing.assert_allclose(flux[:, 2 + dj, 2 + di], [0.0, 0.1, 0.5], atol=1e-15)
     np.testing.assert_allclose(place[:, :, 2, 2], [[0.0, 0.0, 0.0]] * 2, atol=1e-14)
@@ -448,8 +456,9 @@ def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
     for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
         centroid, face = np.zeros_like(exact), np.zeros((5, 5))
         face[2, 3] = swept * interfaces.SWEPT
-        given = (INSIDE, NO_CONTACT, np.ones(5), np.ones(5), np.arange(1), ONE_GROUP[:1], SOLIDS[:1],
-                 np.ones(5, dtype=np.int64), mixed, face, np.ones((5, 5)), vof)
-        interfaces.interface_volumes_row.py_func(2, 0, 1, *given, centroid, np.zeros((1, 5, 5)), np.zeros((2, 1, 5, 5)),
-                                                 np.zeros((5, 3, 4, 1)))
+        interfaces.interface_volumes.source(0, handle(
+            parts=ONE_ROW, dj=0, di=1, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
+            interface_order=np.arange(1), group=ONE_GROUP[:1], gases=SOLIDS[:1], mixed_count=np.ones(5, dtype=np.int64),
+            mixed=mixed, face=face, pre=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=np.zeros((1, 5, 5)),
+            flux_place=np.zeros((2, 1, 5, 5)), strips=np.zeros((5, 3, 4, 1))))
         assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

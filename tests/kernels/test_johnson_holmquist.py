@@ -17,6 +17,7 @@ from hydro2d.materials.rows import FACTOR as YIELD_FACTOR
 from hydro2d.mesh.fields import CRUSHED, DMG, EP, INTERNAL, RHO
 from hydro2d.physics.stress import von_mises
 from strength import DAMAGE_MODELS, STRENGTH_MODELS
+from tests.kernels.cells import handle
 
 NAME = "johnson-holmquist"
 RHO0, G, K, P_HEL, S = 3700.0, 90.16e9, 130.95e9, 1.46e9, 2.0e9
@@ -49,6 +50,13 @@ class Element:
         self.pm, self.tm, self.internal = np.zeros((1, 1, 1)), np.full((1, 1, 1), 298.0), np.zeros(1)
         self.deviator, self.mu = (0.0, 0.0, 0.0), 0.0
 
+    def names(self, damage0=0.0, dt=1e-6):
+        """What kernels take of it; damage0 : before the step."""
+        before = np.zeros((3, 1, 1, 1))
+        before[memory.DAMAGED] = damage0
+        return handle(dt=dt, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm, q=self.q, before=before,
+                      internal=self.internal[None])
+
     def step(self, length):
         """Brings the cube to a length, of 1 at rest: strain, return, density, memory, pressure, as a Lagrangian step does."""
         dt, before = 1e-6, RHO0 / self.q[RHO, 0, 0, 0]
@@ -56,9 +64,8 @@ class Element:
         rr, zz, rz = self.deviator
         rr, zz = rr - 2.0 / 3.0 * G * strain, zz + 4.0 / 3.0 * G * strain
         damage0 = self.q[DMG, 0, 0, 0]
-        *self.deviator, dep, _ = return_to_surface(0, 0, 0, dt, rr, zz, rz, G, True, 0.0, self.models, self.materials, self.pm,
-                                                   self.tm, self.q, self.internal)
-        lost = memory.released(0, 0, 0, dep / dt, damage0, self.models, self.materials, self.pm, self.tm, self.q)
+        *self.deviator, dep, _ = return_to_surface(0, 0, 0, rr, zz, rz, G, True, 0.0, self.names(dt=dt))
+        lost = memory.released(0, 0, 0, dep / dt, self.names(damage0))
         rho = self.q[RHO, 0, 0, 0] = RHO0 / length
         self.eos.update(RHO0 / before, rho, 0.0, dep, 0.0, damage0, self.q[DMG, 0, 0, 0], lost, 0.0, dt, self.eos_row,
                         self.q[INTERNAL:, 0, 0, 0])
@@ -183,9 +190,9 @@ def test_stress_falls_to_the_strength_at_the_damage_of_the_step():
     intact, crushed = S * A * (1.0 + T / P_HEL) ** N, S * 0.31
     damage = dep / (0.005 * (1.0 + T / P_HEL))
     weak = intact - damage * (intact - crushed)
-    strain, stress = weaken(0, 0, 0, dep, 1e-6, intact, G, element.models, element.materials, element.pm, element.tm, element.q)
+    strain, stress = weaken(0, 0, 0, dep, intact, G, element.names(dt=1e-6))
     assert element.q[DMG, 0, 0, 0] == pytest.approx(damage, rel=1e-12)
     assert stress == pytest.approx(weak, rel=1e-12)
     assert strain == pytest.approx(dep + (intact - weak) / (3.0 * G), rel=1e-12) == element.q[EP, 0, 0, 0]
-    assert memory.released(0, 0, 0, dep / 1e-6, 0.0, element.models, element.materials, element.pm, element.tm,
-                           element.q) == pytest.approx((intact**2 - weak**2) / (6.0 * G), rel=1e-12)
+    lost = memory.released(0, 0, 0, dep / 1e-6, element.names(0.0))
+    assert lost == pytest.approx((intact**2 - weak**2) / (6.0 * G), rel=1e-12)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels.light_times import bend_around, light_points
+from tests.kernels.cells import handle
 
 POINT = (0.0, -6.0)
 SPEED = 8.0
@@ -25,9 +26,10 @@ def arrival(points, n, inert=None):
         share = 1.0 - inert(r[None, :], z[:, None]).reshape(2 * n, fine, n, fine).mean(axis=(1, 3))
     rc, zc = 0.5 * (r_edges[1:] + r_edges[:-1]), 0.5 * (z_edges[1:] + z_edges[:-1])
     light, front = np.full(share.shape, np.inf), np.zeros((3, *share.shape))
-    mesh = r_edges, z_edges, rc, zc, share
-    light_points(np.array(points, dtype=float), SPEED, *mesh, light, front)
-    while bend_around(SPEED, *mesh, light, front):
+    names = handle(points=np.array(points, dtype=float), speed=SPEED, r=r_edges, z=z_edges, rc=rc, zc=zc, share=share,
+                   light=light, front=front)
+    light_points(names)
+    while bend_around(names):
         pass
     return rc[None, :], zc[:, None], light, share
 

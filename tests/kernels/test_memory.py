@@ -10,6 +10,7 @@ from hydro2d.materials.rows import EOS, MEMORY
 from hydro2d.mesh.fields import DMG, EP, INTERNAL, SRR, SZZ, carried
 from hydro2d.output import derived
 from hydro2d.solver.simulation import Simulation
+from tests.kernels.cells import handle
 from tests.kernels.test_lagrangian import BLOCK
 
 PORES = """
@@ -78,17 +79,15 @@ def test_a_model_is_told_what_has_happened(monkeypatch):
 
     s = (sim := simulation()).state
     e = sim.engine
-    monkeypatch.setitem(memory.update_memory.compiled.py_func.__globals__, "update", update)
+    monkeypatch.setitem(memory.update_memory.source.__globals__, "update", update)
     j, i = 4, 3
-    arguments = e.given.handle.values.get
-    part, parts = 0, np.array([j, j + 1])
+    names = handle(**{**e.given.handle.values, "parts": np.array([j, j + 1]), "time": 3e-6, "dt": 1e-8})
     s.body_range[0, j] = i, i + 1
     s.rho[0, j, i], s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 2000.0, 1e8, -2e8
-    materials = arguments("models"), arguments("materials"), s.pm, s.tm
-    memory.remember.compiled.py_func(part, parts, s.body_range, materials[0], s.q, s.before)
+    memory.remember.source(0, names)
     s.rho[0, j, i], s.e[0, j, i], s.q[EP, 0, j, i], s.q[DMG, 0, j, i] = 2100.0, 7e3, 0.02, 0.3
     s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 0.5e8, -1e8
-    memory.update_memory.compiled.py_func(part, parts, 3e-6, 1e-8, s.body_range, *materials, s.before, s.vof, s.q)
+    memory.update_memory.source(0, names)
     stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
     expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, 0.0, 3e-6, 1e-8)
     assert told[0] == pytest.approx(expected, rel=1e-12)

@@ -63,7 +63,7 @@ class Cell(Cells):
         nobody = np.array([False, False])
         self.known |= {"j": 2, "i": 2, "dt": 0.1, "h": 1.0, "rate": 0.1, "total": 1.0, "firm": 1.0, "volume": 1.0,
                        "models": models, "materials": materials, "gases": nobody.copy(), "strong": models[:, STRENGTH] != 0,
-                       "hard": nobody, "hard_threshold": 0.5,
+                       "hard_bodies": nobody, "hard_threshold": 0.5, "strength_mode": VOLUME,
                        "internal": np.zeros((5, 4))}  # fmt: skip
 
     def moving(self, **gradient: float) -> None:
@@ -75,7 +75,7 @@ class Cell(Cells):
 
     def run(self, function, **given):
         """A scalar function as Python."""
-        return self.call(function.py_func, **given)
+        return self.call(function, as_python=True, **given)
 
 
 # ------------------------------------------------------------------------------------------------ motion and shares
@@ -117,10 +117,10 @@ def test_the_filter_works_on_each_group_by_its_mass():
 
 def test_the_rise_of_the_pressure_of_a_cell():
     cell = Cell()
-    cell.pm[:, *AT] = 10.0, 20.0
-    assert cell.run(mixed.pressure_rise, middle=18.0) == 3.0
+    cell.pm[:, *AT], cell.ph[AT] = (10.0, 20.0), 18.0
+    assert cell.run(mixed.pressure_rise) == 3.0
     cell.vof[1, *AT], cell.pm[1, *AT] = 0.0, np.nan
-    assert cell.run(mixed.pressure_rise, middle=18.0) == 13.0
+    assert cell.run(mixed.pressure_rise) == 13.0
 
 
 def test_a_gas_counts_where_it_is():
@@ -177,8 +177,8 @@ def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
 def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
     """Changes of -0.08 and -0.02 m^3 at 10 + 1 and 20 + 1 Pa are 0.88 and 0.42 J; of 2 J there remain 0.7, by 1 and 4 kg."""
     cell = Cell()
-    cell.pm[:, *AT], cell.mix[2, SOFT] = (10.0, 20.0), (0.5, 0.125)
-    cell.run(mixed.work_beside_gas, change=-0.1, inverse=1.6, work=2.0, rise=1.0, target=12.0, relaxed=0.0)
+    cell.pm[:, *AT], cell.ph[AT], cell.mix[2, SOFT] = (10.0, 20.0), 16.0, (0.5, 0.125)
+    cell.run(mixed.work_beside_gas, change=-0.1, inverse=1.6, work=2.0, target=12.0, relaxed=0.0)
     assert cell.mix[2, HEAT] == pytest.approx([0.88 + 0.2 * 0.7, 0.42 + 0.8 * 0.7])
     assert cell.mix[2, HEAT].sum() == pytest.approx(2.0)
 
@@ -186,8 +186,8 @@ def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
 def test_relaxation_beside_a_gas_works_too_and_makes_no_energy():
     """A tenth of the excess of -2 and 8 Pa: volumes of 0.1 * 0.5 * (-2/1, 8/4) at (10 + 0.1, 20 - 0.4) Pa."""
     cell = Cell()
-    cell.pm[:, *AT] = 10.0, 20.0
-    cell.run(mixed.work_beside_gas, change=0.0, inverse=1.6, work=0.0, rise=0.0, target=12.0, relaxed=0.1)
+    cell.pm[:, *AT], cell.ph[AT] = (10.0, 20.0), 15.0
+    cell.run(mixed.work_beside_gas, change=0.0, inverse=1.6, work=0.0, target=12.0, relaxed=0.1)
     own = np.array([-0.1 * 10.1, 0.1 * 19.6])
     assert cell.mix[2, HEAT] == pytest.approx(-own + np.array([0.2, 0.8]) * own.sum())
     assert cell.mix[2, HEAT].sum() == pytest.approx(0.0, abs=1e-15)
@@ -198,9 +198,8 @@ def test_relaxation_beside_a_gas_works_too_and_makes_no_energy():
 
 def filled(cell: Cell, **given) -> Cell:
     """0.9 m^3 remain of the cell, of which the bodies lose 0.08 and 0.02."""
-    cell.mix[2, SOFT] = 0.5, 0.125
-    cell.run(mixed.fill_cell, **{"change": -0.1, "inverse": 1.6, "mean_p": 12.0, "work_p": 1.0, "work_q": 0.5, "middle": 13.0,
-                                 "relaxation": 0.0, "tipton": True, **given})  # fmt: skip
+    cell.ph[AT] = 13.0
+    cell.run(mixed.fill_cell, **{"change": -0.1, "work_p": 1.0, "work_q": 0.5, "relaxation": 0.0, "tipton": True, **given})
     return cell
 
 
@@ -263,7 +262,7 @@ def pulled(cell: Cell, smallest: bool = False) -> Cell:
         cell.known["materials"][m, EOS_AT:] = stiffened_gas.row(
             {"reference_density": rest, "sound_speed": np.sqrt(squared), "adiabatic_index": 1.4, "specific_heat": 1.0})
     cell.p[AT], cell.pm[:, *AT], cell.q[SRR, :, *AT], cell.q[E, :, *AT] = -8.0, -8.0, 1.0, 0.0
-    cell.call(mixed.insert_void_mixed_row, smallest=smallest, max_opening=0.5)
+    cell.call(mixed.insert_void_mixed_row, smallest_tension=smallest, max_opening=0.5)
     return cell
 
 
@@ -299,8 +298,8 @@ def test_the_body_that_dominates_is_hard_and_fills_enough():
     cell = Cell()
     hard = np.array([False, True])
     assert cell.run(mixed_strength.dominant_body) == -1
-    assert cell.run(mixed_strength.dominant_body, hard=hard) == 1
-    assert cell.run(mixed_strength.dominant_body, hard=hard, hard_threshold=0.6) == -1
+    assert cell.run(mixed_strength.dominant_body, hard_bodies=hard) == 1
+    assert cell.run(mixed_strength.dominant_body, hard_bodies=hard, hard_threshold=0.6) == -1
 
 
 def test_deviators_work_by_their_share():
@@ -308,16 +307,16 @@ def test_deviators_work_by_their_share():
     cell = Cell()
     cell.q[[SRR, SRZ], 0, *AT] = 4.0, 3.0
     cell.moving(rr=2.0, rbz=1.0)
-    given = {"dominant": -1, "scale": 1.0}
-    cell.run(mixed_strength.work_of_deviators, **given)
+    cell.run(mixed_strength.work_of_deviators, dominant=-1)
     assert cell.mix[2, HEAT] == pytest.approx([0.5 * 0.1 * 11.0, 0.0])
     cell.mix[2, NORMAL, 0] = 1.5
-    cell.run(mixed_strength.work_of_deviators, **{**given, "scale": 2.0})
+    cell.solid[AT] = 0.5
+    cell.run(mixed_strength.work_of_deviators, dominant=-1, strength_mode=SOLID)
     assert cell.mix[2, HEAT] == pytest.approx([0.1 * (11.0 - 1.5 * 2.0), 0.0])
-    cell.mix[2, NORMAL] = 0.0
-    cell.run(mixed_strength.work_of_deviators, **{**given, "dominant": 0, "total": 0.9})
+    cell.mix[2, NORMAL], cell.solid[AT] = 0.0, 0.9
+    cell.run(mixed_strength.work_of_deviators, dominant=0)
     assert cell.mix[2, HEAT] == pytest.approx([0.9 * 0.1 * 11.0, 0.0])
-    cell.run(mixed_strength.work_of_deviators, **{**given, "dominant": 1, "total": 0.9})
+    cell.run(mixed_strength.work_of_deviators, dominant=1)
     assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
 
 
@@ -328,7 +327,8 @@ def test_the_elastic_trial_and_the_yield_stress_of_a_cell(mode, total, flow):
     cell = Cell(strong=True)
     cell.q[SRR, 0, *AT] = 1.0
     cell.moving(rr=3.0, rbz=4.0, zbr=4.0)
-    assert cell.run(mixed_strength.strain_deviators, mode=mode, firm=total) == pytest.approx(flow)
+    cell.solid[AT] = total
+    assert cell.run(mixed_strength.strain_deviators, strength_mode=mode) == pytest.approx(flow)
     trial = cell.mix[2, [TRIAL_RR, TRIAL_ZZ, TRIAL_RZ, MODULUS, YIELD]]
     assert trial.T == pytest.approx(np.array([[3, -1, 4, 5, 3], [2, -1, 4, 5, 6]]))
     assert cell.mix[2, SIZE] == pytest.approx([2 * (9 + 1 - 3 + 16), 2 * (4 + 1 - 2 + 16)])
@@ -349,7 +349,7 @@ def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
     cell = Cell(strong=True)
     cell.skin[[NORMAL_R, KIND], *AT] = 1.0, FREE_SURFACE
     cell.moving(rr=3.0, zz=3.0)
-    cell.run(mixed_strength.strain_deviators, mode=VOLUME)
+    cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME)
     assert cell.mix[2, [TRIAL_RR, TRIAL_ZZ], 0] == pytest.approx([-1, 2])
     assert cell.mix[2, ALONG, 0] == pytest.approx(-1)
 
@@ -357,7 +357,7 @@ def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
 def test_what_has_failed_or_is_thin_has_no_yield_stress():
     cell = Cell(strong=True)
     cell.q[DMG, 0, *AT], cell.known["materials"][1, CUTOFF_DENSITY] = 2.0, 8.0
-    assert cell.run(mixed_strength.strain_deviators, mode=VOLUME) == 0.0
+    assert cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME) == 0.0
     assert cell.mix[2, YIELD].tolist() == [0.0, 0.0]
 
 
@@ -366,12 +366,12 @@ def test_bodies_are_strained_across_by_what_their_traction_needs():
     cell = Cell(strong=True)
     cell.skin[[NORMAL_R, KIND], *AT], cell.bulk[AT] = (1.0, INTERFACE), 1.6
     cell.mix[2, MODULUS], cell.mix[2, YIELD], cell.q[SRR, 0, *AT] = 5.0, (3.0, 0.0), 4.0
-    cell.run(mixed_strength.strain_bodies_across, own=True, cell_yield=9.0, change=-0.01, void=0.0)
+    cell.run(mixed_strength.strain_bodies_across, own=True, cell_yield=9.0, change=-0.01)
     assert cell.mix[2, FLOW] == pytest.approx([np.sqrt(3.0) * 4.0, 0.0])  # it flows at what it has
     assert cell.mix[2, ACROSS].any()
     for trial, share in ((TRIAL_RR, 2 / 3), (TRIAL_ZZ, -1 / 3), (TRIAL_RZ, 0.0)):
         assert cell.mix[2, trial] == pytest.approx(10.0 * share * cell.mix[2, ACROSS])
-    cell.run(mixed_strength.strain_bodies_across, own=False, cell_yield=9.0, change=-0.01, void=0.0)
+    cell.run(mixed_strength.strain_bodies_across, own=False, cell_yield=9.0, change=-0.01)
     assert cell.mix[2, FLOW] == pytest.approx([9.0, 9.0])
 
 

@@ -10,8 +10,9 @@ from hydro2d.physics import plasticity
 from hydro2d.physics.stress import von_mises
 from strength import DAMAGE_MODELS as DAMAGES
 from strength import STRENGTH_MODELS
+from tests.kernels.cells import handle
 
-flow, return_to_surface = plastic_return.flow.py_func, plastic_return.return_to_surface.py_func
+flow, return_to_surface = plastic_return.flow.source, plastic_return.return_to_surface.source
 from_centre = plasticity.from_centre.py_func
 
 HARDENS, PLAIN = STRENGTH_MODELS["kinematic-hardening"], STRENGTH_MODELS["elastic-plastic"]
@@ -33,8 +34,9 @@ class Cell:
         self.pm, self.tm = np.zeros((1, 1, 1)), np.full((1, 1, 1), 300.0)
 
     def back(self, own=True, cell_yield=0.0):
-        return return_to_surface(0, 0, 0, 1e-6, *self.deviator, 26e9, own, cell_yield, self.models, self.materials, self.pm,
-                                 self.tm, self.q, self.internal)
+        return return_to_surface(0, 0, 0, *self.deviator, 26e9, own, cell_yield, handle(
+            dt=1e-6, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm, q=self.q,
+            internal=self.internal[None]))
 
 
 STEEP = (-0.5e9, 1e9, 0.0)  # a tension of 1.5 GPa along z
@@ -43,10 +45,10 @@ PLASTIC = PLAIN.row({"shear_modulus": 26e9, "yield_stress": 3e8})
 
 def test_plastic_strain_and_damage_grow_together():
     cell = Cell(PLAIN, PLASTIC)
-    flow(0, 0, 0, 0.1, 1e-6, 3e8, cell.models, cell.materials, cell.pm, cell.tm, cell.q)
+    flow(0, 0, 0, 0.1, 3e8, handle(dt=1e-6, models=cell.models, materials=cell.materials, pm=cell.pm, tm=cell.tm, q=cell.q))
     assert cell.q[EP, 0, 0, 0] == 0.1
     assert cell.q[DMG, 0, 0, 0] == pytest.approx(0.2)
-    flow(0, 0, 0, 0.4, 1e-6, 3e8, cell.models, cell.materials, cell.pm, cell.tm, cell.q)
+    flow(0, 0, 0, 0.4, 3e8, handle(dt=1e-6, models=cell.models, materials=cell.materials, pm=cell.pm, tm=cell.tm, q=cell.q))
     assert cell.q[DMG, 0, 0, 0] >= 1.0
 
 

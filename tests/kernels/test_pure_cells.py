@@ -27,8 +27,8 @@ def gas(**given) -> Cells:
 
 
 def closed(cells: Cells, **given) -> Cells:
-    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, linear=0.5, quadratic=2.0, courant=0.5,
-               advective=1.0, mesh_speed=0.0, hourglass=0.1, **given)  # fmt: skip
+    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, viscosity_linear=0.5, viscosity_quadratic=2.0,
+               courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1, **given)  # fmt: skip
     return cells
 
 

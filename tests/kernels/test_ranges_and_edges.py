@@ -216,7 +216,7 @@ def test_faces_sweep_less_by_what_the_mesh_advances():
     """A column from 1 to 2 m of radius has an area of 1.5 m^2 per radian."""
     cells = Cells(bodies=2, group=[0, 1], geometry="cylindrical")
     cells.group_ranges[0, 1, :] = 3, 4
-    cells.call(following.leave, advance=0.1, group_ranges=cells.group_ranges[0])
+    cells.call(following.leave, advance=0.1)
     assert cells.fz[2:7, 3] == pytest.approx(5 * [-0.15])
     assert np.count_nonzero(cells.fz) == 5
     cells.contact_columns[...], cells.contact_columns[3] = EMPTY, (3, 4)
@@ -228,7 +228,7 @@ def test_faces_sweep_less_by_what_the_mesh_advances():
 def test_what_has_faded_is_nothing():
     cells = Cells()
     cells.q[:, 0, 3, 3:5] = -1e-31, 1e-29
-    cells.call(following.silence, body_ranges=cells.body_ranges[0])
+    cells.call(following.silence)
     assert cells.q[RHO, 0, 3, 3] == -1e-31
     assert cells.q[[E, SRR, SRZ], 0, 3, 3].tolist() == [0.0, 0.0, 0.0]
     assert (cells.q[:, 0, 3, 4] == 1e-29).all()

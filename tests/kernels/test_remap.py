@@ -7,6 +7,7 @@ from hydro2d.deck import deck
 from hydro2d.kernels import momentum, remap
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, stop, table, walls
+from tests.kernels.cells import handle
 from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces, tidy
 from tests.kernels.test_interfaces import by_stream_function, carry, in_a_box, vortex
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -233,9 +234,10 @@ def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.nd
     body_ranges = np.zeros((3, 1, 5, 2), dtype=np.int64)
     body_ranges[..., :] = 2, columns - 2
     flux = np.zeros((5, 1, 1, columns))
-    carried = np.array([4, 1, 2, 3, 4])
-    remap.flux_row.py_func(0, 1, 2, 2, columns - 2, 0, carried, rules, 0, 0, body_ranges, np.ones((5, columns)),
-                           np.full((1, 5, columns), swept), 2.0, vof, q, np.zeros((4, 1, columns)), flux)
+    carried = np.array([[4, 1, 2, 3, 4]])
+    remap.flux_row.source(0, 2, 0, 0, 0, handle(i0=2, i1=columns - 2, carried=carried, rules=rules, body_ranges=body_ranges,
+                           pre=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0, vof=vof,
+                           q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
     return flux[:, 0, 0]
 
 

@@ -19,13 +19,16 @@ def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
     cells.vof[0, *source] = 1.0
     getattr(cells, face)[target] = 0.25
     whole_mesh = np.array([2, 6, 2, 6])
-    cells.call(interfaces.donor_volumes, dj=dj, di=di, second=False, void_only=whole_mesh, body_ranges=cells.body_ranges)
+    swept = {"dj": dj, "di": di, "face": getattr(cells, face)}
+    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=False)
+    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
     assert cells.pre[source] == 1.25
     assert cells.pre[target] == 0.75
     assert cells.flux_volume[0, *target] == 0.25
     assert np.count_nonzero(cells.flux_volume) == 1
     getattr(cells, face)[target] = -0.25
-    cells.call(interfaces.donor_volumes, dj=dj, di=di, first=False, open_faces=whole_mesh, body_ranges=cells.body_ranges)
+    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=True)
+    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
     assert cells.pre[source] == 0.75
     assert not cells.flux_volume.any()
 
@@ -37,7 +40,7 @@ def test_a_cell_that_is_turned_inside_out_is_told_with_its_body(first):
     cells.vof[:, 3, 4], cells.vof[:, 3, 5], cells.vof[0, 4, 2] = (0.2, 0.7), (0.6, 0.4), 1.0
     cells.fr[3, 3:7] = 2.0, 0.5, -0.5, -3.0
     cells.fr[4, 3] = -0.99
-    cells.call(interfaces.donor_volumes, dj=0, di=1, second=not first, void_only=cells.mesh_box)
+    cells.call(interfaces.sweep_volumes, dj=0, di=1, second=not first)
     assert cells.pre[3, 3:6].tolist() == [-0.5, 0.0, -1.5]
     assert cells.turned[3].tolist() == [4, 1]
     assert cells.turned[[2, 4, 5], 0].tolist() == [-1, -1, -1]
@@ -47,7 +50,7 @@ def test_nothing_but_void_flows_in_at_an_edge():
     cells = Cells()
     cells.vof[...] = 1.0
     cells.fr[3, [2, 6]] = 0.1
-    cells.call(interfaces.donor_volumes, dj=0, di=1, second=False, void_only=cells.mesh_box)
+    cells.call(interfaces.donor_volumes, dj=0, di=1, face=cells.fr, void_only=cells.mesh_box)
     assert cells.flux_volume[0, 3, [2, 6]].tolist() == [0.0, 0.1]
 
 
@@ -217,9 +220,8 @@ def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) ->
     cells.flux_mass[...] = 0.2
     step = (np.arange(13) > 6).astype(float)
     cells.velocity0[component, 0] = step[:, None] if dj else step[None, :]
-    cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, bound=2.0,
-               **({} if pushing is None else {"pushing": pushing}), held=np.zeros(4),
-               w_old=cells.velocity0, w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, ke_bound=2.0,
+               **({} if pushing is None else {"pushing": pushing}), edge_velocity=np.zeros(4))  # fmt: skip
     return cells
 
 
@@ -253,8 +255,8 @@ def test_what_rests_on_an_edge_that_only_pushes_rests_there_whatever_flows_in():
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.flux_mass[...] = 0.2
     cells.velocity0[1, 0] = np.where(np.arange(13) == 7, 0.0, 1.0)[:, None]
-    cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, bound=2.0, pushing=np.array([-1, -1, 7, -1]),
-               held=np.zeros(4), w_old=cells.velocity0, w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, ke_bound=2.0, pushing=np.array([-1, -1, 7, -1]),
+               edge_velocity=np.zeros(4))  # fmt: skip
     assert not cells.v[0, 7].any()
     assert cells.momentum_sums[4, 7] > 0.0
 
@@ -263,8 +265,7 @@ def test_vertices_where_nothing_flows_keep_every_bit():
     cells = Cells(nr=8, nz=8)
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.velocity0[...] = np.random.default_rng(5).random(cells.velocity0.shape)
-    cells.call(momentum.sweep_momentum, dj=0, di=1, advection=KE, bound=2.0, held=np.zeros(4), w_old=cells.velocity0,
-               w=cells.velocity, sums=cells.momentum_sums)  # fmt: skip
+    cells.call(momentum.sweep_momentum, dj=0, di=1, advection=KE, ke_bound=2.0, edge_velocity=np.zeros(4))
     inside = (slice(None), slice(None), slice(2, 11), slice(2, 11))
     assert (cells.velocity[inside] == cells.velocity0[inside]).all()
 
@@ -273,7 +274,7 @@ def test_energy_of_a_vertex_is_given_to_the_group_in_the_cells_around():
     cells = Cells(bodies=2, group=[0, 1])
     cells.vof[:, 2:6, 2:6], cells.cell_mass[0], cells.cell_mass[1] = 0.5, 3.0, 5.0
     cells.deficit[1, 4, 4] = 4.0
-    cells.call(momentum.deposit, ranges=cells.active_range, sums=cells.deposited)
+    cells.call(momentum.deposit, ranges=cells.active_range)
     assert cells.q[E, 1, 3:5, 3:5].tolist() == [[1, 1], [1, 1]]
     assert cells.q[E, 1].sum() == 4.0
     assert not cells.q[E, 0].any()

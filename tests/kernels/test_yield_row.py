@@ -12,6 +12,7 @@ from hydro2d.physics.stress import von_mises
 from strength import DAMAGE_MODELS, STRENGTH_MODELS
 from strength.radial_return import plastic_increment
 from tests.contract.test_models import DAMAGE_CASES, STRENGTH_CASES
+from tests.kernels.cells import handle
 
 FIRST, BESIDE = 2, 3
 FACTORED, DT, T, P, DENSITY = 1.5625, 1e-8, 400.0, 1e9, 2750.0
@@ -45,8 +46,9 @@ class Row:
     def yields(self) -> np.ndarray:
         """q [k, i] after yield_row."""
         q = self.q.copy()
-        yield_row(0, 0, 0, FIRST, self.columns, DT, self.models, self.materials, self.pm, self.tm, self.scratch, q,
-                  np.zeros((1, LANE_ROWS * LANES)))
+        yield_row(0, 0, 0, handle(dt=DT, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm,
+                  scratch=self.scratch, q=q, lanes=np.zeros((1, LANE_ROWS * LANES)),
+                  body_range=np.array([[[FIRST, FIRST + self.columns]]])))
         return q[:, 0, 0]
 
     def alone(self) -> np.ndarray:

@@ -7,7 +7,7 @@ import pytest
 from tests.rules import source
 
 #: decorators of functions that are compiled; those of which a loop is parallel
-MARKS = ("threaded", "kernel", "serial", "rowwise", "apart", "late", "point")
+MARKS = ("threaded", "kernel", "cell_rows", "vertex_rows", "serial", "rowwise", "apart", "late", "point")
 PARALLEL = {"threaded"}
 ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
 COMPILED = [

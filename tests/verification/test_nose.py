@@ -10,9 +10,10 @@ from hydro2d.errors import UnphysicalState
 from hydro2d.kernels import contact_velocities
 from hydro2d.kernels.extension import TIED
 from hydro2d.mesh.fields import EP, SRR, SRZ
-from hydro2d.solver import arguments
+from hydro2d.solver import given
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.simulation import Simulation
+from tests.kernels.cells import handle
 from tests.verification.running import finish
 
 FOLDER = "problems/sliding"
@@ -54,14 +55,18 @@ class Settled:
         s.velocity0[...] = s.velocity
         self.before = s.velocity.copy()
         contact_velocities.settle(
-            np.array([j0, j1]), 1e-9, 0.0, engine.constrained, g.metrics, g.dz, s.contact_columns, s.line, s.contact_node_count,
-            s.contact_nodes, s.first_slot, s.contact_normal, np.zeros_like(s.touch), strength, number, where, weights,
-            s.sig_rr, s.sig_zz, s.sig_rz, s.mass, s.u, s.v, ties.nodes, ties.starts, ties.entries, ties.portions, s.places,
-            ties.impulses, ties.gain, ties.taken, ties.rubbing, s.transfer)
+            handle(parts=np.array([j0, j1]), dt=1e-9, friction=0.0, constrained=engine.constrained, metrics=g.metrics,
+            dz=g.dz, contact_columns=s.contact_columns, line=s.line, contact_node_count=s.contact_node_count,
+            contact_nodes=s.contact_nodes, first_slot=s.first_slot, contact_normal=s.contact_normal,
+            touch=np.zeros_like(s.touch), strength=strength, masters=number, where=where, weights=weights, sig_rr=s.sig_rr,
+            sig_zz=s.sig_zz, sig_rz=s.sig_rz, mass=s.mass, u=s.u, v=s.v, nodes=ties.nodes, starts=ties.starts,
+            entries=ties.entries, portions=ties.portions, places=s.places, impulses=ties.impulses, gain=ties.gain,
+            taken=ties.taken, rubbing=ties.rubbing, transfer=s.transfer))
         contact_velocities.warm_contact(
-            np.array([j0, j1]), s.contact_node_count, s.contact_nodes, s.first_slot, strength, number, where, weights, s.mass,
-            s.u0, s.v0, s.u, s.v, ties.nodes, ties.starts, ties.entries, ties.portions, ties.taken, ties.rubbing, s.heat,
-            s.transfer)
+            handle(parts=np.array([j0, j1]), contact_node_count=s.contact_node_count, contact_nodes=s.contact_nodes,
+            first_slot=s.first_slot, strength=strength, masters=number, where=where, weights=weights, mass=s.mass, u0=s.u0,
+            v0=s.v0, u=s.u, v=s.v, nodes=ties.nodes, starts=ties.starts, entries=ties.entries, portions=ties.portions,
+            taken=ties.taken, rubbing=ties.rubbing, heat=s.heat, transfer=s.transfer))
         self.after = s.velocity.copy()
 
 
@@ -71,7 +76,7 @@ def test_a_linear_field_stays_linear(monkeypatch, angle):
 
     As long as no gradient is reduced for the time step; far from the mesh's edges, where there is less to extend.
     """
-    monkeypatch.setattr(arguments, "most_squares", lambda table, courant: 1e6)
+    monkeypatch.setattr(given, "most_squares", lambda table, courant: 1e6)
     simulation = shipped(f"block_inclined_{angle}")
     settled = Settled(simulation)
     assert len(settled.slaves) > 0.8 * settled.contact_nodes

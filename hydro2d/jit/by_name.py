@@ -1,0 +1,184 @@
+"""Functions that take arrays and numbers by their names: written with a handle ``w``, compiled with a parameter for each name.
+
+A function whose last parameter is ``w`` uses ``w.u[b, j, i]`` and ``w.dt``, and calls others like it as ``other(j, i, w)``.
+What is compiled is the same function with a parameter for every name that it uses, or that one of those which it calls does::
+
+    @kernel                                     @kernel
+    def slow_down(part, w):                     def slow_down(part, w__dt, w__parts, w__u):
+        for j in range(rows(part, w)):              for j in range(rows(part, w__parts)):
+            w.u[0, j, 0] -= w.dt                        w__u[0, j, 0] -= w__dt
+
+So nobody writes a name to pass it on, and the names are arguments all the same, of which the compiler is told that their memory
+does not overlap. From Python such a function is called with anything that has the names as attributes.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import inspect
+import linecache
+from types import CodeType, FunctionType
+
+from hydro2d.jit.handle import declared
+from hydro2d.parsing import parsed
+
+#: the parameter that stands for all names, and how the parameters begin that it becomes
+HANDLE, PREFIX = "w", "w__"
+#: the rows of a part that `in_rows` goes through: of cells, and of vertices, of which the last part has one more
+CELLS = "range(w.parts[part], w.parts[part + 1])"
+VERTICES = "range(w.parts[part], w.parts[part + 1] + (1 if part == w.parts.shape[0] - 2 else 0))"
+
+
+def takes(function) -> tuple[str, ...]:
+    """What a compiled function is given, in order: its own parameters, then the names that it uses of a handle."""
+    return (*own_parameters(function), *(function.named if takes_handle(function) else ()))
+
+
+def takes_handle(function) -> bool:
+    """Whether a compiled function takes a handle."""
+    return "named" in getattr(function, "__dict__", ())
+
+
+def own_parameters(function) -> tuple[str, ...]:
+    """The parameters of a function but for the handle."""
+    written = tuple(inspect.signature(source(function)).parameters)
+    return written[:-1] if takes_handle(function) else written
+
+
+def source(function):
+    """A function as Python runs it: with a handle, if it takes one."""
+    return function.source if takes_handle(function) else function
+
+
+def values(function, arguments: tuple) -> tuple:
+    """What compiled code is given for the arguments of a call: in place of the handle the values of its names."""
+    if not takes_handle(function):
+        return arguments
+    *own, handle = arguments
+    return (*own, *(getattr(handle, name) for name in function.named))
+
+
+def in_rows(function, rows: str) -> FunctionType:
+    """A function of one row, ``function(j, w)``, for all rows of a part: ``function(part, w)``.
+
+    rows : `CELLS` or `VERTICES`. A function that has to know the part has it as a parameter.
+
+    Raises ValueError for a function that takes no handle, whose first parameter is not ``j``, or that returns.
+    """
+    tree = _definition(function)
+    parameters = [each.arg for each in tree.args.args]
+    if parameters[0] != "j" or parameters[-1] != HANDLE:
+        raise _mistake(function, tree, f"does not take a row j first and {HANDLE} last")
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Return):
+            raise _mistake(function, node, "returns, which would leave out the rest of the rows")
+    body = tree.body[1:] if ast.get_docstring(tree) else tree.body
+    loop = ast.For(ast.Name("j", ast.Store()), parsed(rows, "eval").body, body, [])
+    for node in (loop, *ast.walk(loop.target), *ast.walk(loop.iter)):
+        ast.copy_location(node, tree)
+    tree.body = [*tree.body[: len(tree.body) - len(body)], loop]
+    tree.args.args = [ast.copy_location(ast.arg("part"), tree), *(each for each in tree.args.args[1:] if each.arg != "part")]
+    made = _made(function, tree)
+    made.tree = tree
+    return made
+
+
+def flat(function) -> FunctionType:
+    """The function that is compiled: with a parameter for every name that it uses, if its last one is a handle; else as it is.
+
+    Its attribute ``named`` has these names, ``source`` is what is given.
+
+    Raises ValueError for names that are not declared or are assigned, for a handle that is used otherwise than by its names or
+    as the last argument of a function that takes one, for such a function that is not defined yet, and for variables
+    that begin like the parameters.
+    """
+    if [*inspect.signature(function).parameters][-1:] != [HANDLE]:
+        return function
+    tree = _definition(function)
+    rewriting = _Rewriting(function)
+    last = tree.args.args.pop()
+    tree.body = [rewriting.visit(statement) for statement in tree.body]
+    named = tuple(sorted(rewriting.names))
+    tree.args.args += [ast.copy_location(ast.arg(PREFIX + name), last) for name in named]
+    made = _made(function, tree)
+    made.named, made.source = named, function
+    return made
+
+
+class _Rewriting(ast.NodeTransformer):
+    """Puts parameters in the place of names."""
+
+    def __init__(self, function):
+        self._function, self._known, self.names = function, declared(), set()
+
+    def _parameter(self, name: str, node: ast.AST) -> ast.Name:
+        self.names.add(name)
+        return ast.copy_location(ast.Name(PREFIX + name, ast.Load()), node)
+
+    def visit_Attribute(self, node: ast.Attribute):
+        if not _is_handle(node.value):
+            return self.generic_visit(node)
+        if node.attr not in self._known:
+            raise _mistake(self._function, node, f"uses {HANDLE}.{node.attr}, which is no name that handles have")
+        if not isinstance(node.ctx, ast.Load):
+            raise _mistake(self._function, node, f"assigns {HANDLE}.{node.attr}")
+        return self._parameter(node.attr, node)
+
+    def visit_Call(self, node: ast.Call):
+        if node.args and _is_handle(node.args[-1]):
+            called = self._function.__globals__.get(getattr(node.func, "id", ""))
+            if not takes_handle(called):
+                raise _mistake(self._function, node, f"gives {HANDLE} to {ast.unparse(node.func)}, which is no compiled "
+                                                     "function that takes one, or is not defined yet")
+            node.args[-1:] = [self._parameter(name, node.args[-1]) for name in called.named]
+        return self.generic_visit(node)
+
+    def visit_Name(self, node: ast.Name):
+        if node.id == HANDLE:
+            raise _mistake(self._function, node, f"uses {HANDLE} otherwise than by a name or as the last argument of a call")
+        if node.id.startswith(PREFIX) and isinstance(node.ctx, ast.Store):
+            raise _mistake(self._function, node, f"has a variable {node.id}, which begins like the parameters of names")
+        return node
+
+
+def _is_handle(node: ast.AST) -> bool:
+    return isinstance(node, ast.Name) and node.id == HANDLE
+
+
+def _mistake(function, node: ast.AST, what: str) -> ValueError:
+    return ValueError(f"{function.__code__.co_filename}:{node.lineno}: {function.__name__} {what}")
+
+
+@functools.lru_cache(maxsize=2)
+def _last_lines(text: str) -> dict[tuple[str, int], int]:
+    """The last line of every function of a text, by its name and its first line, which is that of its decorator."""
+    return {(node.name, min([node.lineno, *(mark.lineno for mark in node.decorator_list)])): node.end_lineno
+            for node in parsed(text).body if isinstance(node, ast.FunctionDef)}
+
+
+def _definition(function) -> ast.FunctionDef:
+    """The syntax tree of a function, or what `in_rows` has made of it.
+
+    Raises ValueError for one that is not in the text of a file by itself, but within another function or made at run time.
+    """
+    if hasattr(function, "tree"):
+        return function.tree
+    code = function.__code__
+    lines, before = linecache.getlines(code.co_filename, function.__globals__), code.co_firstlineno - 1
+    last = _last_lines("".join(lines)).get((function.__name__, code.co_firstlineno))
+    if last is None:
+        raise ValueError(f"{code.co_filename}:{code.co_firstlineno}: {function.__name__} takes {HANDLE}, which only functions "
+                         "of files can, not those within others")
+    return parsed("\n" * before + "".join(lines[before:last])).body[0]
+
+
+def _made(function, tree: ast.FunctionDef) -> FunctionType:
+    """The function of a changed syntax tree: in its file, its lines and its module, with the name that it has there."""
+    for number, mark in enumerate(tree.decorator_list):  # not called, but the first line of the function is theirs
+        tree.decorator_list[number] = ast.copy_location(ast.Name("mark", ast.Load()), mark)
+    module = compile(ast.Module([tree], []), function.__code__.co_filename, "exec", dont_inherit=True)
+    code = next(each for each in module.co_consts if isinstance(each, CodeType) and each.co_name == function.__name__)
+    made = FunctionType(code.replace(co_qualname=function.__qualname__), function.__globals__, function.__name__)
+    made.__module__, made.__qualname__ = function.__module__, function.__qualname__
+    return made

@@ -1,0 +1,33 @@
+"""Names are not written to be passed on: kernels take arrays and numbers of a handle (`hydro2d.jit.by_name`)."""
+
+import ast
+
+import pytest
+
+from tests.rules import source
+
+#: names in the signatures and calls of hydro2d/kernels together, and parameters of any function there, at most
+MOST_NAMES, MOST_PARAMETERS = 2600, 20
+KERNELS = [file for name, file in sorted(source.modules().items()) if name.startswith("hydro2d.kernels.")]
+
+
+def names_in(tree: ast.AST) -> int:
+    """Parameters, and arguments that are names."""
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    arguments = [each for node in ast.walk(tree) if isinstance(node, ast.Call) for each in node.args]
+    return sum(len(node.args.args) for node in functions) + sum(isinstance(each, ast.Name) for each in arguments)
+
+
+def test_names_are_counted():
+    assert names_in(ast.parse("def f(part, a, w):\n    g(part, a, w.b, 1.0, w)\n")) == 6
+
+
+def test_few_names_are_written_to_be_passed_on():
+    found = {file.stem: names_in(source.tree(file)) for file in KERNELS}
+    assert sum(found.values()) <= MOST_NAMES, found
+
+
+@pytest.mark.parametrize("file", KERNELS, ids=lambda file: file.stem)
+def test_no_function_has_many_parameters(file):
+    found = {node.name: len(node.args.args) for node in ast.walk(source.tree(file)) if isinstance(node, ast.FunctionDef)}
+    assert {name: number for name, number in found.items() if number > MOST_PARAMETERS} == {}
