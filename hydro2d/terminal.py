@@ -6,12 +6,16 @@ everything that it logs through `one_line`.
 
 from __future__ import annotations
 
+import shutil
 import sys
+import textwrap
 import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
+#: characters in a line where there is no terminal: a file or another program gets every line whole
+NO_TERMINAL = 1_000_000
 #: categories of characters that are not shown but change what is: control, direction of writing, lines
 _STEERING = frozenset(("Cc", "Cf", "Zl", "Zp"))
 
@@ -39,6 +43,16 @@ def one_line(text: object) -> str:
 def cell(text: str) -> str:
     """A text as a cell or a head of a CSV file: none that a spreadsheet would take for a formula."""
     return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
+
+
+def width() -> int:
+    """Characters in a line of the terminal that the output goes to; NO_TERMINAL if it goes elsewhere and COLUMNS is not set."""
+    return shutil.get_terminal_size((NO_TERMINAL, 24)).columns
+
+
+def wrapped(text: str, indent: int = 0) -> str:
+    """A line that breaks at words where the terminal is narrower; what follows the first break is indented."""
+    return textwrap.fill(text, width(), subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False)
 
 
 def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:
