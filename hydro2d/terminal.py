@@ -40,6 +40,18 @@ def one_line(text: object) -> str:
     return shown(text).replace("\n", "\\n")
 
 
+def duration(seconds: float, tenths: bool = False) -> str:
+    """'1 h 02 min', '3 min 20 s', '12 s'; with ``tenths`` also '3.1 s', for what was measured."""
+    if tenths and seconds < 9.95:
+        return f"{seconds:.1f} s"
+    seconds = round(seconds)
+    if seconds >= 3600:
+        return f"{seconds // 3600} h {seconds % 3600 // 60:02d} min"
+    if seconds >= 60:
+        return f"{seconds // 60} min {seconds % 60:02d} s"
+    return f"{seconds} s"
+
+
 def cell(text: str) -> str:
     """A text as a cell or a head of a CSV file: none that a spreadsheet would take for a formula."""
     return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text

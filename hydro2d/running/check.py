@@ -16,7 +16,7 @@ from hydro2d.mesh.edges.registry import BY_NAME, halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory, sources
-from hydro2d.terminal import one_line
+from hydro2d.terminal import duration, one_line
 
 #: motion of a body at rest
 AT_REST = (0.0, 0.0), None
@@ -73,7 +73,7 @@ class Check:
         found += self._follow() if deck.mesh.follow else self._crosses()
         found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
         found += [f"stop      {_stop(deck.stop)}"]
-        found += [f"cost      about {self.cycles} cycles, {_duration(self.wall(threads))} on {threads} threads "
+        found += [f"cost      about {self.cycles} cycles, {duration(self.wall(threads))} on {threads} threads "
                   f"(a guess), {self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
 
@@ -282,9 +282,3 @@ def _stop(stop) -> str:
     parts += [f"rebound of {stop.body}"] if stop.rebound else []
     parts += [{True: "perforation", "tail": "tail of the projectile through"}[stop.perforation]] if stop.perforation else []
     return ", or ".join(parts)
-
-
-def _duration(seconds: float) -> str:
-    from hydro2d.running.progress import duration
-
-    return duration(seconds)

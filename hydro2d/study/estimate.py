@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.running import check
-from hydro2d.running.progress import counted, duration
+from hydro2d.running.progress import counted
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.monitor import lines
-from hydro2d.terminal import one_line, say, wrapped
+from hydro2d.terminal import duration, one_line, say, wrapped
 
 DECK, HEADS = "deck", ("case", "cells", "cycles", "time")
 

@@ -10,10 +10,10 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
-from hydro2d.running.progress import duration, number
+from hydro2d.running.progress import number
 from hydro2d.strange import opened
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
-from hydro2d.terminal import one_line, say, shown, width
+from hydro2d.terminal import duration, one_line, say, shown, width
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0

@@ -21,7 +21,6 @@ from hydro2d import compilation
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
 from hydro2d.interrupt import Interrupt, signals, status
-from hydro2d.running.progress import duration
 from hydro2d.running.run import clear
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study import layout, monitor
@@ -30,6 +29,7 @@ from hydro2d.study.cases import Plan
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
+from hydro2d.terminal import duration
 
 ALL_DONE, SOME_FAILED = 0, 3
 #: seconds between checks for a finished case, a signal, and the table
@@ -174,7 +174,7 @@ class _Sweep:
                 key = kernels(decks.loads(self.texts[todo[0].name]))
                 if not compilation.is_compiled(key):
                     self.board.compiling = partial(compilation.told_of, key)
-                    self.board.line("kernels not compiled by earlier runs are compiled first: a minute or more")
+                    self.board.line("kernels not compiled by earlier runs are compiled first")
             for case in todo:
                 self._give(case)
         self.board.further = self.choice.further(self.board.cases, self.board.moving)
@@ -279,7 +279,8 @@ def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: floa
         if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
             for text in case.message.splitlines():
                 board.line(f"{case.name}: {case.status}: {text}")
-    board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {spent:.1f} s in their workers")
+    of_workers = duration(spent, tenths=True)
+    board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {of_workers} in their workers")
     if interrupt.reason:
         board.line(f"interrupted ({interrupt.reason}); --resume continues")
         return status(interrupt.reason)

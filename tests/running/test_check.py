@@ -6,7 +6,7 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.running import check
-from hydro2d.running.progress import duration
+from hydro2d.terminal import duration
 
 #: measured cycles of whole runs: a bar against a wall, a rod on a mesh that follows it, an eroding rod, a crater
 CYCLES = [

@@ -195,7 +195,7 @@ def test_the_last_lines_name_compilation_cycles_and_outputs_apart():
              "ns_per_cell_cycle": 31.24}  # fmt: skip
     assert closing(**costs)[1] == (
         "450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); "
-        "compilation 77 s, set-up 2 min 31 s, outputs 0.4 s")
+        "compilation 1 min 17 s, set-up 2 min 31 s, outputs 0.4 s")
 
 
 @pytest.mark.parametrize(("command", "again"), [
