@@ -72,13 +72,16 @@ def grid(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS):
 def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS, spare: str = "") -> list[str]:
     """The same as plain lines, none wider than the terminal.
 
-    Where a row does not fit, the table is without the column ``spare``; a name that is still too long has a line of its own.
+    Where a row does not fit, the table is without the column ``spare``; a name that is still too long has a line of its own,
+    and if the rest does not fit either, every cell has one, below the name and beside its head.
     """
     table = [heads, *rows]
     if spare in heads and sum(map(max, zip(*_lengths(table), strict=True))) > width():
         left_out = heads.index(spare)
         table = [(*cells[:left_out], *cells[left_out + 1 :]) for cells in table]
     widths = [max(column) for column in zip(*_lengths(table), strict=True)]
+    if len(heads[0]) + len(GAP) + sum(widths[1:]) > width():
+        return [line for cells in table[1:] for line in _cell_lines(table[0], cells)]
     widths[0] = min(widths[0], max(width() - sum(widths[1:]), len(heads[0]) + len(GAP)))
     return [line for cells in table for line in _row_lines(cells, widths)]
 
@@ -86,6 +89,13 @@ def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS, spare: st
 def _lengths(table: list[tuple[str, ...]]) -> list[list[int]]:
     """Characters that each cell of a table takes, with the gap after it."""
     return [[len(cell) + len(GAP) for cell in cells[:-1]] + [len(cells[-1])] for cells in table]
+
+
+def _cell_lines(heads: tuple[str, ...], cells: tuple[str, ...]) -> list[str]:
+    """A row as its name and a line for each other cell, with its head."""
+    longest = max(map(len, heads[1:])) + len(GAP)
+    others = zip(heads[1:], cells[1:], strict=True)
+    return [cells[0], *(f"{GAP}{head:<{longest}}{cell}".rstrip() for head, cell in others)]
 
 
 def _row_lines(cells: tuple[str, ...], widths: list[int]) -> list[str]:

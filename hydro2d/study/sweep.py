@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 import queue
+import shlex
 import socket
 import time
 import uuid
@@ -49,7 +50,7 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
         before = layout.read(directory)
         if not (resume or overwrite) and any(case.directory.exists() for case in before.cases):
             raise StudyError(
-                f"{directory} already holds a study ({monitor.counts(before.cases)}); --resume continues it, "
+                f"{directory} already holds a study ({monitor.counts(before.cases)}); {plan.again} continues it, "
                 "--overwrite starts it again from the beginning"
             )
         told = _changes(plan, before, overwrite)
@@ -110,7 +111,7 @@ def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: Abstra
         started = time.perf_counter()
         with connect as client:
             spent = _Sweep(choice, client, board, threads, overwrite).run(interrupt)
-        return _end(board, interrupt, time.perf_counter() - started, spent)
+        return _end(board, interrupt, time.perf_counter() - started, spent, choice.plan.again)
 
 
 def _clear(cases: Iterable[layout.Case]) -> None:
@@ -271,8 +272,8 @@ def _outcome(future) -> Outcome:
     return Outcome(**about, kind=type(error).__name__, message=f"{type(error).__name__}: {error}")
 
 
-def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float) -> int:
-    """Prints the final lines and returns the exit status."""
+def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float, again: str) -> int:
+    """Prints the final lines and returns the exit status. again : the option that continues the study"""
     cases = [board.look(case.name) for case in board.cases]
     chosen = [case for case in cases if case.name not in board.left_out]
     for case in chosen:
@@ -282,10 +283,12 @@ def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: floa
     of_workers = duration(spent, tenths=True)
     board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {of_workers} in their workers")
     if interrupt.reason:
-        board.line(f"interrupted ({interrupt.reason}); --resume continues")
+        board.line(f"interrupted ({interrupt.reason}); {again} continues")
         return status(interrupt.reason)
     if any(case.status in (WAITING, INTERRUPTED) for case in cases):
-        board.line("--resume continues")
+        board.line(f"{again} continues")
+    if any(case.status == DONE for case in chosen):
+        board.line(f"a page of all cases: hydro2d report {shlex.quote(str(board.study.directory))}")
     return ALL_DONE if all(case.status == DONE for case in chosen) else SOME_FAILED
 
 

@@ -70,6 +70,19 @@ def test_a_name_that_is_too_long_has_a_line_of_its_own(monkeypatch):
     assert lines(rows, ("case", "cells", "time"))[1] == "a-case-with-a-very-long-name  15705  2 min 33 s"
 
 
+def test_a_table_that_is_too_wide_without_its_names_has_a_line_for_each_cell(monkeypatch):
+    rows = [("one", "2 of 2, still moving", "rigid 2 of 2 (43 to 100 %)"), ("two", "1 of 2", "")]
+    monkeypatch.setenv("COLUMNS", "50")
+    assert lines(rows, ("case", "ended", "regimes")) == [
+        "one",
+        "  ended    2 of 2, still moving",
+        "  regimes  rigid 2 of 2 (43 to 100 %)",
+        "two",
+        "  ended    1 of 2",
+        "  regimes",
+    ]
+
+
 def test_the_terminal_says_how_wide_it_is():
     told = recorded(f"from hydro2d.cli.main import main; main(['check', {shipped(DECKS[0])!r}])", COLUMNS)
     assert any(line.startswith("cost ") for line in told)
