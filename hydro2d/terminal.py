@@ -6,6 +6,7 @@ everything that it logs through `one_line`.
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 import textwrap
@@ -16,6 +17,9 @@ from typing import TextIO
 
 #: characters in a line where there is no terminal: a file or another program gets every line whole
 NO_TERMINAL = 1_000_000
+#: a line goes on below its last column if that begins before this share of the width, else so many characters further in
+#: than it begins
+MOST_INDENT, FURTHER = 0.7, 4
 #: categories of characters that are not shown but change what is: control, direction of writing, lines
 _STEERING = frozenset(("Cc", "Cf", "Zl", "Zp"))
 
@@ -62,9 +66,18 @@ def width() -> int:
     return shutil.get_terminal_size((NO_TERMINAL, 24)).columns
 
 
-def wrapped(text: str, indent: int = 0) -> str:
-    """A line that breaks at words where the terminal is narrower; what follows the first break is indented."""
-    return textwrap.fill(text, width(), subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False)
+def wrapped(text: str) -> str:
+    """Lines that break at words where the terminal is narrower, and go on below the last of their columns.
+
+    Columns have two spaces or more between them.
+    """
+    return "\n".join(map(_wrapped, text.split("\n")))
+
+
+def _wrapped(line: str) -> str:
+    begin, first = max((gap.end() for gap in re.finditer(r"\s{2,}", line)), default=0), len(line) - len(line.lstrip())
+    indent = begin if begin < MOST_INDENT * width() else first + FURTHER
+    return textwrap.fill(line, width(), subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False)
 
 
 def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:

@@ -203,7 +203,7 @@ def check(
 
     found = checks.check(_load(deck, set_))
     for line in found.lines(threads or os.cpu_count() or 1):
-        say(wrapped(line, checks.INDENT))
+        say(wrapped(line))
     if picture is not None:
         import_matplotlib()
         from hydro2d.results import figures, start_figure
@@ -226,7 +226,7 @@ def info(name: str | None = None) -> int:
     """
     from hydro2d.cli import info as pages
 
-    say(pages.page(name) if name else pages.overview())
+    say(wrapped(pages.page(name) if name else pages.overview()))
     return 0
 
 

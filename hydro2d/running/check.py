@@ -20,8 +20,6 @@ from hydro2d.terminal import duration, one_line
 
 #: motion of a body at rest
 AT_REST = (0.0, 0.0), None
-#: characters of a line of the report before its text
-INDENT = 10
 #: most names of bodies in a line
 LISTED = 5
 #: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine

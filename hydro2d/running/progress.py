@@ -413,10 +413,10 @@ def _moving(summary: dict) -> str:
     energies = {name: body["kinetic_energy_J"] for name, body in summary["bodies"].items()}
     least = SHOWN * max(energies.values(), default=0.0)
     names = [name for name in sorted(energies, key=lambda name: -energies[name]) if energies[name] > least][:MOST_SHOWN]
-    said = [f"{name} {summary['bodies'][name]['velocity_m_s']:.1f} m/s, {energies[name]:.3g} J" for name in names]
+    said = [f"{name} {summary['bodies'][name]['velocity_m_s']:z.1f} m/s, {energies[name]:.3g} J" for name in names]
     projectile = summary["projectile"]
     if projectile and projectile["tail_velocity_m_s"] is not None:
-        said.append(f"tail of the {projectile['body']} {projectile['tail_velocity_m_s']:.1f} m/s")
+        said.append(f"tail of the {projectile['body']} {projectile['tail_velocity_m_s']:z.1f} m/s")
     return "; ".join(said)
 
 

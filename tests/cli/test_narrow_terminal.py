@@ -34,7 +34,24 @@ def test_a_deck_is_told_in_so_many_columns(name, capsys, monkeypatch):
     narrow = printed(capsys, "check", shipped(name), "--threads", "2")
     assert max(map(len, narrow)) <= COLUMNS
     assert " ".join(narrow).split() == " ".join(whole).split()
-    assert all(line.startswith(" " * 10) or any(each.startswith(line) for each in whole) for line in narrow)
+    begin = narrow.index("")  # below the title
+    assert all(line.startswith(" " * 10) or any(each.startswith(line) for each in whole) for line in narrow[begin:])
+
+
+@pytest.mark.parametrize("command", [["new", "--list"], ["info"], ["info", "W_alloy"], ["info", "johnson-cook"], ["model"],
+                                     ["info", "numerics.advection"]])
+def test_explanations_go_on_below_their_column(command, capsys, monkeypatch):
+    """Nothing is lost; a text that begins far to the right goes on below the beginning of its line."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+    whole = printed(capsys, *command)
+    assert max(map(len, whole)) > COLUMNS
+    monkeypatch.setenv("COLUMNS", str(COLUMNS))
+    narrow = printed(capsys, *command)
+    assert max(map(len, narrow)) <= COLUMNS
+    assert " ".join(narrow).split() == " ".join(whole).split()
+    if command == ["new", "--list"]:
+        begin = next(line for line in whole if line.startswith("ceramic")).index("A long rod")
+        assert {line[:begin].strip() for line in narrow} == {"", *(line[:begin].strip() for line in whole)}
 
 
 @pytest.mark.parametrize(("command", "name"), STUDIES)
