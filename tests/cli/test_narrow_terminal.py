@@ -6,6 +6,7 @@ from hydro2d.cli.main import call
 from hydro2d.study.monitor import lines
 from tests.rules import source
 from tests.running.test_progress import recorded
+from tests.study import fake
 
 COLUMNS = 80
 #: with rows of every kind: a mesh that follows, a tie, walls, bodies that the mesh cuts off, warnings, long titles
@@ -72,6 +73,14 @@ def test_the_deck_of_all_cases_is_told_once(capsys, monkeypatch):
     assert [line for line in told if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]
     told = printed(capsys, "sweep", shipped("validation/eroding_rods"), "--check")
     assert told[2].split() == ["case", "deck", "cells", "cycles", "time"]
+
+
+def test_the_status_of_a_study_fits(capsys, monkeypatch, tmp_path):
+    study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(1086)}, title="A title that goes on " * 6)
+    monkeypatch.setenv("COLUMNS", str(COLUMNS))
+    told = printed(capsys, "sweep", str(study), "--status")
+    assert max(map(len, told)) <= COLUMNS
+    assert "1 of 1 done" in told
 
 
 def test_a_name_that_is_too_long_has_a_line_of_its_own(monkeypatch):
