@@ -71,8 +71,9 @@ class Check:
         found += self._follow() if deck.mesh.follow else self._crosses()
         found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
         found += [f"stop      {_stop(deck.stop)}"]
-        found += [f"cost      about {self.cycles} cycles, {duration(self.wall(threads))} on {threads} threads "
-                  f"(a guess), {self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
+        time = f"{duration(self.wall(threads))} on {_several(threads, 'thread')} (a guess)"
+        found += [f"cost      about {_several(self.cycles, 'cycle')}, {time}, "
+                  f"{self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
 
     def wall(self, threads: int) -> float:
@@ -158,7 +159,8 @@ class Check:
                 continue  # it goes on beyond the edge of the mesh
             cut = f", of which {inside * 1e3:.4g} mm lie in the mesh" if inside < (1.0 - ROUNDING) * (high - low) else ""
             size = f" of {(high - low) * 1e3:.4g} mm" if math.isfinite(high - low) else ""
-            found.append(f"{decks.cells_between(edges, low, high):.3g} cells across the {what}{size}{cut}")
+            cells = f"{decks.cells_between(edges, low, high):.3g}"
+            found.append(f"{_several(cells, 'cell')} across the {what}{size}{cut}")
         return ", ".join(found)
 
 
@@ -244,6 +246,11 @@ def _axis(name: str, edges: np.ndarray) -> str:
     sizes = np.diff(edges) * 1e3
     spread = f"{sizes.min():.4g}" if np.ptp(sizes) < 1e-9 * sizes.max() else f"{sizes.min():.4g} to {sizes.max():.4g}"
     return f"{name} from {edges[0] * 1e3:.6g} to {edges[-1] * 1e3:.6g} mm, cells of {spread} mm"
+
+
+def _several(number: object, what: str) -> str:
+    """'1 cell', '2 cells'."""
+    return f"{number} {what}{'' if str(number) == '1' else 's'}"
 
 
 def _mass(mass: float, grid) -> str:
