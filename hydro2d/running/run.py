@@ -52,6 +52,8 @@ DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
+#: the file that a study has in its directory, see study/layout.py
+STUDY = "study.json"
 #: cycles between copies of the state in memory, the last good one
 GOOD_EVERY = 100
 #: seconds between writes of the history, and largest share of the wall time that they take
@@ -88,6 +90,8 @@ def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
         raise RunError(f"{directory}: there is no run to continue")
     if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
         raise RunError(f"{directory / DECK} does not belong to a run, as no other file does; --overwrite would replace it")
+    if (directory / STUDY).is_file() and not (directory / SUMMARY).exists():
+        raise RunError(f"{directory} holds a study; give the run a directory of its own")
     if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
         raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
 

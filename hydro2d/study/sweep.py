@@ -22,7 +22,7 @@ from hydro2d import compilation
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
 from hydro2d.interrupt import Interrupt, signals, status
-from hydro2d.running.run import clear
+from hydro2d.running.run import SUMMARY, clear
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study import layout, monitor
 from hydro2d.study.case import Outcome
@@ -46,6 +46,8 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
     if directory.exists() and not directory.is_dir():
         raise StudyError(f"{directory} is a file, not a directory")
     told = []
+    if (directory / SUMMARY).exists():
+        raise StudyError(f"{directory} holds a run; give the study a directory of its own")
     if (directory / STUDY).exists():
         before = layout.read(directory)
         if not (resume or overwrite) and any(case.directory.exists() for case in before.cases):

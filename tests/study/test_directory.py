@@ -120,6 +120,10 @@ def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
     assert sweep.changes(plan, written, resume=True, overwrite=False) == []
     with pytest.raises(StudyError, match="no study to continue"):
         sweep.changes(plan, tmp_path / "none", resume=True, overwrite=False)
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "summary.json").write_text("{}")
+    with pytest.raises(StudyError, match="holds a run; give the study a directory of its own"):
+        sweep.changes(plan, tmp_path / "run", resume=False, overwrite=True)
     with pytest.raises(StudyError, match="is a file"):
         sweep.changes(plan, tmp_path / "tube.toml", resume=False, overwrite=False)
     with pytest.raises(NotADirectoryError):
