@@ -132,7 +132,7 @@ def _show_ensembles(directory: Path) -> None:
 
     found = contents.collect(layout.read(directory))
     for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
-        say(line)
+        say(wrapped(line))
 
 
 def _status(study: Path, out: Path | None) -> int:

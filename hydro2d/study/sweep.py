@@ -74,7 +74,8 @@ def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
         )
     added, gone = [name for name in new if name not in old], [name for name in old if name not in new]
     told = [f"{_names(added)} new"] if added else []
-    told += [f"{_names(gone)} no longer in the study; their files in {CASES} are kept"] if gone else []
+    if gone and plan.search is None:  # a search may draw the velocity of a run that has not ended again
+        told.append(f"{_names(gone)} no longer in the study; the files in {CASES} are kept")
     return told + ([f"{_names(changed)} with a different deck than before"] if changed else [])
 
 
