@@ -5,7 +5,8 @@
 runs, in a folder of its own, the `hydro2d` commands and the Python of the page down to the last one that writes one of its
 pictures, and puts the pictures into docs/_static: `![...](../_static/spall.png)` is what a command of the page wrote as
 spall.png, and `../_static/report_rods_01.png` of the page report.md is rods_01.png of the report that it makes. They are made
-smaller, so that none has more than 100 kB. With --together, several pages use one folder, and no command is run twice.
+smaller, so that none has more than 100 kB. With --together, pages share a folder and the runs in it, and no command runs twice
+there; a page whose commands write another run under the same name gets another folder.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ import shlex
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import matplotlib
@@ -37,6 +40,8 @@ TO_FILL_IN = re.compile(r"(?<![\w.-])[A-Z]{3,}\b")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.M | re.S)
 #: what the text before a block says if the reader is to save the block as a file
 FILE = re.compile(r"(?:Save this as|into a file|where) `(\w+\.(?:toml|py))`")
+#: commands that write a run or a study, and how Python names the directory of one
+WRITES, RUN = ("run", "sweep", "transition"), re.compile(r"[\"'](runs/[\w-]+)[\"']")
 PICTURE = re.compile(r"!\[[^\]]*\]\((?:\.\./)?_static/([\w-]+\.(?:png|gif))\)")
 
 
@@ -79,6 +84,35 @@ def needed(text: str, page: Path) -> list[tuple[str, str]]:
     return found[: max(last, default=-1) + 1]
 
 
+def runs(steps: Sequence[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
+    """The directories of runs and studies that steps write: name -> the commands or the Python that write it."""
+    found: dict[str, tuple[str, ...]] = {}
+    for kind, text in steps:
+        words = shlex.split(text) if kind == "sh" else []
+        names = RUN.findall(text) if kind == "python" else []
+        if words[1:2] and words[1] in WRITES:
+            given = [after for word, after in zip(words, words[1:], strict=False) if word == "--out"]
+            names = given or [f"runs/{Path(words[2]).stem}"]
+        for name in names:
+            found[name] = (*found.get(name, ()), text)
+    return found
+
+
+@dataclass
+class Folder:
+    """A folder in which pages are made. done : the steps that were run there; made : its runs, as `runs` gives them"""
+
+    path: Path
+    done: set[tuple[str, str]] = field(default_factory=set)
+    made: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def suits(self, text: str, page: Path) -> bool:
+        """Whether the commands and files of a page write nothing here that is already there and differs."""
+        same_runs = all(self.made.get(name, steps) == steps for name, steps in runs(needed(text, page)).items())
+        files = [(self.path / name, block) for name, _, block in blocks(text) if name is not None]
+        return same_runs and all(not file.exists() or file.read_text(encoding="utf-8") == block for file, block in files)
+
+
 def run(step: tuple[str, str], folder: Path, names: dict[str, object]) -> None:
     """Runs a step in a folder, in which `problems` is that of this checkout; names : of the Python of the page so far."""
     kind, text = step
@@ -116,18 +150,20 @@ def written_as(picture: str, page: Path) -> str:
     return picture.removeprefix(f"{page.stem}_")
 
 
-def make(page: Path, folder: Path, done: set[tuple[str, str]]) -> None:
-    """Makes the pictures of a page in a folder and puts them into docs/_static; done : the steps that were run there before."""
-    text, names = page.read_text(encoding="utf-8"), {"__name__": page.stem}
+def make(page: Path, place: Folder) -> None:
+    """Makes the pictures of a page in a folder and puts them into docs/_static."""
+    text, names, folder = page.read_text(encoding="utf-8"), {"__name__": page.stem}, place.path
     if not (folder / "problems").exists():
         (folder / "problems").symlink_to(HERE.parent / "problems")
     for file, _, block in blocks(text):
         if file is not None:
             (folder / file).write_text(block, encoding="utf-8")
-    for step in needed(text, page):
-        if step in done:
+    found = needed(text, page)
+    place.made |= runs(found)
+    for step in found:
+        if step in place.done:
             continue
-        done.add(step)
+        place.done.add(step)
         print(f"{page.name}: {step[1].splitlines()[0]}", flush=True)
         run(step, folder, names)
     for name in pictures(text):
@@ -140,13 +176,18 @@ def main(arguments: list[str] | None = None) -> int:
     """Makes the pictures of the pages that are named."""
     parser = argparse.ArgumentParser(description="Makes the pictures of pages by the commands that the pages show.")
     parser.add_argument("pages", nargs="+", type=Path, metavar="PAGE")
-    parser.add_argument("--together", action="store_true", help="uses one folder for all pages, and runs no command twice")
+    parser.add_argument("--together", action="store_true", help="pages share the runs that are the same")
     given = parser.parse_args(arguments)
-    for pages in [given.pages] if given.together else [[page] for page in given.pages]:
-        done: set[tuple[str, str]] = set()
-        with tempfile.TemporaryDirectory() as folder:
-            for page in pages:
-                make(page, Path(folder), done)
+    with tempfile.TemporaryDirectory() as whole:
+        folders: list[Folder] = []
+        for page in given.pages:
+            text = page.read_text(encoding="utf-8")
+            place = next((each for each in folders if given.together and each.suits(text, page)), None)
+            if place is None:
+                place = Folder(Path(whole) / str(len(folders)))
+                place.path.mkdir()
+                folders.append(place)
+            make(page, place)
     return 0
 
 

@@ -20,6 +20,7 @@ import numpy as np
 
 from hydro2d import children, jit, moving
 from hydro2d.files import turn, write_text
+from hydro2d.terminal import duration
 
 COMPILE = "numba:compile"
 #: seconds between two states of the line; a first call that has taken as long is more than the reading of a kernel
@@ -64,7 +65,7 @@ class Compilation(events.Listener):
         """The line, such as "compiling kernels: 14 of 23, 21 s"."""
         done, whole = self.state
         count = f"{done} of {whole}" if whole else f"{done} so far"
-        return f"{doing} kernels: {count}, {self.seconds:.0f} s"
+        return f"{doing} kernels: {count}, {duration(self.seconds)}"
 
     def expect(self, names: Collection[str] | None) -> None:
         """Kernels that will have to be compiled; None: nobody knows which."""
@@ -127,7 +128,7 @@ class Compilation(events.Listener):
         found = []
         if self.happened and self.seconds > self._told:
             done, _ = self.state
-            found.append(f"compiled {done} kernel{'' if done == 1 else 's'} in {self.seconds:.1f} s")
+            found.append(f"compiled {done} kernel{'' if done == 1 else 's'} in {duration(self.seconds, tenths=True)}")
             self._told = self.seconds
         status = self._second.stop() if self._second else None
         return found + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status

@@ -393,6 +393,13 @@ def test_a_directory_is_not_used_twice(deck, shot):
         hydro2d.run(deck, shot.directory, quiet=True)
 
 
+def test_a_run_is_not_written_into_a_study(deck, tmp_path):
+    (tmp_path / "study.json").write_text("{}")
+    for overwrite in (False, True):
+        with pytest.raises(hydro2d.RunError, match="holds a study; give the run a directory of its own"):
+            hydro2d.run(deck, tmp_path, quiet=True, overwrite=overwrite)
+
+
 def test_a_run_that_fails_raises(tmp_path, deck, monkeypatch):
     def broken(sim):
         raise hydro2d.UnphysicalState("cycle 1: negative density")

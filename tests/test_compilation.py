@@ -21,6 +21,7 @@ from hydro2d.mesh import sums
 from hydro2d.running import compile_all
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
+from hydro2d.terminal import duration
 from tests.cli.test_main import DECK
 
 
@@ -66,7 +67,7 @@ def test_one_line_moves_while_a_kernel_is_waited_for(place):
         with first_call("b"):
             time.sleep(0.1)
         assert place.moved[-1] == ("compiling kernels: 2 of 3, 0 s", 2 / 3)
-        assert compiled.settled() == [f"compiled 2 kernels in {compiled.seconds:.1f} s"]
+        assert compiled.settled() == [f"compiled 2 kernels in {duration(compiled.seconds, tenths=True)}"]
         assert compiled.settled() == []  # it is said once
     with first_call("c"):  # outside: nobody listens
         time.sleep(0.1)

@@ -11,13 +11,22 @@ from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
 from hydro2d.study import charts, monitor
-from hydro2d.terminal import one_line, say, shown
+from hydro2d.terminal import duration, one_line, say, shown
 from tests import fake
 from tests.rules import source
 
 #: sets the title of a terminal, clears it, turns the direction of writing, and forges a line
 NASTY = "a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r\nd"
 SPELLED = r"a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r"
+
+
+@pytest.mark.parametrize(("seconds", "shown", "measured"), [
+    (0.4, "0 s", "0.4 s"), (9.94, "10 s", "9.9 s"), (9.96, "10 s", "10 s"), (77.2, "1 min 17 s", "1 min 17 s"),
+    (388.8, "6 min 29 s", "6 min 29 s"), (3599.6, "1 h 00 min", "1 h 00 min"), (7384.0, "2 h 03 min", "2 h 03 min"),
+])  # fmt: skip
+def test_a_time_has_one_form(seconds, shown, measured):
+    assert duration(seconds) == shown
+    assert duration(seconds, tenths=True) == measured
 
 
 def test_what_steers_a_terminal_is_spelled():

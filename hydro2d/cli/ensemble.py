@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -81,7 +81,7 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
     file = decks.find(deck)
     tables = {"title": f"{file.stem}, {chosen.repeats} members", "deck": str(file.resolve()),
               "ensemble": chosen.table(chosen.repeats)}  # fmt: skip
-    plan = cases.plan_of(tables, file.stem, overrides)
+    plan = replace(cases.plan_of(tables, file.stem, overrides), again="--restart")
     workers = Workers(workers=chosen.workers, threads=threads, resume=restart, overwrite=overwrite)
     return run_study(plan, out or Path(f"runs/{file.stem}_ensemble"), workers, quiet=quiet)
 

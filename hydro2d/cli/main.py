@@ -27,7 +27,7 @@ from hydro2d.cli.study import sweep, transition
 from hydro2d.cli.tabulate import tabulate
 from hydro2d.cli.view import view
 from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
-from hydro2d.terminal import flush, say
+from hydro2d.terminal import flush, say, wrapped
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -203,7 +203,7 @@ def check(
 
     found = checks.check(_load(deck, set_))
     for line in found.lines(threads or os.cpu_count() or 1):
-        say(line)
+        say(wrapped(line))
     if picture is not None:
         import_matplotlib()
         from hydro2d.results import figures, start_figure
@@ -226,7 +226,7 @@ def info(name: str | None = None) -> int:
     """
     from hydro2d.cli import info as pages
 
-    say(pages.page(name) if name else pages.overview())
+    say(wrapped(pages.page(name) if name else pages.overview()))
     return 0
 
 

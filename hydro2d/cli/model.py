@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from hydro2d.cli.base import Overrides, UsageError, import_matplotlib, quantity
-from hydro2d.terminal import say
+from hydro2d.terminal import say, wrapped
 
 #: the most rows that --velocity A:B:N makes
 MOST_ROWS = 100_000
@@ -68,7 +68,7 @@ def evaluate(
 
     chosen = models.named(name)
     if help_ or (velocity is None and deck is None):
-        say(model_text.page(chosen))
+        say(wrapped(model_text.page(chosen)))
         return 0
     request, at = _request([chosen], rod, target, set_, deck, strain)
     velocities = _velocities(velocity) if velocity is not None else [at]
@@ -92,7 +92,7 @@ def _without_name(help_: bool, *options) -> int:
         raise UsageError("model: the name of a model is missing; `hydro2d model` lists them")
     from hydro2d.analytic import model_text
 
-    say(model_text.overview())
+    say(wrapped(model_text.overview()))
     return 0
 
 

@@ -9,7 +9,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from hydro2d.cli.base import Out, UsageError
-from hydro2d.terminal import say
+from hydro2d.terminal import say, wrapped
 
 
 def new(kind: str | None = None, *, out: Out | None = None,
@@ -37,7 +37,7 @@ def new(kind: str | None = None, *, out: Out | None = None,
             raise UsageError(f"give a kind of shot: {', '.join(templates.kinds())} (hydro2d new --list says what they are)")
         width = max(map(len, templates.kinds()))
         for name, what in templates.kinds().items():
-            say(f"{name:<{width}}  {what}")
+            say(wrapped(f"{name:<{width}}  {what}"))
         return 0
     text = templates.text(kind)
     deck = out or Path(f"{kind}.toml")
@@ -52,7 +52,7 @@ def new(kind: str | None = None, *, out: Out | None = None,
         f"hydro2d run {file} --out {run}": "run it",
         f"hydro2d view {run}": "look at it in the browser",
     }
-    say(f"wrote {deck}: {templates.kinds()[kind]}\n\nThen, after a look into the file:\n")
+    say(wrapped(f"wrote {deck}: {templates.kinds()[kind]}\n\nThen, after a look into the file:\n"))
     width = max(map(len, steps))
     for command, what in steps.items():
         say(f"    {command:<{width}}   # {what}")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hydro2d.cli.base import Out, Overrides
 from hydro2d.cli.workers import DEFAULT, Workers
-from hydro2d.terminal import say
+from hydro2d.terminal import say, wrapped
 
 
 def sweep(
@@ -132,7 +132,7 @@ def _show_ensembles(directory: Path) -> None:
 
     found = contents.collect(layout.read(directory))
     for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
-        say(line)
+        say(wrapped(line))
 
 
 def _status(study: Path, out: Path | None) -> int:
@@ -145,7 +145,7 @@ def _status(study: Path, out: Path | None) -> int:
 
         told += ["", *regimes.lines(found, regimes.of_study(found))]
     for line in told:
-        say(line)
+        say(wrapped(line))
     if found.ensembles:
         say("")
         _show_ensembles(found.directory)

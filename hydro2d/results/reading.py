@@ -20,7 +20,7 @@ from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import summary_of
 from hydro2d.results.viewer.packing import DEFAULT_BITS
-from hydro2d.running.run import DECK, HISTORY, check_own
+from hydro2d.running.run import DECK, HISTORY, STUDY, check_own
 from hydro2d.strange import within
 from hydro2d.terminal import shown
 
@@ -40,8 +40,6 @@ if TYPE_CHECKING:
 LARGEST = 1e12
 #: a velocity in the name of a directory, which can have no slash
 VELOCITY = re.compile(r"(?<=\d) ?(km|m|cm|mm|in|ft)-(s|ms|us|µs)(?![A-Za-z0-9])")
-#: the file of a study directory that lists its cases
-STUDY = "study.json"
 
 
 class ResultsError(Error):
@@ -360,6 +358,6 @@ def _no_run(directory: Path) -> str:
     """Why a directory without a deck is not a run, and how to read it if it is a study or holds runs."""
     said = f"{directory} is not a run directory: it has no {DECK}"
     if (directory / STUDY).is_file():
-        return f"{said}; it is a study, so use hydro2d.open_study"
+        return f"{said}; it is a study, whose runs are in {directory / 'cases'}; in Python, hydro2d.open_study reads it"
     inside = sorted(file.parent.name for file in directory.glob(f"*/{DECK}"))
     return f"{said}; it holds runs: {', '.join(inside[:5])}{', ...' if len(inside) > 5 else ''}" if inside else said

@@ -26,7 +26,7 @@ from hydro2d.interrupt import Interrupt
 from hydro2d.kernels.triad import triad
 from hydro2d.running import provenance, reporting, run
 from hydro2d.solver.simulation import Simulation
-from hydro2d.terminal import say
+from hydro2d.terminal import duration, say
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
@@ -277,7 +277,7 @@ def lines(case: dict) -> list[str]:
     if case["name"] == WHOLE_SHOT:
         depth, memory = case["penetration_depth_m"] * 1e2, case["peak_memory_bytes"] / 2**20
         shares = ", ".join(f"{name} {100 * share:.2f} %" for name, share in case["shares_beside_cycles"].items())
-        end = f"{case['stop_reason']} after {case['wall_s']:.0f} s"
+        end = f"{case['stop_reason']} after {duration(case['wall_s'])}"
         shown.append(f"      {end}, depth {depth:.2f} cm, peak memory {memory:.0f} MiB")
         shown.append(f"      outside the cycles: {shares}")
     return shown

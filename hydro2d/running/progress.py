@@ -18,9 +18,9 @@ from hydro2d.interrupt import lose_output
 from hydro2d.mesh.measured import unit
 from hydro2d.moving import LINE_SECONDS
 from hydro2d.output.history import Columns
-from hydro2d.running import ending
+from hydro2d.running import ending, residual
 from hydro2d.running.ending import End
-from hydro2d.terminal import one_line, say
+from hydro2d.terminal import duration, one_line, say
 
 T = TypeVar("T")
 
@@ -31,22 +31,14 @@ SHOWN, MOST_SHOWN = 1e-3, 6
 #: bodies whose length has changed by less than this share of it are told no length; tracers and gauges that are told
 SAME_LENGTH, MOST_STATIONS = 1e-3, 12
 AS_LONG = 1e-2  # projectiles whose length and diameter differ by less than this share are as long as they are thick
+#: a residual velocity is told to change still if it has changed by more than this share of it
+SETTLED = 1e-3
 #: what a run spends time on beside its cycles, by key of the summary; less than this many seconds are not told
 OTHER_COSTS, LEAST_COST = {"compilation": "compilation_s", "set-up": "set_up_s", "outputs": "outputs_s"}, 0.05
 #: commands and paths, which a terminal wraps where its line is full, so that they can be copied; other lines break at words
 WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
-
-
-def duration(seconds: float) -> str:
-    """'1 h 02 min', '3 min 20 s', '12 s'."""
-    seconds = round(seconds)
-    if seconds >= 3600:
-        return f"{seconds // 3600} h {seconds % 3600 // 60:02d} min"
-    if seconds >= 60:
-        return f"{seconds // 60} min {seconds % 60:02d} s"
-    return f"{seconds} s"
 
 
 def moment(seconds: float) -> str:
@@ -371,16 +363,12 @@ def continuing(command: str) -> str:
     return shlex.join([*words, "--restart"])
 
 
-def spent(seconds: float) -> str:
-    """'0.4 s', '3.1 s', '77 s', '4 min 09 s': short times with a tenth of a second."""
-    return f"{seconds:.1f} s" if seconds < 9.95 else f"{seconds:.0f} s" if seconds < 99.5 else duration(seconds)
-
-
 def _costs(summary: dict) -> str:
-    """'450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); compilation 77 s, outputs 0.4 s'."""
+    """'450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); compilation 1 min 17 s, outputs 0.4 s'."""
     pace = summary["ns_per_cell_cycle"]
-    others = [f"{name} {spent(summary[key])}" for name, key in OTHER_COSTS.items() if summary[key] >= LEAST_COST]
-    return (f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {spent(summary['cycles_s'])}"
+    others = [f"{name} {duration(summary[key], tenths=True)}" for name, key in OTHER_COSTS.items()
+              if summary[key] >= LEAST_COST]  # fmt: skip
+    return (f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {duration(summary['cycles_s'], tenths=True)}"
             + (f" ({pace:.1f} ns per cell and cycle, cycles alone)" if pace else "")
             + (f"; {', '.join(others)}" if others else ""))
 
@@ -425,10 +413,10 @@ def _moving(summary: dict) -> str:
     energies = {name: body["kinetic_energy_J"] for name, body in summary["bodies"].items()}
     least = SHOWN * max(energies.values(), default=0.0)
     names = [name for name in sorted(energies, key=lambda name: -energies[name]) if energies[name] > least][:MOST_SHOWN]
-    said = [f"{name} {summary['bodies'][name]['velocity_m_s']:.1f} m/s, {energies[name]:.3g} J" for name in names]
+    said = [f"{name} {summary['bodies'][name]['velocity_m_s']:z.1f} m/s, {energies[name]:.3g} J" for name in names]
     projectile = summary["projectile"]
     if projectile and projectile["tail_velocity_m_s"] is not None:
-        said.append(f"tail of the {projectile['body']} {projectile['tail_velocity_m_s']:.1f} m/s")
+        said.append(f"tail of the {projectile['body']} {projectile['tail_velocity_m_s']:z.1f} m/s")
     return "; ".join(said)
 
 
@@ -445,6 +433,14 @@ def _over_length(summary: dict) -> str:
         return ""
     thick = 2.0 * shape["initial_radius_m"]
     return f", P/{'D' if abs(thick - shape['initial_length_m']) < AS_LONG * thick else 'L'} {ratio:.3f}"
+
+
+def _unsettled(shape: dict) -> str:
+    """By how much the residual velocity still changes, if it does."""
+    change, over = shape.get(residual.CHANGE), shape.get(residual.OVER)
+    if change is None or not abs(change) > SETTLED * abs(shape["residual_velocity_m_s"]):
+        return ""
+    return f"; still changing, by {change:+.1f} m/s in the last {over * 1e6:.1f} us"
 
 
 def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
@@ -467,7 +463,8 @@ def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     lines += theory
     if shape.get("residual_mass_kg") is not None:
         velocity, mass = (shape[f"residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
-        lines.append(f"{f'residual {body}':<21} {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}")
+        lines.append(f"{f'residual {body}':<21} {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}"
+                     + _unsettled(shape))
     if experiment and experiment["residual_velocity_m_s"] is not None:
         measured = experiment["residual_velocity_m_s"]
         lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment['source']}")

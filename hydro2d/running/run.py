@@ -35,7 +35,7 @@ from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.series import Series, numbered
 from hydro2d.output.vtk import FOLDER, SERIES
-from hydro2d.running import provenance
+from hydro2d.running import provenance, residual
 from hydro2d.running.outputs import Attempts, writing
 from hydro2d.running.progress import Clock
 from hydro2d.running.reporting import reporter
@@ -52,6 +52,8 @@ DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
+#: the file that a study has in its directory, see study/layout.py
+STUDY = "study.json"
 #: cycles between copies of the state in memory, the last good one
 GOOD_EVERY = 100
 #: seconds between writes of the history, and largest share of the wall time that they take
@@ -88,6 +90,8 @@ def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
         raise RunError(f"{directory}: there is no run to continue")
     if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
         raise RunError(f"{directory / DECK} does not belong to a run, as no other file does; --overwrite would replace it")
+    if (directory / STUDY).is_file() and not (directory / SUMMARY).exists():
+        raise RunError(f"{directory} holds a study; give the run a directory of its own")
     if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
         raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
 
@@ -425,6 +429,7 @@ class Run:
         """What summary.json holds."""
         sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
         last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
+        settling = residual.change(self.history, list(targets.values()), measured, sim.time)
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         return {
             "deck": self.deck.name,
@@ -443,7 +448,7 @@ class Run:
             "cells": sim.grid.cells,
             **dict.fromkeys(ROD_RESULTS),
             **measured,
-            "projectile": projectile(sim.projectile, measured),
+            "projectile": projectile(sim.projectile, measured, settling),
             "crater": next((found["crater"] for found in targets.values()), None),
             "targets": targets,
             "derived": {name: last[name] for name in sim.formulas},
@@ -478,11 +483,13 @@ def experiment(deck) -> dict | None:
     }
 
 
-def projectile(body: str | None, measured: dict) -> dict | None:
+def projectile(body: str | None, measured: dict, settling: dict) -> dict | None:
     """What a summary says of the projectile beside what it says of every body; None without one."""
     from hydro2d.mesh.measured import PROJECTILE
 
-    return {"body": body, **{PROJECTILE[key]: value for key, value in measured.items() if key in PROJECTILE}} if body else None
+    if not body:
+        return None
+    return {"body": body, **{PROJECTILE[key]: value for key, value in measured.items() if key in PROJECTILE}, **settling}
 
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,

@@ -61,7 +61,7 @@ class Planned:
 
 @dataclass(frozen=True)
 class Plan:
-    """A study before it runs, with the decks of all cases resolved."""
+    """A study before it runs, with the decks of all cases resolved. ``again`` is the option that continues it."""
 
     name: str
     title: str
@@ -71,6 +71,7 @@ class Plan:
     cases: list[Planned]
     search: velocities.Velocities | None = None
     ensemble: Ensemble | None = None
+    again: str = "--resume"
 
 
 def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:

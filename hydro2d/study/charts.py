@@ -53,8 +53,10 @@ def _figure(rows: int = 1):
         template="none", font={"color": INK, "size": 13, "family": "system-ui, sans-serif"}, paper_bgcolor=PAPER,
         plot_bgcolor=PAPER, hovermode="closest", hoverlabel={"bgcolor": PAPER, "bordercolor": MUTED, "font": {"color": INK}},
         modebar={"color": MUTED, "activecolor": "#0072b2", "bgcolor": "rgba(0,0,0,0)"},
+        separators=".",  # of decimals alone: 1499.5, not 1,499.5
     )  # fmt: skip
-    lines = {"gridcolor": GRID, "linecolor": MUTED, "tickcolor": MUTED, "zeroline": False, "showline": True, "ticks": "outside"}
+    lines = {"gridcolor": GRID, "linecolor": MUTED, "tickcolor": MUTED, "zeroline": False, "showline": True, "ticks": "outside",
+             "minexponent": 6}  # 12000, not 12k
     figure.update_xaxes(**lines, title_standoff=6)
     figure.update_yaxes(**lines, automargin=True, title_standoff=8)
     return figure
@@ -109,6 +111,8 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
         _residuals(figure, series, x, y)
     there = {x.value(record) for each in series for record in each.records if y.value(record) is not None}
     labels = _words_below(figure, [word for word in x.order if word in there]) if x.order is not None else 0
+    if len(places := {place for trace in figure.data for place in trace.x if place is not None}) == 1:
+        figure.update_xaxes(tickmode="array", tickvals=list(places))  # else ticks would be at fractions around it
     figure.update_xaxes(title={"text": verbatim(x.title)})
     figure.update_yaxes(title={"text": verbatim(y.title)})
     if y.name in (DEPTH, RESIDUAL):

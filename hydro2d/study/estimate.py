@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from hydro2d.deck import deck as decks
 from hydro2d.errors import DeckError
 from hydro2d.running import check
-from hydro2d.running.progress import counted, duration
+from hydro2d.running.progress import counted
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.monitor import lines
-from hydro2d.terminal import one_line, say
+from hydro2d.terminal import duration, one_line, say, wrapped
 
-HEADS = ("case", "deck", "cells", "cycles", "time")
+DECK, HEADS = "deck", ("case", "cells", "cycles", "time")
 
 
 def show(plan: Plan, workers: int) -> int:
@@ -34,17 +34,23 @@ def show_search(plan: Plan, workers: int) -> int:
     tried = f"{count} velocities {plan.search.tolerance:g} m/s apart"
     if budget:
         tried = f"velocities from {plan.search.labels[0]} to {plan.search.labels[-1]}, {budget.round} at a time"
-    say(f"\n{of_axes}{tried} by {plan.search.key}")
+    say("\n" + wrapped(f"{of_axes}{tried} by {plan.search.key}"))
     about = "" if budget else "about "
-    say(f"at most {about}{most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)")
+    say(wrapped(f"at most {about}{most} runs{' each' if of_axes else ''}, {duration(seconds)} on {workers} workers (a guess)"))
     return _wrong(found)
 
 
 def _table(plan: Plan, cases: Sequence[Planned]) -> list[tuple[tuple[str, ...], float, str]]:
     """Prints the title and the table of cases. Returns the result of `_row` for each."""
     found = [_row(case) for case in counted(cases, "cases estimated")]
-    say(f"{plan.name}: {one_line(plan.title)}\n" if plan.title else f"{plan.name}\n")
-    for told in lines([cells for cells, _, _ in found], HEADS):
+    say(wrapped(f"{plan.name}: {one_line(plan.title)}" if plan.title else plan.name))
+    rows, bases = [HEADS, *(cells for cells, _, _ in found)], [case.deck for case in cases]
+    if len(set(bases)) > 1:
+        rows = [(name, base, *rest) for (name, *rest), base in zip(rows, [DECK, *bases], strict=True)]
+    else:
+        say(f"{DECK}: {bases[0]}")
+    say("")
+    for told in lines(rows[1:], rows[0], DECK):
         say(told)
     return found
 
@@ -64,6 +70,6 @@ def _row(case: Planned) -> tuple[tuple[str, ...], float, str]:
             raise DeckError(case.message)
         found = check.check(decks.loads(case.text))
     except DeckError as error:
-        return (case.name, case.deck, "-", "-", "invalid"), 0.0, str(error)
-    cells = (case.name, case.deck, str(found.grid.cells), str(found.cycles), duration(found.seconds))
+        return (case.name, "-", "-", "invalid"), 0.0, str(error)
+    cells = (case.name, str(found.grid.cells), str(found.cycles), duration(found.seconds))
     return cells, found.seconds, ""

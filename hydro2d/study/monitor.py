@@ -10,14 +10,16 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
-from hydro2d.running.progress import duration, number
+from hydro2d.running.progress import number
 from hydro2d.strange import opened
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
-from hydro2d.terminal import one_line, say, shown
+from hydro2d.terminal import duration, one_line, say, shown, width
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0
 HEADS = ("case", "status", "depth", "done", "time left", "worker")
+#: what lies between two cells of a table of plain lines
+GAP = "  "
 #: lines of a terminal that are not rows of the table
 FRAME = 8
 
@@ -67,18 +69,48 @@ def grid(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS):
     return table
 
 
-def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS) -> list[str]:
-    """The same as plain lines."""
-    widths = [max(len(cells[n]) for cells in (heads, *rows)) for n in range(len(heads))]
-    padded = ("  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True)) for cells in (heads, *rows))
-    return [line.rstrip() for line in padded]
+def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS, spare: str = "") -> list[str]:
+    """The same as plain lines, none wider than the terminal.
+
+    Where a row does not fit, the table is without the column ``spare``; a name that is still too long has a line of its own,
+    and if the rest does not fit either, every cell has one, below the name and beside its head.
+    """
+    table = [heads, *rows]
+    if spare in heads and sum(map(max, zip(*_lengths(table), strict=True))) > width():
+        left_out = heads.index(spare)
+        table = [(*cells[:left_out], *cells[left_out + 1 :]) for cells in table]
+    widths = [max(column) for column in zip(*_lengths(table), strict=True)]
+    if len(heads[0]) + len(GAP) + sum(widths[1:]) > width():
+        return [line for cells in table[1:] for line in _cell_lines(table[0], cells)]
+    widths[0] = min(widths[0], max(width() - sum(widths[1:]), len(heads[0]) + len(GAP)))
+    return [line for cells in table for line in _row_lines(cells, widths)]
+
+
+def _lengths(table: list[tuple[str, ...]]) -> list[list[int]]:
+    """Characters that each cell of a table takes, with the gap after it."""
+    return [[len(cell) + len(GAP) for cell in cells[:-1]] + [len(cells[-1])] for cells in table]
+
+
+def _cell_lines(heads: tuple[str, ...], cells: tuple[str, ...]) -> list[str]:
+    """A row as its name and a line for each other cell, with its head."""
+    longest = max(map(len, heads[1:])) + len(GAP)
+    others = zip(heads[1:], cells[1:], strict=True)
+    return [cells[0], *(f"{GAP}{head:<{longest}}{cell}".rstrip() for head, cell in others)]
+
+
+def _row_lines(cells: tuple[str, ...], widths: list[int]) -> list[str]:
+    """A row as one line, or as two, if its name is wider than its column."""
+    rest = "".join(map(str.ljust, cells[1:], widths[1:])).rstrip()
+    if len(cells[0]) + len(GAP) > widths[0] and rest:
+        return [cells[0], " " * widths[0] + rest]
+    return [(cells[0].ljust(widths[0]) + rest).rstrip()]
 
 
 def status(study: Study) -> list[str]:
     """The table of a study directory and its messages."""
     told = [f"{case.name}: {text}" for case in study.cases for text in case.message.splitlines()]
     heading = one_line(f"{study.name}: {study.title}" if study.title else study.name)
-    return [heading, "", *lines([row(case) for case in study.cases]), "", counts(study.cases), *told]
+    return [heading, "", *lines([row(case) for case in study.cases], HEADS, "worker"), "", counts(study.cases), *told]
 
 
 class Board:

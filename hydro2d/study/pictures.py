@@ -15,6 +15,7 @@ from hydro2d.results import figures, movies, reading
 from hydro2d.results.scales import FigureError
 from hydro2d.study import chance_figure, rods
 from hydro2d.study.contents import Contents
+from hydro2d.study.layout import INVALID, WAITING
 from hydro2d.study.record import Record
 from hydro2d.study.regimes import Transitions
 
@@ -114,10 +115,13 @@ def check_field(field: str) -> None:
 def films(contents: Contents, field: str, folder: Path, say: Callable[[str], None]) -> Iterator[Picture]:
     """A small film of a field for every run with dumps: MP4 if ffmpeg is installed, else GIF.
 
-    Runs without dumps, and those whose dumps cannot be read, are reported to `say`. Raises FigureError if no film can be made.
+    Runs without dumps, and those whose dumps cannot be read, are reported to `say`; cases that have not begun are not. Raises
+    FigureError if no film can be made.
     """
     ending, made, problem = ".mp4" if movies.has_ffmpeg() else ".gif", 0, None
     for number, each in enumerate(contents.records, 1):
+        if each.case.status in (WAITING, INVALID):
+            continue
         try:
             run = reading.Results(each.case.directory)
             if not run.dumps:

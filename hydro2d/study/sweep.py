@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 import queue
+import shlex
 import socket
 import time
 import uuid
@@ -21,8 +22,7 @@ from hydro2d import compilation
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
 from hydro2d.interrupt import Interrupt, signals, status
-from hydro2d.running.progress import duration
-from hydro2d.running.run import clear
+from hydro2d.running.run import SUMMARY, clear
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study import layout, monitor
 from hydro2d.study.case import Outcome
@@ -30,6 +30,7 @@ from hydro2d.study.cases import Plan
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
+from hydro2d.terminal import duration
 
 ALL_DONE, SOME_FAILED = 0, 3
 #: seconds between checks for a finished case, a signal, and the table
@@ -45,11 +46,13 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
     if directory.exists() and not directory.is_dir():
         raise StudyError(f"{directory} is a file, not a directory")
     told = []
+    if (directory / SUMMARY).exists():
+        raise StudyError(f"{directory} holds a run; give the study a directory of its own")
     if (directory / STUDY).exists():
         before = layout.read(directory)
         if not (resume or overwrite) and any(case.directory.exists() for case in before.cases):
             raise StudyError(
-                f"{directory} already holds a study ({monitor.counts(before.cases)}); --resume continues it, "
+                f"{directory} already holds a study ({monitor.counts(before.cases)}); {plan.again} continues it, "
                 "--overwrite starts it again from the beginning"
             )
         told = _changes(plan, before, overwrite)
@@ -71,7 +74,8 @@ def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
         )
     added, gone = [name for name in new if name not in old], [name for name in old if name not in new]
     told = [f"{_names(added)} new"] if added else []
-    told += [f"{_names(gone)} no longer in the study; their files in {CASES} are kept"] if gone else []
+    if gone and plan.search is None:  # a search may draw the velocity of a run that has not ended again
+        told.append(f"{_names(gone)} no longer in the study; the files in {CASES} are kept")
     return told + ([f"{_names(changed)} with a different deck than before"] if changed else [])
 
 
@@ -110,7 +114,7 @@ def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: Abstra
         started = time.perf_counter()
         with connect as client:
             spent = _Sweep(choice, client, board, threads, overwrite).run(interrupt)
-        return _end(board, interrupt, time.perf_counter() - started, spent)
+        return _end(board, interrupt, time.perf_counter() - started, spent, choice.plan.again)
 
 
 def _clear(cases: Iterable[layout.Case]) -> None:
@@ -174,7 +178,7 @@ class _Sweep:
                 key = kernels(decks.loads(self.texts[todo[0].name]))
                 if not compilation.is_compiled(key):
                     self.board.compiling = partial(compilation.told_of, key)
-                    self.board.line("kernels not compiled by earlier runs are compiled first: a minute or more")
+                    self.board.line("kernels not compiled by earlier runs are compiled first")
             for case in todo:
                 self._give(case)
         self.board.further = self.choice.further(self.board.cases, self.board.moving)
@@ -271,20 +275,23 @@ def _outcome(future) -> Outcome:
     return Outcome(**about, kind=type(error).__name__, message=f"{type(error).__name__}: {error}")
 
 
-def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float) -> int:
-    """Prints the final lines and returns the exit status."""
+def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float, again: str) -> int:
+    """Prints the final lines and returns the exit status. again : the option that continues the study"""
     cases = [board.look(case.name) for case in board.cases]
     chosen = [case for case in cases if case.name not in board.left_out]
     for case in chosen:
         if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
             for text in case.message.splitlines():
                 board.line(f"{case.name}: {case.status}: {text}")
-    board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {spent:.1f} s in their workers")
+    of_workers = duration(spent, tenths=True)
+    board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {of_workers} in their workers")
     if interrupt.reason:
-        board.line(f"interrupted ({interrupt.reason}); --resume continues")
+        board.line(f"interrupted ({interrupt.reason}); {again} continues")
         return status(interrupt.reason)
     if any(case.status in (WAITING, INTERRUPTED) for case in cases):
-        board.line("--resume continues")
+        board.line(f"{again} continues")
+    if any(case.status == DONE for case in chosen):
+        board.line(f"a page of all cases: hydro2d report {shlex.quote(str(board.study.directory))}")
     return ALL_DONE if all(case.status == DONE for case in chosen) else SOME_FAILED
 
 

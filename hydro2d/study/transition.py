@@ -13,7 +13,7 @@ from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.layout import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
 from hydro2d.study.searching import Searching
 from hydro2d.study.shots import Shots
-from hydro2d.terminal import say
+from hydro2d.terminal import say, wrapped
 
 
 class Bisection(Searching):
@@ -117,7 +117,7 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
     study = layout.read(directory)
     found = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:
-        say("\n".join(("", *regimes.lines(study, found))))
+        say(wrapped("\n".join(("", *regimes.lines(study, found)))))
     regimes.write(study, found)
     if study.search.budget:
         for file in chance_figure.write(study, found):

@@ -130,3 +130,22 @@ def test_a_picture_that_is_too_large_is_refused(docs, tmp_path, monkeypatch):
 def test_the_command_says_what_it_takes():
     done = subprocess.run([sys.executable, str(DOCS / "gallery.py"), "--help"], capture_output=True, text=True, check=True)
     assert "--studies" in done.stdout
+
+
+def test_pages_that_are_made_together_share_only_the_runs_that_are_the_same(docs, monkeypatch, tmp_path):
+    """`runs/crater` is one run of two pages and another run of two others; no command finds its directory taken."""
+    figures, ran = docs["figures"], []
+    monkeypatch.setattr(figures, "shrink", lambda source, target: None)
+    monkeypatch.setattr(figures, "run", lambda step, folder, names: ran.append((folder, step[1])))
+    names = ("run-a-shot", "restart", "paraview", "make-a-film", "perforate-a-plate")
+    assert figures.main(["--together", *(str(DOCS / "how-to" / f"{name}.md") for name in names)]) == 0
+    written = [(folder, step) for folder, step in ran if step.startswith("hydro2d run ") and "--restart" not in step]
+    places = [(folder, step.split("--out ")[1].split()[0]) for folder, step in written]
+    assert len(set(places)) == len(places)
+    assert {place for _, place in places} == {"runs/crater", "runs/two"}
+    folders = list(dict.fromkeys(folder for folder, _ in ran))
+    assert len(folders) == 3  # of the plain crater, of the one that is restarted, of the one with more dumps
+    assert len([step for folder, step in ran if folder == folders[0] and step == "hydro2d new crater"]) == 1
+    again = next(folder for folder, step in ran if "--restart" in step)
+    assert [step for folder, step in ran if folder == again and " run " in step][0].endswith('stop.time="10 us"')
+    assert any(step.startswith("hydro2d plot runs/crater -o cutaway.png") for folder, step in ran if folder == folders[0])

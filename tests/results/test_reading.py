@@ -142,7 +142,7 @@ def test_a_study_is_told_what_reads_it(simulation, tmp_path):
     with pytest.raises(ResultsError, match="it has no deck.toml; it holds runs: a, b$"):
         hydro2d.open_run(tmp_path / "folder")
     (tmp_path / "folder" / layout.STUDY).write_text("{}")
-    with pytest.raises(ResultsError, match="it is a study, so use hydro2d.open_study"):
+    with pytest.raises(ResultsError, match="it is a study, whose runs are in .*/cases; .*hydro2d.open_study reads it"):
         hydro2d.open_run(tmp_path / "folder")
     with pytest.raises(ResultsError, match="it has no deck.toml$"):
         hydro2d.open_run(tmp_path / "nothing")

@@ -42,6 +42,18 @@ CITATION = re.compile(
 )
 
 
+def sentences(file) -> list[str]:
+    """The sentences of a page, of a notebook with its quotes."""
+    return re.split(r"(?<=[.:;])\s", re.sub(r'[\s"]+|\\\\n', " ", file.read_text(encoding="utf-8")))
+
+
+def test_how_long_the_first_compilation_takes_is_said_once():
+    """In the README; measurements in explanations say when and on what they were made."""
+    files = [file for file in WRITTEN if EXPLANATION not in file.parents]
+    told = [(name_of(file), text) for file in files for text in sentences(file) if "compil" in text and "minute" in text]
+    assert [name for name, _ in told] == ["README.md"], told
+
+
 def name_of(file) -> str:
     return str(file.relative_to(source.ROOT))
 

@@ -195,7 +195,7 @@ def test_the_last_lines_name_compilation_cycles_and_outputs_apart():
              "ns_per_cell_cycle": 31.24}  # fmt: skip
     assert closing(**costs)[1] == (
         "450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); "
-        "compilation 77 s, set-up 2 min 31 s, outputs 0.4 s")
+        "compilation 1 min 17 s, set-up 2 min 31 s, outputs 0.4 s")
 
 
 @pytest.mark.parametrize(("command", "again"), [
@@ -262,9 +262,9 @@ def test_what_takes_long_is_counted_on_stderr(monkeypatch, capsys, quiet, second
 
 def test_the_last_lines_say_what_moves():
     """The fastest by energy first; what stands still is left out."""
-    known = {"plate": (3.0, 40.0), "rod": (3.5, 900.0), "wall": (1e-9, 1e-15), "gone": (None, 0.0)}
+    known = {"plate": (-0.04, 40.0), "rod": (3.5, 900.0), "wall": (1e-9, 1e-15), "gone": (None, 0.0)}
     bodies = {name: {"velocity_m_s": speed, "kinetic_energy_J": energy} for name, (speed, energy) in known.items()}
     said = progress._moving({"bodies": bodies, "projectile": {"body": "rod", "tail_velocity_m_s": 355.2}})
-    assert said == "rod 3.5 m/s, 900 J; plate 3.0 m/s, 40 J; tail of the rod 355.2 m/s"
+    assert said == "rod 3.5 m/s, 900 J; plate 0.0 m/s, 40 J; tail of the rod 355.2 m/s"
     assert progress._moving({"bodies": {"wall": {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0}},
                              "projectile": None}) == ""

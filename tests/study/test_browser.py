@@ -255,3 +255,21 @@ def test_headings_are_repeated_on_paper(browser, page, tmp_path):
     headed = ["Regime" in sheet for sheet in printed if sheet.count("1086m-s_ke") > 5]
     assert len(headed) > 1
     assert all(headed)
+
+
+#: labels of the ticks of the x axis of the first figure
+TICKS = """
+  const plot = document.querySelector(".js-plotly-plot");
+  return [...plot.querySelectorAll(".xtick text, .xtick2 text")].map((each) => each.textContent);
+"""
+
+
+@pytest.mark.parametrize(("speeds", "shown"), [((1500,), ["1500"]), ((1500, 1500.5), ["1500", "1500.5"]),
+                                               ((9000, 12000), ["9000", "12000"])])  # fmt: skip
+def test_ticks_are_numbers_as_decks_write_them(browser, tmp_path, speeds, shown):
+    """Without separators of thousands, and at the velocity itself where there is one."""
+    study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(*speeds)})
+    found = browser.ask(report([study], y=["rod_length_m"], say=lambda line: None), TICKS, DESK)
+    assert set(shown) <= set(found)
+    assert not any("," in label for label in found)
+    assert len(speeds) > 1 or found == shown

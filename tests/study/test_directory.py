@@ -1,6 +1,7 @@
 """A study directory is read back as it was written, in any state of completion."""
 
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from hydro2d.cli.main import call
 from hydro2d.files import write_json
 from hydro2d.study import cases, layout, monitor, sweep
 from hydro2d.study.definition import StudyError
+from hydro2d.study.velocities import Velocities
 from tests.locks import held
 from tests.study import tubes
 
@@ -120,6 +122,10 @@ def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
     assert sweep.changes(plan, written, resume=True, overwrite=False) == []
     with pytest.raises(StudyError, match="no study to continue"):
         sweep.changes(plan, tmp_path / "none", resume=True, overwrite=False)
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "summary.json").write_text("{}")
+    with pytest.raises(StudyError, match="holds a run; give the study a directory of its own"):
+        sweep.changes(plan, tmp_path / "run", resume=False, overwrite=True)
     with pytest.raises(StudyError, match="is a file"):
         sweep.changes(plan, tmp_path / "tube.toml", resume=False, overwrite=False)
     with pytest.raises(NotADirectoryError):
@@ -132,8 +138,10 @@ def test_a_changed_study_is_told(plan, written, tmp_path):
     told = sweep.changes(wider, written, resume=True, overwrite=False)
     assert told == [
         "2 cases (ke_0.3, momentum_0.3) new",
-        "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; their files in cases are kept",
+        "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; the files in cases are kept",
     ]
+    search = Velocities("body.rod.velocity", ("100 m/s",), 1.0)  # it may draw again what had not ended
+    assert sweep.changes(replace(wider, search=search), written, resume=True, overwrite=False) == told[:1]
     layout.write(wider, written)
     other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
     with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had a different deck.*--overwrite"):

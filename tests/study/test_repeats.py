@@ -50,9 +50,12 @@ def test_killed_in_the_middle_and_resumed_on_workers(tube, serially, tmp_path):
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
     assert any(case.status != "done" for case in hydro2d.open_study(out).cases)
+    status, said = tubes.sweep(*command, command="run")
+    assert (status, "; --restart continues it" in said) == (2, True)  # the option of this command, not of `sweep`
     status, said = tubes.sweep(*command, "--restart", command="run")
     assert status == 0, said
     assert "3 of 3 done" in said
+    assert f"a page of all cases: hydro2d report {out}\n" in said
     assert {name: tubes.bits(out / "cases" / name) == bits for name, bits in serially.items()} == dict.fromkeys(serially, True)
 
 

@@ -10,7 +10,8 @@ import pytest
 from hydro2d import __version__
 from hydro2d.cli.main import call
 from hydro2d.results import movies
-from hydro2d.study import layout
+from hydro2d.results.scales import FigureError
+from hydro2d.study import layout, pictures
 from hydro2d.study.contents import collect
 from hydro2d.study.report import report
 from tests.study import fake
@@ -300,6 +301,16 @@ def test_films_are_in_the_page(finished, tmp_path, monkeypatch, ending):
     assert ("data:video/mp4" if ending == "mp4" else "data:image/gif") in sources
     page_of(tmp_path / "runs")
     assert not film.exists()
+
+
+def test_cases_that_have_not_begun_are_no_films_that_are_missing(tmp_path):
+    """Such as those that `sweep --only` has left for later."""
+    study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(1086, 1200)})
+    shutil.rmtree(study / "cases" / "1200m-s")
+    lines = []
+    with pytest.raises(FigureError, match="no film could be made"):
+        list(pictures.films(collect(layout.load(study)), "pressure", tmp_path, lines.append))
+    assert lines == ["warning: 1086m-s has no film: no dump was written"]
 
 
 def test_pages_of_runs_are_linked(finished, tmp_path):

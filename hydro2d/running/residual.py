@@ -1,0 +1,38 @@
+"""How much the residual velocity of a projectile has changed lately: whether that at the end of a run is final."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.output.history import Columns
+
+VELOCITY, CHANGE, OVER = "rod_residual_velocity_m_s", "residual_velocity_change_m_s", "residual_velocity_change_over_s"
+#: what they mean, of a summary
+MEANINGS = {
+    CHANGE: "change of the residual velocity while the projectile flew its own radius at the end, or since it was through, if "
+    "that is less; null where there is none",
+    OVER: "time over which it has changed so",
+}
+
+
+def change(columns: Columns, exits: list[dict], measured: dict, time: float) -> dict[str, float | None]:
+    """The two keys of a summary at the end, by the rows of the history and by when it was through the last target.
+
+    exits : what `Penetrator.passages` gives;  measured : what `Penetrator.measure` gives;  time : of the end, s
+    """
+    velocity = measured.get(VELOCITY)
+    found = columns.some(("time", VELOCITY))
+    if velocity is None or VELOCITY not in found:
+        return {CHANGE: None, OVER: None}
+    known = np.isfinite(found[VELOCITY])
+    times, velocities = found["time"][known], found[VELOCITY][known]
+    through = exits[-1] if exits else {}
+    if through.get("exit_time_s") is not None and through.get("exit_velocity_m_s") is not None:
+        times = np.append(through["exit_time_s"], times)
+        velocities = np.append(through["exit_velocity_m_s"], velocities)
+    began = time - measured["rod_initial_radius_m"] / abs(velocity) if velocity else -np.inf
+    before = times[times < time]
+    if not before.size:
+        return {CHANGE: None, OVER: None}
+    number = max(int(np.searchsorted(before, began, side="right")) - 1, 0)
+    return {CHANGE: velocity - float(velocities[number]), OVER: time - float(before[number])}
