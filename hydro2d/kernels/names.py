@@ -141,7 +141,6 @@ _AXES = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
 NAMES = (
     *(Work(field.symbol, _AXES[field.centring], field.meaning) for field in fields.FIELDS),
     *fields.WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *BLOCKS, *BODIES, *METHOD, *TIES,
-    *LIGHT,
 )
 
-declare({name.symbol: (name.kind, len(name.axes.split())) for name in NAMES})
+declare({name.symbol: (name.kind, len(name.axes.split())) for name in (*NAMES, *LIGHT)})
