@@ -12,6 +12,12 @@ from tests.browser import browser  # noqa: F401
 
 
 @pytest.fixture(autouse=True)
+def no_terminal(monkeypatch):
+    """Workers of pytest-xdist say that a terminal is 80 columns wide. There is none: what commands print is not broken."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+
+@pytest.fixture(autouse=True)
 def one_thread_for_a_worker():
     """Every worker of pytest-xdist computes on one thread: two teams of threads on the same cores wait for one another.
 

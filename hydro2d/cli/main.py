@@ -264,7 +264,7 @@ def export(
 
 
 @app.command
-def bench(*, json: Path | None = None, shot: bool = False, threads: Count | None = None) -> int:
+def bench(*, json: Path | None = None, shot: bool = False, compilation: bool = False, threads: Count | None = None) -> int:
     """Measures the time per cell and cycle, phase by phase, and the memory bandwidth (a triad) in the same run.
 
     Example: hydro2d bench --json bench.json
@@ -275,13 +275,15 @@ def bench(*, json: Path | None = None, shot: bool = False, threads: Count | None
         Also writes the numbers to this JSON file.
     shot
         Also runs the shot at 1086 m/s to rest, with all its outputs, on one thread and on all; this takes minutes.
+    compilation
+        Also compiles all kernels of the README's first shot anew, and says what each of them, and each stage, takes.
     threads
         Number of threads; default: all cores.
     """
     _set_threads(threads)
     from hydro2d.running import bench as benches
 
-    return benches.main(json, shot=shot)
+    return benches.main(json, shot=shot, compilation=compilation)
 
 
 @app.command

@@ -44,14 +44,15 @@ from hydro2d.jit.calls import (
 )
 from hydro2d.jit.elementary import exp, log, power
 from hydro2d.jit.handle import Handle, declare, declared
-from hydro2d.jit.options import compiler_events
+from hydro2d.jit.options import MACHINE_CODE, OPTIMISE, compiler_events
 from hydro2d.jit.phases import TYPES as PHASE_TYPES
 from hydro2d.jit.phases import WAIT, Phase, alone, given, unless, when
 from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, recorded, timings
 
 __all__ = [
-    "Call", "FIRST_CALL", "GATE", "Handle", "PHASE_TYPES", "Phase", "WAIT", "add_model", "all_folder", "alone", "apart",
-    "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given", "is_recording", "kernel", "late", "log",
+    "Call", "FIRST_CALL", "GATE", "Handle", "MACHINE_CODE", "OPTIMISE", "PHASE_TYPES", "Phase", "WAIT", "add_model",
+    "all_folder", "alone", "apart", "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given", "is_recording", "kernel",
+    "late", "log",
     "max_threads", "module_of", "modules", "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded",
     "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store", "target", "threaded", "threads", "timings",
     "unless", "vertex_rows", "wait", "when",

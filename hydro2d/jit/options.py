@@ -31,6 +31,10 @@ OPTIONS = {"error_model": "numpy", "fastmath": False, "nogil": True, "_nrt": Fal
 cpu.CPUTargetOptions.noalias = TargetOptions.Mapping("noalias")
 
 
+compiler_events = numba.core.event
+#: events of a compilation: LLVM optimises a function and all that became part of it; machine code is made
+OPTIMISE, MACHINE_CODE = "hydro2d:optimise", "hydro2d:machine-code"
+
 #: the functions that do nothing but call kernels: a compiler has nothing to gain in them
 ONLY_CALLS: set = set()
 #: the functions that only compiled code calls, which have no machine code of their own
@@ -42,14 +46,14 @@ def _compile_once() -> None:
     what is part of the code of others."""
     compiling: list = []
 
-    class Compiling(numba.core.event.Listener):
+    class Compiling(compiler_events.Listener):
         def on_start(self, event):
             compiling.append(event.data["dispatcher"].py_func)
 
         def on_end(self, event):
             compiling.pop()
 
-    numba.core.event.register("numba:compile", Compiling())
+    compiler_events.register("numba:compile", Compiling())
     library = codegen.CPUCodeLibrary
     optimise, finalise = library._optimize_final_module, library._finalize_final_module
     executable = cpu.CPUContext.get_executable
@@ -57,12 +61,15 @@ def _compile_once() -> None:
     @functools.wraps(optimise)
     def unless_it_only_calls(self):
         if not (compiling and compiling[-1] in ONLY_CALLS):
-            optimise(self)
+            with compiler_events.trigger_event(OPTIMISE):
+                optimise(self)
 
     @functools.wraps(finalise)
     def unless_it_is_part_of_others(self):
         if not (compiling and compiling[-1] in INNER):
-            return finalise(self)
+            with compiler_events.trigger_event(MACHINE_CODE):
+                finalise(self)
+            return
         self._finalize_dynamic_globals()
         self._verify_declare_only_symbols()
         self._finalized = True
@@ -80,9 +87,6 @@ def _compile_once() -> None:
 
 
 _compile_once()
-
-
-compiler_events = numba.core.event
 
 
 def is_cached(compiled, types: tuple) -> bool:

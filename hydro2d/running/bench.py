@@ -24,7 +24,7 @@ from hydro2d.compilation import announced
 from hydro2d.deck import deck as decks
 from hydro2d.interrupt import Interrupt
 from hydro2d.kernels.triad import triad
-from hydro2d.running import provenance, reporting, run
+from hydro2d.running import bench_compilation, provenance, reporting, run
 from hydro2d.solver.simulation import Simulation
 from hydro2d.terminal import duration, say
 
@@ -340,10 +340,16 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
         say(line)
 
 
-def main(json: Path | None = None, *, shot: bool = False) -> int:
-    """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named."""
+def main(json: Path | None = None, *, shot: bool = False, compilation: bool = False) -> int:
+    """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named.
+
+    compilation : whether the compilation of kernels is measured as well, first
+    """
+    measured = {"compilation": bench_compilation.in_an_empty_cache()} if compilation else {}
+    for line in bench_compilation.lines(measured["compilation"]) if measured else ():
+        say(line)
     with announced(moving.place()):
-        result = collect(shot=shot)
+        result = collect(shot=shot) | measured
     if json is not None:
         Path(json).write_text(json_format.dumps(result, indent=1))
         say(f"wrote {json}")
