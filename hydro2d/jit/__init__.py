@@ -51,9 +51,8 @@ from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, rec
 
 __all__ = [
     "Call", "FIRST_CALL", "GATE", "Handle", "MACHINE_CODE", "OPTIMISE", "PHASE_TYPES", "Phase", "WAIT", "add_model",
-    "all_folder", "alone", "apart", "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given", "is_recording", "kernel",
-    "late", "log",
-    "max_threads", "module_of", "modules", "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded",
-    "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store", "target", "threaded", "threads", "timings",
-    "unless", "vertex_rows", "wait", "when",
+    "all_folder", "alone", "apart", "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given",
+    "is_recording", "kernel", "late", "log", "max_threads", "module_of", "modules", "parts_at_once", "plus", "point",
+    "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store",
+    "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",
 ]  # fmt: skip
