@@ -29,7 +29,7 @@ class Books:
     def acceleration(self) -> None:
         """What the speed limit, contact, dashpots, edges and sources took or gave."""
         s, (j0, j1, _, _), cycle = self._state, self._cycle.box, self._cycle
-        if s.limited[2, j0:j1 + 1].any():
+        if np.count_nonzero(s.limited[2, j0:j1 + 1]):  # any() would make an array of truths
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
                            energy=float(s.limited[1, j0:j1 + 1].sum()))
         cycle.contact.account(j0, j1, self.audit)
