@@ -189,7 +189,8 @@ def test_overrides_are_checked_too(tmp_path):
 def test_check_prints_cases_cells_and_time(tmp_path, capsys):
     assert call(["sweep", str(tubes.write(tmp_path)), "--check", "--workers", "2"]) == 0
     shown = capsys.readouterr().out
-    assert "momentum_0.2  tube.toml  800" in shown
+    assert "deck: tube.toml" in shown
+    assert "momentum_0.2  800" in shown
     assert "4 cases, about" in shown
     assert call(["sweep", str(tubes.write(tmp_path, tubes.STUDY.replace("0.2]", "'2 mm']"))), "--check"]) == 2
     assert "ke_2mm: " in capsys.readouterr().out
