@@ -18,7 +18,7 @@ class Books:
     def __init__(self, cycle):
         self._cycle, self._state = cycle, cycle.state
         self._edges, self._opens = cycle.method.boundaries.edges, cycle.method.boundaries.having("opens")
-        rows = np.maximum(cycle.constrained, cycle.pushing)[2:].tolist()
+        rows = np.maximum(cycle.edges.constrained, cycle.edges.pushing)[2:].tolist()
         self._rows_that_hold = [(edge, j) for edge, j in zip(self._edges[2:], rows, strict=True) if j >= 0]
 
     @property

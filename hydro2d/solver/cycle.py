@@ -10,13 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.kernels import lagrangian_step, remap_step, thermodynamics
-from hydro2d.mesh import fields
-from hydro2d.physics import waves
+from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.books import Books
 from hydro2d.solver.contact import Contact, NoContact
 from hydro2d.solver.courses import Courses
+from hydro2d.solver.edge_lines import EdgeLines
 from hydro2d.solver.following import StandingMesh
 from hydro2d.solver.given import Given
 from hydro2d.solver.method import Method
@@ -52,20 +52,11 @@ class Cycle:
     def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None):
         self.state, self.table, self.method = state, table, method
         self.mesh, self.sources = mesh or StandingMesh(), sources or Sources((), state, table, [])
-        grid = self.grid = state.grid
+        self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
-        g, edges = grid.g, method.boundaries
-        at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
-        self.constrained, self.pushing, self.transmitting = (
-            np.where(edges.having(flag), at, -1) for flag in ("holds", "pushes", "transmits"))
-        lines = np.s_[:, 0], np.s_[:, -1], np.s_[0, :], np.s_[-1, :]
-        self._held = [(edge.sink, n // 2, lines[n]) for n, edge in enumerate(edges.edges) if edge.holds()]
-        self._widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
-        self.carried = fields.carried_rows([
-            fields.carried(own, bool(strength), bool(damage) or bool(stress < np.inf)) for own, strength, damage, stress in
-            zip(table.internal, table.strength_model, table.damage_model, table.fracture_stress, strict=True)])
         self.contact = Contact(state) if state.groups > 1 else NoContact()
-        self.active, self.parts, self.courses = ActiveBox(state, table, edges), Parts(state), Courses(state)
+        self.edges, self.active = EdgeLines(method.boundaries, state.grid), ActiveBox(state, table, method.boundaries)
+        self.parts, self.courses = Parts(state), Courses(state)
         self.mesh_box, self.rows = self.active.mesh, self.active.rows
         self.sound_speeds = table.sound_speeds(thermodynamics.SOUND_FLOOR)
         self.speed_limit = 0.0
@@ -76,14 +67,6 @@ class Cycle:
     def box(self) -> list[int]:
         """Rows and columns [j0, j1, i0, i1] of the cells that are active."""
         return self.active.box
-
-    def edges_with_void_beyond(self) -> np.ndarray:
-        """The edges of the mesh (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others."""
-        found = self.mesh_box.copy()
-        found[np.roll(self.method.boundaries.having("supplies"), 2)] = -1
-        if self.mesh.leading is not None:
-            found[self.mesh.leading] = -1
-        return found
 
     # ------------------------------------------------------------------------------------------------ the page
 
@@ -173,19 +156,8 @@ class Cycle:
 
     def choose_step(self) -> None:
         """The time step, with the cell and the term that set it."""
-        s, g, method = self.state, self.grid, self.method
         self.given.run(lagrangian_step.find_cause)
-        j, (cause, i) = int(s.least_row[0]), s.cause
-        ramp = min(1.0, method.initial_dt_factor + (1.0 - method.initial_dt_factor) * self.number / max(method.ramp_cycles, 1))
-        dt, self.cause = float(s.row_step[j]) * ramp, (f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, "
-                                                       f"z = {g.zc[j] * 1e3:.3f} mm")
-        if ramp < 1.0:
-            self.cause += " (ramp)"
-        if self.dt > 0.0 and dt > method.max_growth * self.dt:
-            dt, self.cause = method.max_growth * self.dt, "growth"
-        crossing, edge = method.boundaries.least_crossing(self._widths, self.time, self.time + dt)
-        if dt > method.advective_courant * crossing:
-            dt, self.cause = method.advective_courant * crossing, f"velocity of the edge {edge}"
+        dt, self.cause = time_step.chosen(self)
         self.refusals.small_step(dt, self.cause)
         self.dt = dt
 
@@ -193,7 +165,7 @@ class Cycle:
         """Total stress of every cell at half the step, and the velocities at its end."""
         self.state.swap_velocities()
         self.method.boundaries.drive(self.time + self.dt)
-        self.sources.push(self.time, self.dt, self._held)
+        self.sources.push(self.time, self.dt, self.edges.held)
         self.given.run(lagrangian_step.accelerate, dt=self.dt)
         self.books.acceleration()
 

@@ -25,6 +25,13 @@ def _of(owner, some: Iterable[fields.Work]) -> dict:
     return {name.symbol: getattr(owner, name.symbol) for name in some if hasattr(owner, name.symbol)}
 
 
+def _carried(table) -> np.ndarray:
+    """The rows of q that the remap carries, body by body."""
+    return fields.carried_rows([
+        fields.carried(own, bool(strength), bool(damage) or bool(stress < np.inf)) for own, strength, damage, stress in
+        zip(table.internal, table.strength_model, table.damage_model, table.fracture_stress, strict=True)])
+
+
 class Given:
     """The handle of an engine, kept up to date.
 
@@ -47,16 +54,16 @@ class Given:
         order, own = method.interface_order, state.group[method.interface_order]
         models, materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)
         bodies = {
-            "models": models, "materials": materials, "carried": cycle.carried, "gases": materials[:, rows.GAS] > 0.0,
+            "models": models, "materials": materials, "carried": _carried(table), "gases": materials[:, rows.GAS] > 0.0,
             "strong": models[:, rows.STRENGTH] != 0, "hard_bodies": method.hard, "interface_order": order,
             "hard_first": np.concatenate([order[own != 0], order[own == 0]]),
             "soft_first": np.concatenate([order[own == 0], order[own != 0]]),
         }
         edges = {
             **{f"mirror_{edge}": mirrors for edge, mirrors in zip(EDGES, method.boundaries.having("mirrors"), strict=True)},
-            "mesh_box": cycle.mesh_box, "constrained": cycle.constrained, "pushing": cycle.pushing,
-            "transmitting": cycle.transmitting, "edge_velocity": method.boundaries.velocity,
-            "void_only": cycle.edges_with_void_beyond(), "pushed": cycle.sources.pushed,
+            "mesh_box": cycle.mesh_box, "constrained": cycle.edges.constrained, "pushing": cycle.edges.pushing,
+            "transmitting": cycle.edges.transmitting, "edge_velocity": method.boundaries.velocity,
+            "void_only": cycle.edges.void_beyond(cycle.mesh.leading), "pushed": cycle.sources.pushed,
         }
         choices = _of(method, [name for name in names.METHOD]) | {
             "contact": state.groups > 1, "remembers": table.remembers, "slip_layer": method.slip_widths is not None,

@@ -55,7 +55,7 @@ class Settled:
         s.velocity0[...] = s.velocity
         self.before = s.velocity.copy()
         contact_velocities.settle(
-            handle(parts=np.array([j0, j1]), dt=1e-9, friction=0.0, constrained=engine.constrained, metrics=g.metrics,
+            handle(parts=np.array([j0, j1]), dt=1e-9, friction=0.0, constrained=engine.edges.constrained, metrics=g.metrics,
             dz=g.dz, contact_columns=s.contact_columns, line=s.line, contact_node_count=s.contact_node_count,
             contact_nodes=s.contact_nodes, first_slot=s.first_slot, contact_normal=s.contact_normal,
             touch=np.zeros_like(s.touch), strength=strength, masters=number, where=where, weights=weights, sig_rr=s.sig_rr,

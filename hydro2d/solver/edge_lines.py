@@ -1,0 +1,42 @@
+"""Where the edges of the mesh are, as kernels and sources take them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+class EdgeLines:
+    """The first and the last column and row of vertices, by what stands there.
+
+    Parameters
+    ----------
+    boundaries : BoundaryConditions
+    grid : Grid
+
+    Attributes
+    ----------
+    constrained, pushing, transmitting : int64[4], columns (2) and rows (2) of the edges whose normal velocity is given, that
+        push and are left, and that have dashpots; -1 for the others
+    held : list of (sink, axis, vertices) of the edges that hold what comes to them
+    widths : list of the four widths of the cells beside the edges along their normals, m
+    """
+
+    def __init__(self, boundaries, grid):
+        g, lines = grid.g, (np.s_[:, 0], np.s_[:, -1], np.s_[0, :], np.s_[-1, :])
+        at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
+        self._boundaries, self._mesh = boundaries, np.roll(at, 2)
+        self.constrained, self.pushing, self.transmitting = (
+            np.where(boundaries.having(flag), at, -1) for flag in ("holds", "pushes", "transmits"))
+        self.held = [(edge.sink, n // 2, lines[n]) for n, edge in enumerate(boundaries.edges) if edge.holds()]
+        self.widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
+
+    def void_beyond(self, leading: int | None) -> np.ndarray:
+        """The edges (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others.
+
+        leading : the edge that goes ahead with a mesh that travels, None for a mesh that stands
+        """
+        found = self._mesh.copy()
+        found[np.roll(self._boundaries.having("supplies"), 2)] = -1
+        if leading is not None:
+            found[leading] = -1
+        return found
