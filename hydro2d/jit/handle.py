@@ -80,6 +80,12 @@ class Handle:
                 (self._floats if kind is float else self._words)[row, 0] = value
             self.values[name] = value
 
+    def exchange(self, some: tuple[str, ...], others: tuple[str, ...]) -> None:
+        """Has every name stand for what its partner among the others stood for, which is of the same type, and the reverse."""
+        names, partners = (*some, *others), (*others, *some)
+        self._words[[_rows[name][0] for name in names]] = self._words[[_rows[name][0] for name in partners]]
+        self.values.update(zip(names, [self.values[name] for name in partners], strict=True))
+
     def __getattr__(self, name: str):
         try:
             return self.values[name]

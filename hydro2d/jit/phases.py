@@ -160,16 +160,18 @@ class Phase:
         return "\n".join(lines)
 
     def __call__(self, handle: Handle) -> None:
-        if recording.write_down(recording.Call(self.full_name, self.compiled, TYPES)):
-            return
-        if recording.sees_each_kernel():
+        if recording.is_recording():
+            recording.write_down(recording.Call(self.full_name, self.compiled, TYPES))
+        elif recording.sees_each_kernel():
             self.as_python(handle)
-            return
-        with recording.clocked(self.__name__):
-            if not self._address:
-                with recording.first_call(self.full_name):
-                    self._address = self._found_address()
-            run_parts(len(handle.parts) - 1, self._address, handle.address)
+        else:
+            recording.clocked(self.__name__, self._run, handle)
+
+    def _run(self, handle: Handle) -> None:
+        if not self._address:
+            with recording.first_call(self.full_name):
+                self._address = self._found_address()
+        run_parts(len(handle.parts) - 1, self._address, handle.address)
 
     @property
     def full_name(self) -> str:

@@ -6,7 +6,7 @@ import functools
 import gc
 import inspect
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -97,22 +97,21 @@ def _no_garbage_looked_for() -> Iterator[None]:
             gc.enable()
 
 
-def write_down(call: Call) -> bool:
-    """Writes a call down if calls are not to be done; whether they are not."""
-    if _calls is not None:
-        _calls.append(call)
-    return _calls is not None
+def write_down(call: Call) -> None:
+    """Writes down a call that is not to be done: `is_recording`."""
+    _calls.append(call)
 
 
-@contextmanager
-def clocked(name: str) -> Iterator[None]:
-    """Times what is called in the block, while `profiling(True)` is on."""
+def clocked(name: str, function: Callable, *arguments):
+    """Calls a function, timed under this name while `profiling(True)` is on."""
+    if not _profiling:
+        return function(*arguments)
     start = time.perf_counter()
-    yield
-    if _profiling:
-        entry = timings.setdefault(name, [0.0, 0])
-        entry[0] += time.perf_counter() - start
-        entry[1] += 1
+    found = function(*arguments)
+    entry = timings.setdefault(name, [0.0, 0])
+    entry[0] += time.perf_counter() - start
+    entry[1] += 1
+    return found
 
 
 def called(compiled):
@@ -120,19 +119,18 @@ def called(compiled):
     function = compiled.__wrapped__
     name, known = f"{function.__module__}.{function.__name__}", False
 
+    def first(*arguments):
+        with first_call(name):
+            return compiled(*arguments)
+
     @functools.wraps(function)
     def call(*arguments):
         nonlocal known
-        if _calls is not None:
+        if is_recording():
             values = by_name.values(function, arguments)
-            _calls.append(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in values)))
-            return None
-        with clocked(function.__name__):
-            if known:
-                return compiled(*arguments)
-            known = True
-            with first_call(name):
-                return compiled(*arguments)
+            return write_down(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in values)))
+        run, known = (compiled if known else first), True
+        return clocked(function.__name__, run, *arguments)
 
     call.__signature__ = inspect.signature(by_name.source(function))
     call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # which lets compiled functions call it

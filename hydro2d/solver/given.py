@@ -16,8 +16,8 @@ from hydro2d.mesh import fields
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.solver.contact import most_squares
 
-#: what takes turns: the velocities at the beginning and at the end of a step
-TURNS = ("velocity", "velocity0", "u", "v", "u0", "v0")
+#: what takes turns: the velocities at the end of a step and at its beginning
+AT_END, AT_BEGINNING = ("velocity", "u", "v"), ("velocity0", "u0", "v0")
 
 
 def _of(owner, some: Iterable[fields.Work]) -> dict:
@@ -81,7 +81,7 @@ class Given:
         if self.handle.values.get("masters") is not self._contact.ties.masters:
             self.handle.give(**self._contact.ties._asdict())
         if self.handle.values["velocity"] is not self._state.velocity:
-            self.handle.give(**{name: getattr(self._state, name) for name in TURNS})
+            self.handle.exchange(AT_END, AT_BEGINNING)
 
     def run(self, phase: Phase, **given) -> None:
         """Runs a phase with what is given from now on."""
