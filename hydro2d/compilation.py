@@ -20,7 +20,7 @@ import numpy as np
 
 from hydro2d import children, jit, moving
 from hydro2d.files import turn, write_text
-from hydro2d.terminal import duration
+from hydro2d.terminal import duration, several
 
 COMPILE = "numba:compile"
 #: seconds between two states of the line; a first call that has taken as long is more than the reading of a kernel
@@ -128,7 +128,7 @@ class Compilation(events.Listener):
         found = []
         if self.happened and self.seconds > self._told:
             done, _ = self.state
-            found.append(f"compiled {done} kernel{'' if done == 1 else 's'} in {duration(self.seconds, tenths=True)}")
+            found.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
             self._told = self.seconds
         status = self._second.stop() if self._second else None
         return found + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status

@@ -56,6 +56,11 @@ def duration(seconds: float, tenths: bool = False) -> str:
     return f"{seconds} s"
 
 
+def several(number: object, what: str) -> str:
+    """'1 cell', '2 cells'."""
+    return f"{number} {what}{'' if str(number) == '1' else 's'}"
+
+
 def cell(text: str) -> str:
     """A text as a cell or a head of a CSV file: none that a spreadsheet would take for a formula."""
     return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text

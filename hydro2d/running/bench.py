@@ -26,7 +26,7 @@ from hydro2d.interrupt import Interrupt
 from hydro2d.kernels.triad import triad
 from hydro2d.running import bench_compilation, provenance, reporting, run
 from hydro2d.solver.simulation import Simulation
-from hydro2d.terminal import duration, say
+from hydro2d.terminal import duration, say, several
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
@@ -319,7 +319,7 @@ def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = No
     try:
         for number in sorted({1, jit.max_threads()}) if threads is None else threads:
             jit.set_threads(number)
-            say(f"\n{number} thread{'s' if number > 1 else ''}")
+            say(f"\n{several(number, 'thread')}")
             bandwidth, first = Bandwidth(), True
             if shot:
                 _tell(measure_shot(bandwidth, shot_overrides), result, say, phases=True)

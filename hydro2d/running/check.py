@@ -16,7 +16,7 @@ from hydro2d.mesh.edges.registry import BY_NAME, halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.solver import insertion, memory, sources
-from hydro2d.terminal import duration, one_line
+from hydro2d.terminal import duration, one_line, several
 
 #: motion of a body at rest
 AT_REST = (0.0, 0.0), None
@@ -71,8 +71,8 @@ class Check:
         found += self._follow() if deck.mesh.follow else self._crosses()
         found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
         found += [f"stop      {_stop(deck.stop)}"]
-        time = f"{duration(self.wall(threads))} on {_several(threads, 'thread')} (a guess)"
-        found += [f"cost      about {_several(self.cycles, 'cycle')}, {time}, "
+        time = f"{duration(self.wall(threads))} on {several(threads, 'thread')} (a guess)"
+        found += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
                   f"{self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
 
@@ -160,7 +160,7 @@ class Check:
             cut = f", of which {inside * 1e3:.4g} mm lie in the mesh" if inside < (1.0 - ROUNDING) * (high - low) else ""
             size = f" of {(high - low) * 1e3:.4g} mm" if math.isfinite(high - low) else ""
             cells = f"{decks.cells_between(edges, low, high):.3g}"
-            found.append(f"{_several(cells, 'cell')} across the {what}{size}{cut}")
+            found.append(f"{several(cells, 'cell')} across the {what}{size}{cut}")
         return ", ".join(found)
 
 
@@ -246,11 +246,6 @@ def _axis(name: str, edges: np.ndarray) -> str:
     sizes = np.diff(edges) * 1e3
     spread = f"{sizes.min():.4g}" if np.ptp(sizes) < 1e-9 * sizes.max() else f"{sizes.min():.4g} to {sizes.max():.4g}"
     return f"{name} from {edges[0] * 1e3:.6g} to {edges[-1] * 1e3:.6g} mm, cells of {spread} mm"
-
-
-def _several(number: object, what: str) -> str:
-    """'1 cell', '2 cells'."""
-    return f"{number} {what}{'' if str(number) == '1' else 's'}"
 
 
 def _mass(mass: float, grid) -> str:

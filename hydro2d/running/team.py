@@ -15,6 +15,7 @@ from contextlib import contextmanager
 
 from hydro2d import jit
 from hydro2d.errors import Error
+from hydro2d.terminal import several
 
 #: cycles in a trial for each number of threads
 TRIAL = 5
@@ -89,7 +90,7 @@ class Team:
         total = sum(self.cycles.values())
         first, *rest = sorted(self.cycles, key=self.cycles.get, reverse=True)
         share = {n: f"{100.0 * count / total:.0f} %" for n, count in self.cycles.items()}
-        told = f"{first} thread{'s' * (first > 1)} in {share[first]} of the cycles"
+        told = f"{several(first, 'thread')} in {share[first]} of the cycles"
         return ", ".join([told, *(f"{n} in {share[n]}" for n in rest)])
 
     def all(self) -> None:

@@ -30,7 +30,7 @@ from hydro2d.study.cases import Plan
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
-from hydro2d.terminal import duration
+from hydro2d.terminal import duration, several
 
 ALL_DONE, SOME_FAILED = 0, 3
 #: seconds between checks for a finished case, a signal, and the table
@@ -82,7 +82,7 @@ def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
 def _names(names: list[str]) -> str:
     """'3 cases (a, b, c)'."""
     shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
-    return f"{len(names)} case{'s' if len(names) > 1 else ''} ({shown})"
+    return f"{several(len(names), 'case')} ({shown})"
 
 
 def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
