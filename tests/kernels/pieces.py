@@ -26,7 +26,7 @@ def ghost_vertices(engine) -> None:
 def constrain(engine) -> None:
     """The given normal velocities of axis, walls and edges."""
     s = engine.state
-    boundaries.constrain(0, handle(parts=rows(engine), constrained=engine.constrained, pushing=engine.pushing,
+    boundaries.constrain(0, handle(parts=rows(engine), constrained=engine.edges.constrained, pushing=engine.edges.pushing,
                          edge_velocity=engine.method.boundaries.velocity, mass=s.mass, u0=s.u0, v0=s.v0, u=s.u, v=s.v,
                          walls=s.walls))
 

@@ -140,7 +140,7 @@ def carried(choice: str, profile, share: float, steps: int, bound: float = 1e9):
     """Radial velocity as a passive quantity, carried along z by `share` of a cell a step: before, after."""
     e = engine(COLUMN, f'numerics.advection="{choice}"', f"numerics.ke_bound={bound}")
     s, g = e.state, e.grid
-    e.constrained[:] = -1  # walls at the sides would stop it
+    e.edges.constrained[:] = -1  # walls at the sides would stop it
     s.u[0] = profile(g.z)[:, None]
     first = s.u[0, :, g.g + 1].copy()
     s.fz[g.g:g.g + g.nz + 1, :-1] = share
