@@ -16,6 +16,8 @@ class ActiveBox:
     state : State
     table : MaterialTable
     boundaries : BoundaryConditions
+    skips : bool, whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds, nor
+        where sources may heat what no signal has reached
 
     Attributes
     ----------
@@ -23,8 +25,8 @@ class ActiveBox:
     box : list of int [j0, j1, i0, i1] of the cells that are active
     """
 
-    def __init__(self, state, table, boundaries):
-        self._state, self._table, self._boundaries = state, table, boundaries
+    def __init__(self, state, table, boundaries, skips: bool):
+        self._state, self._table, self._boundaries, self._skips = state, table, boundaries, skips
         g, nz, nr = state.grid.g, state.grid.nz, state.grid.nr
         self.mesh = np.array([g, g + nz, g, g + nr], dtype=np.int64)
         self.box: list[int] = self.mesh.tolist()
@@ -45,7 +47,9 @@ class ActiveBox:
 
     def begin(self) -> None:
         """Becomes the smallest box around everything that moves or is under pressure or stress, the edges that drive, and the
-        margin; the whole mesh where there is nothing but edges."""
+        margin; the whole mesh where there is nothing but edges, or no cell may be skipped."""
+        if not self._skips:
+            return
         s, t, (j0, j1, i0, i1) = self._state, self._table, self.mesh
         loud = np.zeros(s.grid.shape, dtype=bool)
         for m in range(s.bodies):

@@ -7,8 +7,6 @@ What each of its phases consists of is listed in `kernels.lagrangian_step` and `
 
 from __future__ import annotations
 
-import numpy as np
-
 from hydro2d.kernels import lagrangian_step, remap_step, thermodynamics
 from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
@@ -23,9 +21,6 @@ from hydro2d.solver.method import Method
 from hydro2d.solver.parts import Parts
 from hydro2d.solver.refusals import Refusals
 from hydro2d.solver.sources import Sources
-
-#: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
-SPEED_LIMIT_FACTOR = 5.0
 
 
 class Cycle:
@@ -55,7 +50,8 @@ class Cycle:
         self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         self.contact = Contact(state) if state.groups > 1 else NoContact()
-        self.edges, self.active = EdgeLines(method.boundaries, state.grid), ActiveBox(state, table, method.boundaries)
+        skips = method.active_region and self.mesh.leading is None and not self.sources
+        self.edges, self.active = EdgeLines(method.boundaries, state.grid), ActiveBox(state, table, method.boundaries, skips)
         self.parts, self.courses = Parts(state), Courses(state)
         self.mesh_box, self.rows = self.active.mesh, self.active.rows
         self.sound_speeds = table.sound_speeds(thermodynamics.SOUND_FLOOR)
@@ -98,45 +94,33 @@ class Cycle:
         s, every = self.state, self.box
         self.active.box = self.mesh_box.tolist()
         self.mesh.prepare()
-        self._find_bodies()
+        self._in_one_part(remap_step.find_bodies, anew=True)
         s.cell_mass[...], s.mass[...] = 0.0, 0.0
         self.given.run(remap_step.find_masses)
         if self.audit is None:
-            if self._skips_cells:
-                self.active.begin()
+            self.active.begin()
             self.courses.look(self.time)
             self.audit = Audit.open(s, self.sound_speeds, (*self.method.boundaries.sinks, *self.sources.names))
-            fastest = float(np.sqrt(np.max(s.u**2 + s.v**2)))
-            self.speed_limit = SPEED_LIMIT_FACTOR * max(fastest, float(self.sound_speeds.min()))
+            self.speed_limit = time_step.speed_limit(s, self.sound_speeds)
         else:
             self.active.box = every
         self.given.handle.give(speed_limit=self.speed_limit)
         if not self.active.is_all:  # beyond the box nothing has a range yet
             s.empty_ranges()
-            self._find_bodies()
+            self._in_one_part(remap_step.find_bodies, anew=True)
         self._in_one_part(remap_step.list_mixed)
-
-    @property
-    def _skips_cells(self) -> bool:
-        """Whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds, nor where
-        sources may heat what no signal has reached."""
-        return self.method.active_region and self.mesh.leading is None and not self.sources
 
     def _in_one_part(self, phase, **given) -> None:
         """Runs a phase on the active box as one part."""
         _, _, i0, i1 = self.box
         self.given.run(phase, parts=self.active.rows, i0=i0, i1=i1, **given)
 
-    def _find_bodies(self) -> None:
-        """Looks for every body in the whole of the active box."""
-        self._in_one_part(remap_step.find_bodies, anew=True)
-
     def activate(self) -> None:
         """Lets the active box grow ahead of whatever moves, and cuts it into parts."""
         if not self.active.is_all:
             self._in_one_part(remap_step.find_moving)
             if self.active.grow():
-                self._find_bodies()
+                self._in_one_part(remap_step.find_bodies, anew=True)
                 self._in_one_part(remap_step.list_mixed)
         self.rows = self.parts.of(self.box)
         self.given.handle.give(parts=self.rows, i0=self.box[2], i1=self.box[3], anew=False)

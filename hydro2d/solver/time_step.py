@@ -1,8 +1,19 @@
-"""How long the next step is, and what set it."""
+"""How long the next step is, and what set it; how fast a vertex may be."""
 
 from __future__ import annotations
 
+import numpy as np
+
 from hydro2d.physics import waves
+
+#: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
+SPEED_LIMIT_FACTOR = 5.0
+
+
+def speed_limit(state, sound_speeds) -> float:
+    """Greatest speed of a vertex, m/s, from the velocities of a state at the start and the bodies' sound speeds at rest."""
+    fastest = float(np.sqrt(np.max(state.u**2 + state.v**2)))
+    return SPEED_LIMIT_FACTOR * max(fastest, float(sound_speeds.min()))
 
 
 def chosen(cycle) -> tuple[float, str]:
