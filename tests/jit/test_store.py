@@ -13,6 +13,7 @@ import pytest
 
 from hydro2d import files
 from hydro2d.jit import cache, options, store
+from tests import error_output
 from tests.disk import Disk
 
 OPTIONS = options.OPTIONS
@@ -42,7 +43,7 @@ def hits(compiled) -> int:
 def said(capsys):
     """What is said on the error output, as if nothing had been said before."""
     cache.say_once.cache_clear()
-    return lambda: capsys.readouterr().err.splitlines()
+    return lambda: error_output.lines(capsys.readouterr().err)
 
 
 @pytest.fixture

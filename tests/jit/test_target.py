@@ -12,6 +12,7 @@ import pytest
 from hydro2d.errors import TargetError
 from hydro2d.files import write_json
 from hydro2d.jit import cache, target
+from tests import error_output
 from tests.jit import test_store
 
 NAME = target.named().name if target.named() else ""
@@ -193,8 +194,7 @@ def shipped(tmp_path, monkeypatch, capsys):
         compiled._cache.flush()
         compiled(1.0)
         test_store.made(test_store.multiply, tmp_path / "_compiled" / "folder", tmp_path / "own")(1.0)
-        moving = "compiling kernels", "compiled kernels"  # lines of what tests before have begun
-        return [line for line in capsys.readouterr().err.splitlines() if not line.startswith(moving)]
+        return error_output.lines(capsys.readouterr().err)
 
     return said
 

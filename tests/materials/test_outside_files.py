@@ -7,6 +7,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.materials import outside
+from tests import error_output
 from tests.materials.made_models import GAS, STRAIN, VOCE, python
 
 # ------------------------------------------------------------------------------------------------ files
@@ -79,8 +80,7 @@ def test_a_mistake_in_the_file_is_one_line_with_its_reason(tmp_path, capsys, tex
     assert said in str(error.value)
     assert "\n" not in str(error.value)
     assert call(["check-model", str(file), "--as", part]) == 2
-    told = capsys.readouterr().err
-    assert told == f"hydro2d: {error.value}\n"
+    assert error_output.lines(capsys.readouterr().err) == [f"hydro2d: {error.value}"]
 
 
 def test_files_that_are_no_models(tmp_path):
