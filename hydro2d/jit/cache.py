@@ -161,9 +161,13 @@ def folder_of(file: str) -> str:
         return str(path.parent)
     if generated(file) is not None or ROOT not in path.parents:
         return all_folder()
-    seen = seen_by(path)
-    return folder_for(seen, [model for package, models in _added.items() if ROOT / package / "dispatch.py" in seen
-                             for model in models])
+    return folder_seeing(seen_by(path))
+
+
+def folder_seeing(files: frozenset[Path]) -> str:
+    """The folder for what depends on these files and on the models from outside that they can see."""
+    return folder_for(files, [model for package, models in _added.items() if ROOT / package / "dispatch.py" in files
+                              for model in models])
 
 
 @functools.cache

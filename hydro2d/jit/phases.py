@@ -18,7 +18,7 @@ from pathlib import Path
 import numba
 
 from hydro2d.jit import by_name, recording
-from hydro2d.jit.cache import folder_for, module_of, seen_by
+from hydro2d.jit.cache import folder_seeing, module_of, seen_by
 from hydro2d.jit.calls import _compile, run_parts
 from hydro2d.jit.handle import Handle, declared
 from hydro2d.jit.options import ONLY_CALLS
@@ -146,7 +146,7 @@ class Phase:
     def compiled(self):
         kernels = list(dict.fromkeys(run.kernel for run in self.runs()))
         files = frozenset().union(*(seen_by(Path(kernel.__wrapped__.__code__.co_filename).resolve()) for kernel in kernels))
-        module = module_of(f"hydro2d_phase_{self.__name__}", self._text(kernels), folder_for(files))
+        module = module_of(f"hydro2d_phase_{self.__name__}", self._text(kernels), folder_seeing(files))
         return getattr(module, self.__name__)
 
     def _text(self, kernels: list) -> str:

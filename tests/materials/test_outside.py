@@ -215,6 +215,20 @@ def test_only_what_sees_the_model_is_compiled_anew(folder):
     assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "voce", "True", "240000000.0", "False", "0"]
 
 
+PHASES = """
+    from hydro2d.kernels import lagrangian_step, remap_step
+    phases = lagrangian_step.deform, lagrangian_step.close_cells, lagrangian_step.accelerate, remap_step.find_moving
+    print(*(phase.compiled.py_func.__code__.co_filename for phase in phases))
+"""
+
+
+def test_phases_that_see_the_model_are_kept_apart(folder):
+    """They took turns in one place: each deck with a model of its own, and each without, compiled them anew."""
+    load = 'from hydro2d.deck import deck; deck.load("shot.toml")\n'
+    without, given = python(PHASES, folder).split(), python(load + textwrap.dedent(PHASES), folder).split()
+    assert [a == b for a, b in zip(without, given, strict=True)] == [False, False, True, True]
+
+
 LOADED = """
     import sys
     ours = "deck.deck running.run running.check running.compile_ahead study.worker study.sweep results.reading cli.info"
