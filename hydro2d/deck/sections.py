@@ -37,7 +37,7 @@ class Numerics(Section):
     ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a node could not keep the velocity of its own momentum")] = Field(
         1.05, description="upper bound of |u| / |momentum/mass| in the ke remap", examples=[1.1]
     )
-    courant: Annotated[float, within(1e-3, 0.8, "above 0.8 the step is unstable in mixed or viscous cells")] = Field(
+    courant: Annotated[float, within(1e-3, 1.0, "above 1 no step is stable")] = Field(
         0.5, description="ratio of the time step to the time in which the fastest wave crosses a cell", examples=[0.4]
     )
     advective_courant: PositiveNumber = Field(
@@ -56,13 +56,15 @@ class Numerics(Section):
         "mesh", description="what the artificial viscosity resists: compression along r and along z, each by itself, or along "
         "the direction in which a cell is compressed most, which keeps strong shocks round"
     )
-    viscosity_linear: Annotated[float, within(0.0, 2.0, "a larger viscosity is unstable at this time step")] = Field(
+    viscosity_linear: Annotated[float, within(0.0, 2.0, "more viscosity only shortens the time step")] = Field(
         0.5, description="linear coefficient of the artificial viscosity", examples=[0.2]
     )
-    viscosity_quadratic: Annotated[float, within(0.0, 4.0, "a larger viscosity is unstable at this time step")] = Field(
+    viscosity_quadratic: Annotated[float, within(0.0, 4.0, "more viscosity only shortens the time step")] = Field(
         1.3, description="quadratic coefficient of the artificial viscosity", examples=[2.0]
     )
-    hourglass: NotNegative = Field(0.05, le=1, description="coefficient of the hourglass filter", examples=[0.1])
+    hourglass: Annotated[float, within(0.0, 0.5, "a stronger filter is unstable")] = Field(
+        0.05, description="coefficient of the hourglass filter", examples=[0.1]
+    )
     steepness: Annotated[float, within(1.0, 2.0, "a steeper slope makes new extremes, a flatter one is of first order")] = (
         Field(2.0, description="largest slope of what the remap carries, in units of the smaller difference to a neighbour; 1 "
               "keeps strong shocks round, 2 keeps waves sharp", examples=[1.0])

@@ -6,12 +6,27 @@ from hydro2d.jit import point
 
 #: what set the time step, in the order that `step_limits` gives
 CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
+#: share of the largest stable step that no deck may exceed
+STABLE = 0.9
 
 
 @point
-def sound_step(courant, length, rho, cl, q):
-    """Time step in which sound, and a shock with the viscosity q (Pa), crosses a share `courant` of a length, s."""
-    return courant * length / sqrt(cl * cl + 2.0 * q / rho)
+def damping_speed(linear, quadratic, rho, cl, q):
+    """Half of dq/d(du) over the density, m/s: what the viscosity q (Pa) adds to the speed of waves in the largest stable step.
+
+    q = rho (quadratic du^2 + linear c du) has the derivative rho sqrt((linear c)^2 + 4 quadratic q/rho). Half, since of two
+    cells beside a vertex that swings one is compressed, and only that one has a viscosity (explanation/lagrangian-step).
+    """
+    return sqrt(0.25 * linear * linear * cl * cl + quadratic * q / rho)
+
+
+@point
+def sound_step(courant, length, linear, quadratic, rho, cl, q):
+    """Time step in which sound, and a shock with the viscosity q (Pa), crosses a share `courant` of a length, s; at most
+    STABLE of the largest that is stable."""
+    damping = damping_speed(linear, quadratic, rho, cl, q)
+    largest = length / (damping + sqrt(cl * cl + damping * damping))
+    return min(courant * length / sqrt(cl * cl + 2.0 * q / rho), STABLE * largest)
 
 
 @point
@@ -21,12 +36,12 @@ def volume_step(loss):
 
 
 @point
-def step_limits(i, ub, ut, vb, vt, courant, advective, mesh_speed, dr, h, rho, cl, q, loss):
+def step_limits(i, ub, ut, vb, vt, courant, advective, linear, quadratic, mesh_speed, dr, h, rho, cl, q, loss):
     """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
 
     What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
     """
-    sound = sound_step(courant, min(dr[i], h), rho, cl, q)
+    sound = sound_step(courant, min(dr[i], h), linear, quadratic, rho, cl, q)
     radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
     axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
                 max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))

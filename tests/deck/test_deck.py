@@ -127,7 +127,7 @@ def test_a_deck_does_not_change():
         ('size = "0.5 mm"', "cells = 2000000000", 8, ["less than or equal to 1000000"]),
         (", cells_across = 8", "", 5, ["across and cells_across go together"]),
         ('across = "rod"', 'across = "plate"', 5, ['"plate" is not a body with a radius']),
-        ("[stop]", "[numerics]\ncourant = 1.5\n[stop]", 29, ["courant: must lie between 0.001 and 0.8, is 1.5: "]),
+        ("[stop]", "[numerics]\ncourant = 1.5\n[stop]", 29, ["courant: must lie between 0.001 and 1, is 1.5: "]),
         ("[stop]", "[numerics]\ncourant = nan\n[stop]", 29, ["nan is not finite"]),
         ("[stop]", "[numerics]\ntrace = 1e-9\n[stop]", 29, ["numerics.trace: is now called numerics.cutoff"]),
         ("[stop]", "[failure]\nloose = 0.9\n[stop]", 29, ["failure.loose: is now called failure.strength_cutoff"]),

@@ -9,6 +9,7 @@ from hydro2d.kernels import deformation, mixed
 from hydro2d.kernels.cut_cells import KIND, WHOLE
 from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
 from hydro2d.mesh.fields import RHO, E
+from hydro2d.physics.waves import STABLE
 from tests.kernels.cells import Cells
 
 GAMMA = 1.5
@@ -43,13 +44,15 @@ def test_a_gas_at_rest():
 
 
 def test_viscosity_along_the_one_direction_that_is_pressed_together():
-    """du = -2 m/s beside cells without a difference: q = rho (2 du^2 + c |du|/2)."""
+    """du = -2 m/s beside cells without a difference: q = rho (2 du^2 + c |du|/2). Its slope 2 b = 4 du + c/2 sets the step."""
     cells = gas()
     cells.v[0, 4:] = -2.0
     closed(cells)
     q = 2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0)
     assert (cells.qr[AT], cells.qz[AT]) == (0.0, pytest.approx(q))
-    assert cells.row_step[3] == pytest.approx(min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0))
+    b = 0.5 * (4.0 * 2.0 + 0.5 * np.sqrt(7.5))
+    assert cells.row_step[3] == pytest.approx(STABLE / (b + np.sqrt(7.5 + b * b)))
+    assert cells.row_step[3] < min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0)
 
 
 @pytest.mark.parametrize(("along", "across"), [("u", "v"), ("v", "u")])

@@ -18,6 +18,8 @@ CELL = {
     "vt": [9e9, 1.0, 1.0, 9e9],
     "courant": 0.5,
     "advective": 0.4,
+    "linear": 0.0,
+    "quadratic": 1.0,
     "mesh_speed": 0.0,
     "dr": [9e-9, 1e-3, 9e-9],
     "h": 2e-3,
@@ -156,8 +158,28 @@ def test_a_cell_with_void_has_a_longitudinal_impedance_alone():
 def test_sound_and_a_shock_cross_a_length():
     """The viscosity counts as twice its stress over the density: (3, 4, 5) in km/s."""
     sound_step = waves.sound_step.py_func
-    assert sound_step(0.5, 1e-3, 8000.0, 5000.0, 0.0) == pytest.approx(1e-7)
-    assert sound_step(0.5, 1e-3, 8000.0, 3000.0, 0.5 * 8000.0 * 4000.0**2) == pytest.approx(1e-7)
+    assert sound_step(0.5, 1e-3, 0.5, 1.3, 8000.0, 5000.0, 0.0) == pytest.approx(1e-7)
+    assert sound_step(0.5, 1e-3, 0.5, 1.3, 8000.0, 3000.0, 0.5 * 8000.0 * 4000.0**2) == pytest.approx(1e-7)
+
+
+def test_the_slope_of_the_viscosity():
+    """Half of what 2 du + 0.5 c is at du = 300 m/s and c = 4 km/s."""
+    q = 8000.0 * (1.0 * 300.0**2 + 0.5 * 4000.0 * 300.0)
+    assert waves.damping_speed.py_func(0.5, 1.0, 8000.0, 4000.0, q) == pytest.approx(0.5 * (2.0 * 300.0 + 0.5 * 4000.0))
+
+
+@pytest.mark.parametrize("linear", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("du", [0.0, 300.0, 9000.0])
+def test_no_step_is_longer_than_a_share_of_the_largest_that_a_damped_leapfrog_allows(linear, du):
+    """Of a vertex between cells that are compressed in turn: u' = u - w s - d u, s' = s + w u', whose matrix has an eigenvalue
+    of -1 at the limit."""
+    rho, c, length, quadratic = 8000.0, 5000.0, 1e-3, 1.3
+    q = rho * (quadratic * du * du + linear * c * du)
+    step = waves.sound_step.py_func(1.0, length, linear, quadratic, rho, c, q) / waves.STABLE
+    wave, loss = 2.0 * c * step / length, 2.0 * (linear * c + 2.0 * quadratic * du) * step / length
+    eigenvalues = np.linalg.eigvals([[1.0 - loss, -wave], [wave * (1.0 - loss), 1.0 - wave * wave]])
+    assert np.abs(eigenvalues).max() == pytest.approx(1.0, abs=1e-9)
+    assert eigenvalues.real.min() == pytest.approx(-1.0, abs=1e-9)
 
 
 def test_a_cell_loses_no_more_than_a_fifth_of_its_volume():

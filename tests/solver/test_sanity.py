@@ -206,8 +206,9 @@ def test_a_deck_may_let_it_go_on_but_not_be_trusted(tmp_path, monkeypatch, capsy
 
 
 @pytest.mark.parametrize(("key", "value", "reason"), [
-    ("courant", 0.95, "unstable"), ("courant", 1e-300, "must lie between"), ("ke_bound", 1e-6, "of its own momentum"),
-    ("viscosity_linear", 5.0, "unstable"), ("viscosity_quadratic", 50.0, "unstable"), ("relaxation", 10.0, "overshoot"),
+    ("courant", 1.05, "no step is stable"), ("courant", 1e-300, "must lie between"), ("ke_bound", 1e-6, "of its own momentum"),
+    ("viscosity_linear", 5.0, "shortens the time step"), ("viscosity_quadratic", 50.0, "shortens the time step"),
+    ("hourglass", 0.6, "unstable"), ("relaxation", 10.0, "overshoot"),
     ("max_growth", 10.0, "must lie between 1 and 2"),
     ("max_growth", 0.5, "must lie between"), ("clip_limit", 2.0, "between 0 and 1"), ("steepness", 2.5, "new extremes")])
 def test_choices_that_are_never_sound(key, value, reason):
