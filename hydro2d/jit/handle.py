@@ -7,6 +7,8 @@ for all; in Python a `Handle` keeps the values and fills the table.
 
 from __future__ import annotations
 
+import functools
+
 import llvmlite.ir as ir
 import numba
 import numpy as np
@@ -43,6 +45,12 @@ def declare(names: dict[str, tuple[type, int]]) -> None:
 def declared() -> dict[str, tuple[type, int]]:
     """Kind and number of axes of every name."""
     return {name: (kind, axes) for name, (_, kind, axes) in _rows.items()}
+
+
+@functools.cache
+def _places(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of names and of their partners, and of the partners and the names."""
+    return tuple(np.array([_rows[name][0] for name in names]) for names in ((*some, *others), (*others, *some)))
 
 
 class Handle:
@@ -82,9 +90,10 @@ class Handle:
 
     def exchange(self, some: tuple[str, ...], others: tuple[str, ...]) -> None:
         """Has every name stand for what its partner among the others stood for, which is of the same type, and the reverse."""
-        names, partners = (*some, *others), (*others, *some)
-        self._words[[_rows[name][0] for name in names]] = self._words[[_rows[name][0] for name in partners]]
-        self.values.update(zip(names, [self.values[name] for name in partners], strict=True))
+        here, there = _places(some, others)
+        self._words[here] = self._words[there]
+        for name, partner in zip(some, others, strict=True):
+            self.values[name], self.values[partner] = self.values[partner], self.values[name]
 
     def __getattr__(self, name: str):
         try:

@@ -21,6 +21,8 @@ ENOUGH = 1e-3
 SPAN = 2 * REACH + 1
 MASTERS = SPAN * SPAN
 TIED = MASTERS
+#: rows of `inward`
+WEIGHT, SQUARES, OFF_R, OFF_Z = range(4)
 #: by how much two nodes let go that are tied to each other and have no other masters
 SLACK = 1e-3
 
@@ -92,36 +94,53 @@ def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
 
 
 @apart
-def extend_cells(x, g, j, i, reach, inward_r, inward_z, least_squares, most_squares, factor, w):
+def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
+    """Weights of the cells around the slave (j, i), how far it lies off their middles, in cells, and the sums of the squares of
+    what each of them gives to its vertices.
+
+    Writes   inward [j, WEIGHT to OFF_Z, n], the places of cells row by row
+    """
+    n = 0
+    for row in range(j - reach, j + reach):
+        for column in range(i - reach, i + reach):
+            weight = cell_weight(g, j, i, row, column, inward_r, inward_z, w)
+            w.inward[j, WEIGHT, n] = weight
+            if weight != 0.0:
+                a = (w.r[i] - 0.5 * (w.r[column] + w.r[column + 1])) / (w.r[column + 1] - w.r[column])
+                b = (w.z[j] - 0.5 * (w.z[row] + w.z[row + 1])) / (w.z[row + 1] - w.z[row])
+                w.inward[j, SQUARES, n] = 0.25 + a * a + b * b
+                w.inward[j, OFF_R, n] = a
+                w.inward[j, OFF_Z, n] = b
+            n += 1
+
+
+@apart
+def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
     """Adds the linear fields of the cells inward whose weights have squares that sum up to more than least_squares and to no
     more than most_squares, together with the weight `factor`; returns the share of it that is used.
 
     The squares are the stiffness that the slave's cells have for the masters' mass, and the time step bounds them: with a
     least_squares above 0 the gradients are reduced to that sum.
 
+    Reads    inward [j, WEIGHT to OFF_Z, n]
     Updates  weights [x, g, n]
     """
     whole = 0.0
     for run in range(2):
         scale = factor * smoothstep(whole / ENOUGH) / whole if whole > 0.0 else 0.0
-        for dj in range(-reach, reach):
-            for di in range(-reach, reach):
-                row, column = j + dj, i + di
-                weight = cell_weight(g, j, i, row, column, inward_r, inward_z, w)
-                if weight == 0.0:
-                    continue
-                a = (w.r[i] - 0.5 * (w.r[column] + w.r[column + 1])) / (w.r[column + 1] - w.r[column])
-                b = (w.z[j] - 0.5 * (w.z[row] + w.z[row + 1])) / (w.z[row + 1] - w.z[row])
-                squares = 0.25 + a * a + b * b
-                if squares <= least_squares or squares > most_squares:
-                    continue
-                whole += weight if run == 0 else 0.0
-                if run == 1:
-                    shrink = sqrt((least_squares - 0.25) / (squares - 0.25)) if least_squares > 0.0 else 1.0
-                    for n in range(4):
-                        along = (a if n % 2 == 1 else -a) + (b if n // 2 == 1 else -b)
-                        w.weights[x, g, SPAN * (dj + REACH + n // 2) + di + REACH + n % 2] += scale * weight * (
-                            0.25 + 0.5 * shrink * along)
+        for place in range(4 * reach * reach):
+            weight, squares = w.inward[j, WEIGHT, place], w.inward[j, SQUARES, place]
+            if weight == 0.0 or squares <= least_squares or squares > most_squares:
+                continue
+            whole += weight if run == 0 else 0.0
+            if run == 1:
+                dj, di = place // (2 * reach) - reach, place % (2 * reach) - reach
+                a, b = w.inward[j, OFF_R, place], w.inward[j, OFF_Z, place]
+                shrink = sqrt((least_squares - 0.25) / (squares - 0.25)) if least_squares > 0.0 else 1.0
+                for n in range(4):
+                    along = (a if n % 2 == 1 else -a) + (b if n // 2 == 1 else -b)
+                    w.weights[x, g, SPAN * (dj + REACH + n // 2) + di + REACH + n % 2] += scale * weight * (
+                        0.25 + 0.5 * shrink * along)
     return smoothstep(whole / ENOUGH)
 
 
@@ -172,6 +191,7 @@ def find_extensions(j, w):
              filled [b, j, i]; vof, dmg [m, j, i]
     Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
+    Scratch  inward [j, 4, n]
     """
     for k in range(w.contact_node_count[j]):
         i, x = w.contact_nodes[j, k], w.first_slot[j] + k
@@ -185,9 +205,10 @@ def find_extensions(j, w):
             sign = 1.0 if g == 0 else -1.0
             inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
             reach = REACH - 1 if in_debris(g, j, i, w) else REACH
-            left = 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, 0.0, w.most_squares, 1.0, w)
+            weigh_cells(g, j, i, reach, inward_r, inward_z, w)
+            left = 1.0 - extend_cells(x, g, j, reach, 0.0, w.most_squares, 1.0, w)
             if left > 0.0:
-                left *= 1.0 - extend_cells(x, g, j, i, reach, inward_r, inward_z, w.most_squares, 1e300, left, w)
+                left *= 1.0 - extend_cells(x, g, j, reach, w.most_squares, 1e300, left, w)
             if left > 0.0:
                 used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
                 w.weights[x, g, TIED] = left * (1.0 - used)

@@ -208,6 +208,7 @@ CONTACT_WORK = (
     Work("contact_node_count", "J", "number of contact nodes in a row, at which both groups have mass", int),
     Work("contact_nodes", "J I", "their columns", int),
     Work("filled", "2 J I", "share of its dual cell that each group fills, at vertices near contact nodes"),
+    Work("inward", "J 4 36", "cells around a slave: weight, sum of the squares of what each gives to its vertices, offset"),
     Work("warmed", "J 2", "columns of the vertices that gave heat", int),
     Work("soft", "j i", "share of the cell that the other bodies fill"),
     Work("rate", "j i", "rate of volume of a contact-interface cell"),

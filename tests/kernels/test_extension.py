@@ -54,7 +54,8 @@ class Extensions:
                     contact_nodes=nodes, hard=vof[1], soft=vof[0], mass=mass, filled=filled))
         find_extensions(0, handle(parts=rows, mesh_box=mesh_box, most_squares=most_squares, r=g.r, z=g.z,
                         contact_node_count=count, contact_nodes=nodes, first_slot=first, contact_normal=directions,
-                        hard=vof[1], soft=vof[0], filled=filled, group=np.array([0, 1]), vof=vof, dmg=dmg, strength=strength,
+                        hard=vof[1], soft=vof[0], filled=filled, inward=np.full((len(both), 4, 36), np.nan),
+                        group=np.array([0, 1]), vof=vof, dmg=dmg, strength=strength,
                         masters=number, where=where, weights=weights))
         self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
         self.count, self.nodes, self.hard = count, nodes, vof[1]
