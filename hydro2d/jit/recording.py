@@ -117,20 +117,23 @@ def clocked(name: str, function: Callable, *arguments):
 def called(compiled):
     """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
     function = compiled.__wrapped__
-    name, known = f"{function.__module__}.{function.__name__}", False
+    name = f"{function.__module__}.{function.__name__}"
 
     def first(*arguments):
+        nonlocal run
         with first_call(name):
-            return compiled(*arguments)
+            found = compiled(*arguments)
+        run = compiled if by_name.takes_handle(function) else getattr(compiled, "whole", compiled)
+        return found
+
+    run = first
 
     @functools.wraps(function)
     def call(*arguments):
-        nonlocal known
         if is_recording():
             values = by_name.values(function, arguments)
             return write_down(Call(name, compiled, tuple(compiled.typeof_pyval(value) for value in values)))
-        run, known = (compiled if known else first), True
-        return clocked(function.__name__, run, *arguments)
+        return clocked(function.__name__, run, *arguments) if _profiling else run(*arguments)
 
     call.__signature__ = inspect.signature(by_name.source(function))
     call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # which lets compiled functions call it

@@ -94,9 +94,9 @@ accelerate = Phase(
     alone(boundaries.sum_drag),
 )
 
-deform = Phase(
-    "deform",
-    "Volumes that faces sweep, work, and strain of every body; what faces sweep relative to a mesh that advances.",
+sweep_faces = Phase(
+    "sweep_faces",
+    "Volumes that faces sweep with the material; beside a contact with that of each group, and what evens pressures out there.",
     when("remembers", memory.remember),
     acceleration.swept_volumes,
     when("contact",
@@ -111,7 +111,11 @@ deform = Phase(
          contact_checkerboard.fade_deviators,
          WAIT,
          contact_checkerboard.fade_pressures),
-    WAIT,
+)  # fmt: skip
+
+deform = Phase(
+    "deform",
+    "Work, volume and strain of every body; what faces sweep relative to a mesh that advances.",
     deformation.deform,
     mixed.deform_mixed,
     when("contact", given(momentum.deposit, ranges="warmed", deficit="heat")),

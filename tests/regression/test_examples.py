@@ -42,6 +42,7 @@ NOT_RUN = {
     "python -m tests.study.overhead": "a hundred runs: minutes",
     "python -m tests.study.coverage": "1200 made-up searches: minutes",
     "python -m tests.trials.campaign": "5000 runs: an hour; tests/trials/test_mutants.py has some of them",
+    "python -m tests.trials.crowd": "1000 decks: a quarter of an hour; tests/trials/test_crowd.py has some of them",
     "hydro2d bench": "minutes",
     "python docs/gallery.py": "half an hour; tests/regression/test_gallery.py has it in short form",
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
