@@ -10,6 +10,9 @@ from hydro2d.mesh.fields import EP, INTERNAL, RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.waves import CAUSES
 from tests.kernels.cells import Cells
 
+#: of the default deck
+VISCOSITY = {"viscosity_linear": 0.5, "viscosity_quadratic": 1.3}
+
 
 def zoned() -> Cells:
     """A hard body in the columns 2 and 3, a boundary layer and a slip layer of 1 m each beside it."""
@@ -73,7 +76,7 @@ def test_what_sets_the_step(u, v, cause):
     cells = Cells()
     cells.rhobar[3, 3:5], cells.cl[3, 3], cells.cl[3, 4] = 1.0, 9.0, 10.0
     cells.u[...], cells.v[...], cells.least_row[0] = u, v, 3
-    cells.call(thermodynamics.step_cause, courant=0.5, advective_courant=1.0, mesh_speed=0.0)
+    cells.call(thermodynamics.step_cause, courant=0.5, advective_courant=1.0, mesh_speed=0.0, **VISCOSITY)
     assert CAUSES[cells.cause[0]] == cause
     assert cells.cause[1] == (4 if cause == "sound" else 3)
 
@@ -82,7 +85,7 @@ def test_a_cell_that_is_pressed_together_sets_the_step():
     cells = Cells()
     cells.rhobar[3, 3:5], cells.cl[3, 3:5] = 1.0, 10.0
     cells.v[0, 4:, 3], cells.least_row[0] = -20.0, 3
-    cells.call(thermodynamics.step_cause, courant=0.5, advective_courant=5.0, mesh_speed=0.0)
+    cells.call(thermodynamics.step_cause, courant=0.5, advective_courant=5.0, mesh_speed=0.0, **VISCOSITY)
     assert (CAUSES[cells.cause[0]], cells.cause[1]) == ("volume change", 3)
 
 
