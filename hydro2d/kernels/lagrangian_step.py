@@ -94,9 +94,9 @@ accelerate = Phase(
     alone(boundaries.sum_drag),
 )
 
-sweep_faces = Phase(
-    "sweep_faces",
-    "Volumes that faces sweep with the material; beside a contact with that of each group, and what evens pressures out there.",
+deform = Phase(
+    "deform",
+    "Volumes that faces sweep; work, volume and strain of every body in the cells that it fills.",
     when("remembers", memory.remember),
     acceleration.swept_volumes,
     when("contact",
@@ -111,12 +111,13 @@ sweep_faces = Phase(
          contact_checkerboard.fade_deviators,
          WAIT,
          contact_checkerboard.fade_pressures),
+    WAIT,
+    deformation.deform,
 )  # fmt: skip
 
-deform = Phase(
-    "deform",
-    "Work, volume and strain of every body; what faces sweep relative to a mesh that advances.",
-    deformation.deform,
+deform_mixed = Phase(
+    "deform_mixed",
+    "The same in mixed cells; what equations of state remember; what faces sweep relative to a mesh that advances.",
     mixed.deform_mixed,
     when("contact", given(momentum.deposit, ranges="warmed", deficit="heat")),
     when("slip_layer", sliding.cut_shear),

@@ -155,8 +155,8 @@ class Cycle:
 
     def deform(self) -> None:
         """Volumes that the faces sweep; work, volume, strain: body by body in pure cells, then the mixed cells."""
-        self.given.run(lagrangian_step.sweep_faces)
-        self.given.run(lagrangian_step.deform, time=self.time + self.dt, travels=self.mesh.leading is not None,
+        self.given.run(lagrangian_step.deform)
+        self.given.run(lagrangian_step.deform_mixed, time=self.time + self.dt, travels=self.mesh.leading is not None,
                        advance=self.mesh.velocity * self.dt)
 
     # ------------------------------------------------------------------------------------------------ remap
