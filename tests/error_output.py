@@ -1,4 +1,4 @@
-"""What was told on the error output."""
+"""The error output of commands, without the lines on the compilation of kernels."""
 
 #: how a line begins that says how far the compilation of kernels is; on a slow machine it comes whenever one is compiled
 MOVING = ("compiling kernels: ", "compiled kernels: ")
