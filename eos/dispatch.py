@@ -71,9 +71,11 @@ def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2):
     explanation/equation-of-state, explanation/fracture
     """
     if model == mie_grueneisen.ID:
+        end = first + number
+        f, damage, rho, e = f[first:end], damage[first:end], rho[first:end], e[first:end]
+        p, c2 = p[first:end], c2[first:end]
         for x in range(number):
-            i = first + x
-            p[i], c2[i] = _state(f[i], damage[i], rho[i], floor, mie_grueneisen.evaluate(rho[i], e[i], par))
+            p[x], c2[x] = _state(f[x], damage[x], rho[x], floor, mie_grueneisen.evaluate(rho[x], e[x], par))
     else:
         for x in range(number):
             i = first + x

@@ -80,11 +80,15 @@ def evaluate(rho, e, par):
     near = min(max(eta, 0.0), par[GUARD])
     d = 1.0 / (1.0 - par[S] * near)
     slope = reference_slope(near, par[S], par[HALF_GAMMA])
+    # both branches first: a choice between two values in memory is a slow gather, one between two numbers is not
     squeezed = par[BULK] * (near * (1.0 - par[HALF_GAMMA] * near) * (d * d) + slope * (eta - near))
+    stretched = par[C0_SQUARED] * (rho - par[RHO0])
+    squeezed_slope, stretched_slope = par[BULK] * slope * (v * v) * par[INVERSE_RHO0], par[C0_SQUARED] + gamma * e
+    squeezed_heat, stretched_heat = par[GAMMA_RHO], gamma * rho
     compressed = eta >= 0.0
-    p = squeezed if compressed else par[C0_SQUARED] * (rho - par[RHO0])
-    dpdrho = par[BULK] * slope * (v * v) * par[INVERSE_RHO0] if compressed else par[C0_SQUARED] + gamma * e
-    dpde = par[GAMMA_RHO] if compressed else gamma * rho
+    p = squeezed if compressed else stretched
+    dpdrho = squeezed_slope if compressed else stretched_slope
+    dpde = squeezed_heat if compressed else stretched_heat
     T = cold_temperature(eta, par) + e * par[INVERSE_CV]
     return p + dpde * e, dpdrho, dpde, max(T, 0.0)
 

@@ -59,8 +59,9 @@ def dual_row(g, j, slot, w):
         m_rr = w.mass[g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
         for x in range(n):
             up = flow[x] > 0.0
-            whole = max(m_l[x], TINY) if up else max(m_r[x], TINY)
-            behind = m_ll[x] if up else m_rr[x]
+            left, l, r, right = m_ll[x], m_l[x], m_r[x], m_rr[x]  # read before the choice, which else would be a gather
+            whole = max(l if up else r, TINY)
+            behind = left if up else right
             least, most = min(behind, min(m_l[x], m_r[x])), max(behind, max(m_l[x], m_r[x]))
             there = smoothstep(least / (SLIGHT * max(most, TINY)))
             half[x] = 0.5 * there * (1.0 - min(abs(flow[x]) / whole, 1.0))
@@ -150,13 +151,15 @@ def vertex_row(g, j, below, above, w):
             wall_row = c == 1 and (j == w.constrained[2] or j == w.constrained[3])
             low_edge = c == 0 or j == w.constrained[2]
             given = w.edge_velocity[2 * c] if low_edge else w.edge_velocity[3]
+            given_outside = w.edge_velocity[1]
+            axis, outside = (w.constrained[0], w.constrained[1]) if c == 0 else (-1, -1)
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
                 new = new_j[x]
                 resting = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
-                wall = wall_row or (c == 0 and (lo + x == w.constrained[0] or lo + x == w.constrained[1]))
-                fixed = w.edge_velocity[1] if c == 0 and lo + x == w.constrained[1] else given
+                wall = wall_row or lo + x == axis or lo + x == outside
+                fixed = given_outside if lo + x == outside else given
                 over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
                 mean = min(max(momentum * over, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))

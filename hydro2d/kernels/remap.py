@@ -55,11 +55,12 @@ def flux_row(dj, j, m, slot, b, w):
         half_m = w.scratch[1, b, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
-            both = min(f_l[x], f_r[x])
-            least = min(both, f_ll[x]) if up else min(both, f_rr[x])
+            left, right = f_ll[x], f_rr[x]  # read before the choice, which else would be a gather
+            volume_l, volume_r = f_l[x] * pre_l[x], f_r[x] * pre_r[x]
+            least = min(min(f_l[x], f_r[x]), left if up else right)
             clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
             donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], w.steepness)
-            volume = max(f_l[x] * pre_l[x] if up else f_r[x] * pre_r[x], TINY)
+            volume = max(volume_l if up else volume_r, TINY)
             half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
             flow = swept[x] * (donor + half_v[x] * slope)
             half_m[x] = clean * (1.0 - abs(flow) / max(volume * donor, TINY))
@@ -107,22 +108,27 @@ def update_row(dj, j, m, below, above, b, w):
         new_v = w.scratch[2, b, lo:hi]
         new_m = w.scratch[3, b, lo:hi]
         for x in range(n):
-            volume = f_j[x] * pre_j[x]
-            mass = volume * r_j[x]
-            after = volume + (v_in[x] - v_out[x])
+            f, rho, into, out = f_j[x], r_j[x], v_in[x], v_out[x]
+            swept = s_out[x] - s_in[x]
+            volume = f * pre_j[x]
+            mass = volume * rho
+            after = volume + (into - out)
             mass_after = mass + (m_in[x] - m_out[x])
-            post = pre_j[x] - (s_out[x] - s_in[x])
-            same = v_in[x] == 0.0 and v_out[x] == 0.0
+            same = into == 0.0 and out == 0.0
             unchanged = same and s_in[x] == 0.0 and s_out[x] == 0.0
-            density = mass_after / after if after > 0.0 else 0.0
-            fraction = max(after / post, 0.0)
-            r_j[x] = r_j[x] if unchanged else density
-            f_j[x] = f_j[x] if unchanged else fraction
+            # divisions first, of what has an inverse: one inside of a choice keeps the loop from being vectorised
+            divisor, mass_divisor = after if after > TINY else TINY, mass_after if mass_after > TINY else TINY
+            density, over_v, over_m = mass_after / divisor, 1.0 / divisor, 1.0 / mass_divisor
+            fraction = max(after / (pre_j[x] - swept), 0.0)
+            density = density if after > 0.0 else 0.0
+            over_v, over_m = over_v if after > TINY else 0.0, over_m if mass_after > TINY else 0.0
+            r_j[x] = rho if unchanged else density
+            f_j[x] = f if unchanged else fraction
             # what a cell without flux is multiplied and divided by is one
             old_v[x] = 1.0 if same else volume
             old_m[x] = 1.0 if same else mass
-            new_v[x] = 1.0 if same else (1.0 / after if after > TINY else 0.0)  # less has no inverse
-            new_m[x] = 1.0 if same else (1.0 / mass_after if mass_after > TINY else 0.0)
+            new_v[x] = 1.0 if same else over_v
+            new_m[x] = 1.0 if same else over_m
         for place in range(1, w.carried[m, 0] + 1):
             k = w.carried[m, place]
             a_j = w.q[k, m, j, lo:hi]
