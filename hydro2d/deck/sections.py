@@ -38,7 +38,10 @@ class Numerics(Section):
         1.05, description="upper bound of |u| / |momentum/mass| in the ke remap", examples=[1.1]
     )
     courant: Annotated[float, within(1e-3, 1.0, "above 1 no step is stable")] = Field(
-        0.5, description="ratio of the time step to the time in which the fastest wave crosses a cell", examples=[0.4]
+        0.7, description="ratio of the time step to the time in which the fastest wave crosses a cell", examples=[0.4]
+    )
+    shock_courant: Annotated[float, within(1e-3, 1.0, "above 1 no step is stable")] = Field(
+        0.5, description="the same in a shock, where the artificial viscosity acts; courant if that is less", examples=[0.4]
     )
     advective_courant: PositiveNumber = Field(
         0.4, le=0.5, description="largest fraction of a cell that material crosses in one step", examples=[0.3]

@@ -93,8 +93,8 @@ def contact_viscosity(j, w):
             w.qr[j, i] = viscosity
             w.qz[j, i] = viscosity
             w.qt[j, i] = viscosity
-            sound = sound_step(w.courant, min(w.dr[i], h), w.viscosity_linear, w.viscosity_quadratic, rho, w.cl[j, i],
-                               viscosity)
+            sound = sound_step(w.courant, w.shock_courant, min(w.dr[i], h), w.viscosity_linear, w.viscosity_quadratic, rho,
+                               w.cl[j, i], viscosity)
             w.row_step[j] = min(w.row_step[j], min(sound, volume_step(loss)))
     if seeded:
         mixed_row(j, w.group_ranges[0, 0], w.kinds[j], w)

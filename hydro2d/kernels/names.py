@@ -88,6 +88,7 @@ METHOD = (
     Work("advection", "", "what the remap of momentum keeps", int),
     Work("ke_bound", "", "bound of the kinetic energy that a vertex may gain in a sweep"),
     Work("courant", "", "share of the time that a wave needs through a cell"),
+    Work("shock_courant", "", "the same in a shock"),
     Work("advective_courant", "", "share of a cell that a vertex may cross in a step"),
     Work("along_compression", "", "whether viscosity acts along the compression alone", bool),
     Work("viscosity_linear", "", "linear coefficient of the viscosity"),

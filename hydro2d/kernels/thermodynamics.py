@@ -356,7 +356,8 @@ def compression_viscosity_row(j, w):
 def steps_row(j, b, w):
     """The time step that every cell allows, and the coefficient of its hourglass filter.
 
-    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), and a share of the largest that is stable (`sound_step`);
+    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), less in a shock, and a share of the largest that is stable
+    (`sound_step`);
     |u| dt <= advective_courant dx, |div u| dt <= 0.2 in compression
     (explanation/lagrangian-step).
 
@@ -386,8 +387,8 @@ def steps_row(j, b, w):
         dv = (vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1])
         loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
         sound, radial, axial, volume = step_limits(
-            i, ub, ut, vb, vt, w.courant, w.advective_courant, w.viscosity_linear, w.viscosity_quadratic, w.mesh_speed, w.dr, h,
-            rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
+            i, ub, ut, vb, vt, w.courant, w.shock_courant, w.advective_courant, w.viscosity_linear, w.viscosity_quadratic,
+            w.mesh_speed, w.dr, h, rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
         hg_j[i] = 0.25 * w.hourglass * rho_j[i] * cl_j[i] * w.metrics[VOL_R, i] * h / max(w.dr[i], h)
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
         wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
@@ -422,9 +423,9 @@ def step_cause(w):
     for i in range(w.active_range[j, 0], w.active_range[j, 1]):
         if w.rhobar[j, i] > 0.0:
             loss = volume_loss(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.metrics, w.dz[j])
-            limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.advective_courant,
-                                 w.viscosity_linear, w.viscosity_quadratic, w.mesh_speed, w.dr, w.dz[j], w.rhobar[j, i],
-                                 w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)
+            limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.shock_courant,
+                                 w.advective_courant, w.viscosity_linear, w.viscosity_quadratic, w.mesh_speed, w.dr, w.dz[j],
+                                 w.rhobar[j, i], w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)
             for k in range(4):
                 if limits[k] < best:
                     best = limits[k]

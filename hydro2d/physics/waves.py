@@ -3,11 +3,14 @@
 from math import sqrt
 
 from hydro2d.jit import point
+from hydro2d.physics.traction import smoothstep
 
 #: what set the time step, in the order that `step_limits` gives
 CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
 #: share of the largest stable step that no deck may exceed
 STABLE = 0.9
+#: viscosity, over rho c_l^2, from which on a cell is in a shock
+SHOCKED = 1e-3
 
 
 @point
@@ -21,12 +24,20 @@ def damping_speed(linear, quadratic, rho, cl, q):
 
 
 @point
-def sound_step(courant, length, linear, quadratic, rho, cl, q):
-    """Time step in which sound, and a shock with the viscosity q (Pa), crosses a share `courant` of a length, s; at most
+def share_crossed(courant, shock_courant, rho, cl, q):
+    """The share of a cell that sound may cross in a step: `courant` without viscosity, `shock_courant`, if that is less, in a
+    shock, and continuous between (explanation/lagrangian-step, equation 15b)."""
+    return courant - max(courant - shock_courant, 0.0) * smoothstep(q / (SHOCKED * rho * cl * cl))
+
+
+@point
+def sound_step(courant, shock_courant, length, linear, quadratic, rho, cl, q):
+    """Time step in which sound, and a shock with the viscosity q (Pa), crosses the share of a length that it may, s; at most
     STABLE of the largest that is stable."""
     damping = damping_speed(linear, quadratic, rho, cl, q)
     largest = length / (damping + sqrt(cl * cl + damping * damping))
-    return min(courant * length / sqrt(cl * cl + 2.0 * q / rho), STABLE * largest)
+    share = share_crossed(courant, shock_courant, rho, cl, q)
+    return min(share * length / sqrt(cl * cl + 2.0 * q / rho), STABLE * largest)
 
 
 @point
@@ -36,12 +47,12 @@ def volume_step(loss):
 
 
 @point
-def step_limits(i, ub, ut, vb, vt, courant, advective, linear, quadratic, mesh_speed, dr, h, rho, cl, q, loss):
+def step_limits(i, ub, ut, vb, vt, courant, shock_courant, advective, linear, quadratic, mesh_speed, dr, h, rho, cl, q, loss):
     """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
 
     What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
     """
-    sound = sound_step(courant, min(dr[i], h), linear, quadratic, rho, cl, q)
+    sound = sound_step(courant, shock_courant, min(dr[i], h), linear, quadratic, rho, cl, q)
     radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
     axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
                 max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))

@@ -18,6 +18,7 @@ class Method:
     advection: int
     ke_bound: float
     courant: float
+    shock_courant: float
     advective_courant: float
     max_growth: float
     ramp_cycles: int
@@ -70,6 +71,7 @@ class Method:
             advection=momentum.ADVECTIONS.index(n.advection),
             ke_bound=n.ke_bound,
             courant=n.courant,
+            shock_courant=n.shock_courant,
             advective_courant=n.advective_courant,
             max_growth=n.max_growth,
             ramp_cycles=n.ramp_cycles,
