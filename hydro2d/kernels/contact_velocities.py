@@ -20,11 +20,11 @@ TOLERANCE, STEPS = 1e-11, 200
 ROUNDS = 3
 #: rows of `rubbing`: impulse that the soft group gets from the hard one, and its size
 RUB_R, RUB_Z, RUBBED = range(3)
-#: rows of `nodes`: slot, group, row and column of a slave, what holds it, and the number of its vertex
-SLOT, GROUP, ROW, COLUMN, HELD, VERTEX = range(6)
-#: columns of `impulses`, two for the components of each: impulse, residual, search direction, what the ties make of that,
-#: inverse of the diagonal; then the mass of the slave and the compliance of its tie
-IMPULSE, RESIDUAL, SEARCH, IMAGE, DIAGONAL, MASS, COMPLIANCE = 0, 2, 4, 6, 8, 10, 11
+#: rows of `nodes`: slot, group, row and column of a slave
+SLOT, GROUP, ROW, COLUMN = range(4)
+#: columns of `impulses`, two for the components of each: impulse, residual, what the ties make of the search direction, inverse
+#: of the diagonal
+IMPULSE, RESIDUAL, IMAGE, DIAGONAL = 0, 2, 4, 6
 
 
 @point
@@ -76,13 +76,29 @@ def give_tie(g, j, i, x, push_r, push_z, w):
         give(by, row, column, w.weights[x, g, n] * push_r, w.weights[x, g, n] * push_z, w)
 
 
+@point
+def list_vertex(e, g, j, i, weight, still_r, still_z, vertices, w):
+    """Lists a vertex of a tie as its e-th entry; returns how many vertices have a number then.
+
+    Updates  places [b, j, i], number of a vertex, from 1 on;  writes entries [4, e], portions [e, 4]
+    """
+    new = w.places[g, j, i] == 0
+    if new:
+        w.places[g, j, i] = vertices + 1
+    w.entries[0, e], w.entries[1, e], w.entries[2, e], w.entries[3, e] = g, j, i, w.places[g, j, i] - 1
+    for c in range(2):
+        w.portions[e, c] = 0.0 if (still_z if c == 1 else still_r) else weight
+        w.portions[e, 2 + c] = w.portions[e, c] / w.mass[g, j, i]
+    return vertices + 1 if new else vertices
+
+
 @apart
 def list_ties(w):
-    """(number of tied slaves, number of vertices), all slaves listed with their masters one after another.
+    """(number of tied slaves, number of vertices), all slaves listed with their vertices: their own and those of their masters.
 
-    Writes   nodes [6, t]: slot, group, row and column of a slave, what holds it (1 along r, 2 along z, 3 both), and the number
-             of its vertex in the list; starts [t + 1], its first master; entries [4, e]: group, row, column and number of a
-             master; portions [e, 4]: its weight along r and z, 0 where it is held, and the same over its mass
+    Writes   nodes [4, t]: slot, group, row and column of a slave; starts [t + 1], its first entry; entries [4, e]: group, row,
+             column and number of a vertex, the slave's own first; portions [e, 4]: N, along r and z, 1 for its own and less the
+             weight for a master, 0 where the axis or a wall holds either of them; and the same over the mass
     Scratch  places [b, j, i], 0 before and after
     """
     j0, j1 = outer_rows(w.parts)
@@ -95,30 +111,17 @@ def list_ties(w):
                     continue
                 held_r, held_z = held(j, i, w.constrained)
                 w.nodes[SLOT, tied], w.nodes[GROUP, tied], w.nodes[ROW, tied], w.nodes[COLUMN, tied] = x, g, j, i
-                w.nodes[HELD, tied] = (1 if held_r else 0) + (2 if held_z else 0)
-                if w.places[g, j, i] == 0:
-                    vertices += 1
-                    w.places[g, j, i] = vertices
-                w.nodes[VERTEX, tied] = w.places[g, j, i] - 1
                 w.starts[tied] = e
+                vertices = list_vertex(e, g, j, i, 1.0, held_r, held_z, vertices, w)
                 for n in range(w.masters[x, g]):
-                    by, row, column = master(n, g, j, i, x, w.where)
-                    held_r, held_z = held(row, column, w.constrained)
-                    weight = w.weights[x, g, n]
-                    if w.places[by, row, column] == 0:
-                        vertices += 1
-                        w.places[by, row, column] = vertices
-                    w.entries[0, e], w.entries[1, e], w.entries[2, e] = by, row, column
-                    w.entries[3, e] = w.places[by, row, column] - 1
-                    w.portions[e, 0] = 0.0 if held_r else weight
-                    w.portions[e, 1] = 0.0 if held_z else weight
-                    w.portions[e, 2] = 0.0 if held_r else weight / w.mass[by, row, column]
-                    w.portions[e, 3] = 0.0 if held_z else weight / w.mass[by, row, column]
                     e += 1
+                    by, row, column = master(n, g, j, i, x, w.where)
+                    still_r, still_z = held(row, column, w.constrained)
+                    vertices = list_vertex(e, by, row, column, -w.weights[x, g, n], held_r or still_r, held_z or still_z,
+                                           vertices, w)
+                e += 1
                 tied += 1
                 w.starts[tied] = e
-    for t in range(tied):
-        w.places[w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t]] = 0
     for n in range(e):
         w.places[w.entries[0, n], w.entries[1, n], w.entries[2, n]] = 0
     return tied, vertices
@@ -127,93 +130,112 @@ def list_ties(w):
 @point
 def mismatch(t, u, v, w):
     """Velocity of the t-th slave less that of its masters, along r and z; 0 along what the axis or a wall holds."""
-    g, j, i, still = w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t], w.nodes[HELD, t]
-    apart_r, apart_z = u[g, j, i], v[g, j, i]
+    apart_r, apart_z = 0.0, 0.0
     for e in range(w.starts[t], w.starts[t + 1]):
-        apart_r -= w.portions[e, 0] * u[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
-        apart_z -= w.portions[e, 1] * v[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
-    return 0.0 if still % 2 == 1 else apart_r, 0.0 if still >= 2 else apart_z
+        apart_r += w.portions[e, 0] * u[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
+        apart_z += w.portions[e, 1] * v[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
+    return apart_r, apart_z
 
 
 @apart
-def image_of_search(tied, vertices, w):
-    """What the search direction, as impulses, does to the mismatch: N M^-1 N^T p and the compliance; returns p . image.
+def assemble(tied, vertices, w):
+    """The matrix of the ties, N M^-1 N^T and the compliance, row by row; ties have an element where they share a vertex.
 
-    Reads    impulses [t, SEARCH]
-    Writes   impulses [t, IMAGE];  scratch gain [n, c], velocities of the listed vertices
+    Writes   lines [t + 1], the first element of a row; columns [n]; matrix [n, c]
+    Scratch  firsts [v + 1] and sharing [2, e], which ties a vertex has; elements [t]
     """
+    for n in range(vertices + 1):
+        w.firsts[n] = 0
+    for e in range(w.starts[tied]):
+        w.firsts[w.entries[3, e] + 1] += 1
     for n in range(vertices):
-        w.gain[n, 0] = 0.0
-        w.gain[n, 1] = 0.0
+        w.firsts[n + 1] += w.firsts[n]
     for t in range(tied):
-        own = w.nodes[VERTEX, t]
-        p_r, p_z = w.impulses[t, SEARCH], w.impulses[t, SEARCH + 1]
-        w.gain[own, 0] += p_r / w.impulses[t, MASS]
-        w.gain[own, 1] += p_z / w.impulses[t, MASS]
+        w.elements[t] = -1
         for e in range(w.starts[t], w.starts[t + 1]):
-            w.gain[w.entries[3, e], 0] -= w.portions[e, 2] * p_r
-            w.gain[w.entries[3, e], 1] -= w.portions[e, 3] * p_z
+            n = w.entries[3, e]
+            w.sharing[0, w.firsts[n]], w.sharing[1, w.firsts[n]] = t, e
+            w.firsts[n] += 1  # where those of the next vertex begin, in the end
+    end = 0
+    for t in range(tied):
+        w.lines[t] = end
+        for e in range(w.starts[t], w.starts[t + 1]):
+            n = w.entries[3, e]
+            for k in range(w.firsts[n - 1] if n > 0 else 0, w.firsts[n]):
+                other, f = w.sharing[0, k], w.sharing[1, k]
+                at = w.elements[other]
+                if at < w.lines[t]:
+                    at = end
+                    w.elements[other], w.columns[at], w.matrix[at, 0], w.matrix[at, 1] = at, other, 0.0, 0.0
+                    end += 1
+                w.matrix[at, 0] += w.portions[e, 0] * w.portions[f, 2]
+                w.matrix[at, 1] += w.portions[e, 1] * w.portions[f, 3]
+        strength = w.strength[w.nodes[SLOT, t], w.nodes[GROUP, t]]
+        compliance = (1.0 / strength - 1.0) / w.mass[w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t]]
+        for c in range(2):
+            own = w.matrix[w.elements[t], c]
+            w.matrix[w.elements[t], c] += compliance
+            w.impulses[t, DIAGONAL + c] = 1.0 / (own + compliance) if own > 0.0 else 0.0
+    w.lines[tied] = end
+
+
+@apart
+def image_of_search(tied, w):
+    """What the search direction, as impulses, does to the mismatch; returns p . image.
+
+    Reads    search [t, c], and the matrix;  writes impulses [t, IMAGE]
+    """
     along_r, along_z = 0.0, 0.0
     for t in range(tied):
-        own = w.nodes[VERTEX, t]
-        a_r, a_z = w.gain[own, 0], w.gain[own, 1]
-        for e in range(w.starts[t], w.starts[t + 1]):
-            a_r -= w.portions[e, 0] * w.gain[w.entries[3, e], 0]
-            a_z -= w.portions[e, 1] * w.gain[w.entries[3, e], 1]
-        a_r = 0.0 if w.nodes[HELD, t] % 2 == 1 else a_r
-        a_z = 0.0 if w.nodes[HELD, t] >= 2 else a_z
-        a_r += w.impulses[t, COMPLIANCE] * w.impulses[t, SEARCH]
-        a_z += w.impulses[t, COMPLIANCE] * w.impulses[t, SEARCH + 1]
+        a_r, a_z = 0.0, 0.0
+        for n in range(w.lines[t], w.lines[t + 1]):
+            a_r += w.matrix[n, 0] * w.search[w.columns[n], 0]
+            a_z += w.matrix[n, 1] * w.search[w.columns[n], 1]
         w.impulses[t, IMAGE] = a_r
         w.impulses[t, IMAGE + 1] = a_z
-        along_r += w.impulses[t, SEARCH] * a_r
-        along_z += w.impulses[t, SEARCH + 1] * a_z
+        along_r += w.search[t, 0] * a_r
+        along_z += w.search[t, 1] * a_z
     return along_r, along_z
 
 
 @apart
-def meet_ties(tied, vertices, w):
+def meet_ties(tied, w):
     """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
 
-    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch impulses [t, 12], gain [n, c]
+    Reads    what list_ties and assemble wrote
+    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch impulses [t, 8], search [t, c]
     """
     old_r, old_z = 0.0, 0.0
     for t in range(tied):
-        x, g, j, i = w.nodes[SLOT, t], w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t]
-        ease_r, ease_z = masters_mobility(g, j, i, x, w)
-        m = w.mass[g, j, i]
-        own = 1.0 / (w.strength[x, g] * m)
-        w.impulses[t, MASS] = m
-        w.impulses[t, COMPLIANCE] = (1.0 / w.strength[x, g] - 1.0) / m
-        r_r, r_z = mismatch(t, w.u, w.v, w)
+        tie, search = w.impulses[t], w.search[t]
+        tie[RESIDUAL], tie[RESIDUAL + 1] = mismatch(t, w.u, w.v, w)
         for c in range(2):
-            w.impulses[t, IMPULSE + c] = 0.0
-            w.impulses[t, DIAGONAL + c] = 1.0 / (own + (ease_r if c == 0 else ease_z))
-            w.impulses[t, RESIDUAL + c] = r_r if c == 0 else r_z
-            w.impulses[t, SEARCH + c] = w.impulses[t, DIAGONAL + c] * w.impulses[t, RESIDUAL + c]
-        old_r += w.impulses[t, SEARCH] * r_r
-        old_z += w.impulses[t, SEARCH + 1] * r_z
+            tie[IMPULSE + c] = 0.0
+            search[c] = tie[DIAGONAL + c] * tie[RESIDUAL + c]
+        old_r += search[0] * tie[RESIDUAL]
+        old_z += search[1] * tie[RESIDUAL + 1]
     enough_r, enough_z = TOLERANCE * TOLERANCE * old_r, TOLERANCE * TOLERANCE * old_z
     for _ in range(STEPS):
         if old_r <= enough_r and old_z <= enough_z:
             break
-        along_r, along_z = image_of_search(tied, vertices, w)
+        along_r, along_z = image_of_search(tied, w)
         step_r = old_r / along_r if old_r > enough_r else 0.0
         step_z = old_z / along_z if old_z > enough_z else 0.0
         new_r, new_z = 0.0, 0.0
         for t in range(tied):
-            w.impulses[t, IMPULSE] += step_r * w.impulses[t, SEARCH]
-            w.impulses[t, IMPULSE + 1] += step_z * w.impulses[t, SEARCH + 1]
-            w.impulses[t, RESIDUAL] -= step_r * w.impulses[t, IMAGE]
-            w.impulses[t, RESIDUAL + 1] -= step_z * w.impulses[t, IMAGE + 1]
-            new_r += w.impulses[t, DIAGONAL] * w.impulses[t, RESIDUAL] * w.impulses[t, RESIDUAL]
-            new_z += w.impulses[t, DIAGONAL + 1] * w.impulses[t, RESIDUAL + 1] * w.impulses[t, RESIDUAL + 1]
+            tie, search = w.impulses[t], w.search[t]
+            tie[IMPULSE] += step_r * search[0]
+            tie[IMPULSE + 1] += step_z * search[1]
+            tie[RESIDUAL] -= step_r * tie[IMAGE]
+            tie[RESIDUAL + 1] -= step_z * tie[IMAGE + 1]
+            new_r += tie[DIAGONAL] * tie[RESIDUAL] * tie[RESIDUAL]
+            new_z += tie[DIAGONAL + 1] * tie[RESIDUAL + 1] * tie[RESIDUAL + 1]
         again_r = new_r / old_r if old_r > enough_r else 0.0
         again_z = new_z / old_z if old_z > enough_z else 0.0
         for t in range(tied):
-            tie = w.impulses[t]
-            tie[SEARCH] = tie[DIAGONAL] * tie[RESIDUAL] + again_r * tie[SEARCH]
-            tie[SEARCH + 1] = tie[DIAGONAL + 1] * tie[RESIDUAL + 1] + again_z * tie[SEARCH + 1]
+            tie, search = w.impulses[t], w.search[t]
+            search[0] = tie[DIAGONAL] * tie[RESIDUAL] + again_r * search[0]
+            search[1] = tie[DIAGONAL + 1] * tie[RESIDUAL + 1] + again_z * search[1]
         old_r, old_z = new_r, new_z
     for t in range(tied):
         x, g, j, i = w.nodes[SLOT, t], w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t]
@@ -320,7 +342,7 @@ def settle(w):
     Reads    what find_extensions wrote; mass [b, j, i]; contact_normal [3, 2, j, i], touch; line, sig_.. [j, i]
     Updates  u, v [b, j, i]; adds to transfer[4, j]
     Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; what list_ties writes
-    Scratch  impulses [t, 12], gain [n, c]
+    Scratch  what assemble writes; impulses [t, 8], search [t, c]
     """
     j0, j1 = outer_rows(w.parts)
     for x in range(w.first_slot[j1 + 1]):
@@ -330,13 +352,14 @@ def settle(w):
         for c in range(3):
             w.rubbing[c, x] = 0.0
     tied, vertices = list_ties(w)
-    meet_ties(tied, vertices, w)
+    assemble(tied, vertices, w)
+    meet_ties(tied, w)
     for _ in range(ROUNDS if w.friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(w.contact_node_count[j]):
                 if w.touch[j, w.contact_nodes[j, k]] > 0.0:
                     rub(j, w.contact_nodes[j, k], w.first_slot[j] + k, w)
-        meet_ties(tied, vertices, w)
+        meet_ties(tied, w)
 
 
 @serial

@@ -25,26 +25,43 @@ class Ties(NamedTuple):
     starts: np.ndarray
     entries: np.ndarray
     portions: np.ndarray
+    firsts: np.ndarray
+    sharing: np.ndarray
+    lines: np.ndarray
+    columns: np.ndarray
+    elements: np.ndarray
+    matrix: np.ndarray
     impulses: np.ndarray
-    gain: np.ndarray
+    search: np.ndarray
     taken: np.ndarray
     rubbing: np.ndarray
 
 
+#: ties that can share a vertex with one: both groups' in the square in which the squares of their masters overlap
+NEIGHBOURS = 2 * (2 * extension.SPAN - 1) ** 2
+
+
 def slots(number: int = 0) -> Ties:
     """Ties with slots for a number of contact nodes."""
-    most = 2 * number * (extension.MASTERS + 1)
+    ties = 2 * number
+    entries, elements = ties * (extension.MASTERS + 2), ties * min(ties, NEIGHBOURS)
     return Ties(
         strength=np.zeros((number, 2)),
         masters=np.zeros((number, 2), dtype=np.int64),
         where=np.zeros((number, 2, extension.MASTERS + 1), dtype=np.int64),
         weights=np.zeros((number, 2, extension.MASTERS + 1)),
-        nodes=np.zeros((6, 2 * number), dtype=np.int64),
-        starts=np.zeros(2 * number + 1, dtype=np.int64),
-        entries=np.zeros((4, most), dtype=np.int64),
-        portions=np.zeros((most, 4)),
-        impulses=np.zeros((2 * number, 12)),
-        gain=np.zeros((most + 2 * number, 2)),
+        nodes=np.zeros((4, ties), dtype=np.int64),
+        starts=np.zeros(ties + 1, dtype=np.int64),
+        entries=np.zeros((4, entries), dtype=np.int64),
+        portions=np.zeros((entries, 4)),
+        firsts=np.zeros(entries + 1, dtype=np.int64),
+        sharing=np.zeros((2, entries), dtype=np.int64),
+        lines=np.zeros(ties + 1, dtype=np.int64),
+        columns=np.zeros(elements, dtype=np.int64),
+        elements=np.zeros(ties, dtype=np.int64),
+        matrix=np.zeros((elements, 2)),
+        impulses=np.zeros((ties, 8)),
+        search=np.zeros((ties, 2)),
         taken=np.zeros((2, number, 2)),
         rubbing=np.zeros((3, number)),
     )

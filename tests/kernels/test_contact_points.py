@@ -12,6 +12,7 @@ from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact import GAP
+from hydro2d.solver import contact
 from tests.kernels.cells import handle
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 from tests.physics.continuity import changes_in_proportion
@@ -75,11 +76,12 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
 
 
 def room_for_ties(slots: int, vertices=(7, 7)):
-    """nodes, starts, entries, portions and places as `list_ties` fills them."""
-    most = 2 * slots * (MASTERS + 1)
-    nodes, starts, entries, places = (np.zeros(shape, dtype=np.int64) for shape in (
-        (6, 2 * slots), 2 * slots + 1, (4, most), (2, *vertices)))
-    return {"nodes": nodes, "starts": starts, "entries": entries, "portions": np.full((most, 4), np.nan), "places": places}
+    """places and what `settle` writes of ties, which nothing has written yet."""
+    ties = contact.slots(slots)._asdict()
+    room = {name: ties[name] for name in ties if name not in ("strength", "masters", "where", "weights")}
+    for values in room.values():
+        values[...] = np.nan if values.dtype == np.float64 else -1
+    return {"places": np.zeros((2, *vertices), dtype=np.int64), **room}
 
 
 def apart(number, where, weights, mass, u, v, constrained):
@@ -155,9 +157,7 @@ class Settled:
             contact_columns=np.tile(rows, (cells[0], 1)), line=line, contact_node_count=found.count, contact_nodes=found.nodes,
             first_slot=found.first, contact_normal=found.normal, touch=np.ones(vertices), strength=ties[0], masters=ties[1],
             where=ties[2], weights=ties[3], sig_rr=pressure, sig_zz=pressure.copy(), sig_rz=np.zeros(cells), mass=self.mass,
-            u0=before[0].copy(), v0=before[1].copy(), u=w[0], v=w[1], **listed, impulses=np.full((2 * slots, 12), np.nan),
-            gain=np.full((2 * slots * (MASTERS + 2), 2), np.nan), taken=np.full((2, slots, 2), np.nan),
-            rubbing=np.full((3, slots), np.nan), heat=self.heat, transfer=self.transfer)
+            u0=before[0].copy(), v0=before[1].copy(), u=w[0], v=w[1], **listed, heat=self.heat, transfer=self.transfer)
         settle(names)
         warm_contact(names)
         self.after = w

@@ -37,7 +37,8 @@ class Settled:
             s.v[group] = 0.0 if disturb else d - c * r + b * z
         engine.close_cells()
         (j0, j1, _, _), ties = engine.box, engine.contact.ties
-        strength, number, where, weights = ties.strength, ties.masters, ties.where, ties.weights
+        made = ties._asdict()
+        strength, number, where, weights = (made.pop(name) for name in ("strength", "masters", "where", "weights"))
         random = np.random.default_rng(1)
         #: (group, row, column) of the slaves that are tied in full, to their group alone
         self.slaves = []
@@ -59,14 +60,11 @@ class Settled:
             dz=g.dz, contact_columns=s.contact_columns, line=s.line, contact_node_count=s.contact_node_count,
             contact_nodes=s.contact_nodes, first_slot=s.first_slot, contact_normal=s.contact_normal,
             touch=np.zeros_like(s.touch), strength=strength, masters=number, where=where, weights=weights, sig_rr=s.sig_rr,
-            sig_zz=s.sig_zz, sig_rz=s.sig_rz, mass=s.mass, u=s.u, v=s.v, nodes=ties.nodes, starts=ties.starts,
-            entries=ties.entries, portions=ties.portions, places=s.places, impulses=ties.impulses, gain=ties.gain,
-            taken=ties.taken, rubbing=ties.rubbing, transfer=s.transfer))
+            sig_zz=s.sig_zz, sig_rz=s.sig_rz, mass=s.mass, u=s.u, v=s.v, places=s.places, transfer=s.transfer, **made))
         contact_velocities.warm_contact(
             handle(parts=np.array([j0, j1]), contact_node_count=s.contact_node_count, contact_nodes=s.contact_nodes,
             first_slot=s.first_slot, strength=strength, masters=number, where=where, weights=weights, mass=s.mass, u0=s.u0,
-            v0=s.v0, u=s.u, v=s.v, nodes=ties.nodes, starts=ties.starts, entries=ties.entries, portions=ties.portions,
-            taken=ties.taken, rubbing=ties.rubbing, heat=s.heat, transfer=s.transfer))
+            v0=s.v0, u=s.u, v=s.v, heat=s.heat, transfer=s.transfer, **made))
         self.after = s.velocity.copy()
 
 
