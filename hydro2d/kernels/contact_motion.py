@@ -22,7 +22,7 @@ from hydro2d.physics.closure import stiff_density
 from hydro2d.physics.contact import meeting, volume_rate
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale
-from hydro2d.physics.viscosity import directional_viscosity, shut
+from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
 from hydro2d.physics.waves import sound_step, volume_step
 
 #: void given to full cells without pressure whose groups part, so that it takes the opening and nothing is stretched
@@ -88,8 +88,8 @@ def contact_viscosity(j, w):
             slope_z = abs(w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i])
             steep = sqrt(slope_r * slope_r + slope_z * slope_z)
             length = steep / (slope_r / w.dr[i] + slope_z / h) if steep > 0.0 else min(w.dr[i], h)
-            viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, w.viscosity_linear,
-                                                     w.viscosity_quadratic)
+            linear = linear_in_step(w.viscosity_linear, w.dt * w.cl[j, i] / length)
+            viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, w.viscosity_quadratic)
             w.qr[j, i] = viscosity
             w.qz[j, i] = viscosity
             w.qt[j, i] = viscosity

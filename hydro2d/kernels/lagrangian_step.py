@@ -48,6 +48,8 @@ close_cells = Phase(
          WAIT,
          alone(contact_geometry.number_nodes)),
     unless("contact",
+           thermodynamics.limit_step,
+           WAIT,
            alone(thermodynamics.least_step)),
 )  # fmt: skip
 
@@ -62,6 +64,7 @@ find_contact = Phase(
     extension.find_extensions,
     WAIT,
     contact_motion.contact_viscosity,
+    thermodynamics.limit_step,
     WAIT,
     alone(thermodynamics.least_step),
 )

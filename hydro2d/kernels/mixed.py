@@ -41,7 +41,7 @@ from hydro2d.kernels.mixed_strength import (
     strain_deviators,
     work_of_deviators,
 )
-from hydro2d.kernels.thermodynamics import compression_viscosity_row, pressures_row, steps_row, viscosity_row
+from hydro2d.kernels.thermodynamics import compression_viscosity_row, pressures_row, viscosity_row
 from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
@@ -110,12 +110,12 @@ def insert_void_mixed_row(j, w):
 
 @cell_rows
 def close_cells(j, part, w):
-    """Equation of state, void where a cell fractures, artificial viscosity and the time step that every cell allows.
+    """Equation of state, void where a cell fractures, and artificial viscosity.
 
     The viscosity takes the directions of the mesh, or along_compression that of the strongest compression.
 
-    Reads, updates and writes what pressures_row, insert_void_mixed_row, viscosity_row or compression_viscosity_row, and
-             steps_row do, and the list of mixed cells
+    Reads, updates and writes what pressures_row, insert_void_mixed_row, and viscosity_row or compression_viscosity_row do, and
+             the list of mixed cells;  writes row_step [j], endless
     Scratch  scratch [s, part, i]
     """
     pressures_row(j, part, w)
@@ -132,7 +132,7 @@ def close_cells(j, part, w):
         compression_viscosity_row(j, w)
     else:
         viscosity_row(j, w)
-    steps_row(j, part, w)
+    w.row_step[j] = 1e300
 
 
 @point

@@ -12,7 +12,7 @@ from eos.dispatch import (
     temperature_row_with_memory,
     zero_pressure_density,
 )
-from hydro2d.jit import apart, point, rowwise, serial
+from hydro2d.jit import apart, cell_rows, point, rowwise, serial
 from hydro2d.kernels.column_ranges import columns, outer_rows
 from hydro2d.materials.rows import (
     CUTOFF_DENSITY,
@@ -33,7 +33,14 @@ from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
 from hydro2d.physics.stress import largest_principal, von_mises
-from hydro2d.physics.viscosity import directional_viscosity, length_along, shut, smoothness, strongest_compression
+from hydro2d.physics.viscosity import (
+    directional_viscosity,
+    length_along,
+    linear_in_step,
+    shut,
+    smoothness,
+    strongest_compression,
+)
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
@@ -248,7 +255,7 @@ def viscosity_row(j, w):
     no shock and no q. Christensen's limiter switches both off where the velocity is smooth, and void, which shuts before
     anything is compressed, where there is more than a little of it (`shut`). The hoop bears q_r (explanation/lagrangian-step).
 
-    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
+    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]; dt, the last step
     Writes   qr, qz, qt [j, i]
     """
     lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
@@ -282,8 +289,10 @@ def viscosity_row(j, w):
         du_q = max(du, -max(loss, 0.0) * w.dr[i])
         dv_q = max(dv, -max(loss, 0.0) * h)
         full = shut(solid_j[i])
-        q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), w.viscosity_linear, w.viscosity_quadratic)
-        q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), w.viscosity_linear, w.viscosity_quadratic)
+        run = w.dt * cl_j[i]
+        linear_r, linear_z = linear_in_step(w.viscosity_linear, run / w.dr[i]), linear_in_step(w.viscosity_linear, run / h)
+        q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear_r, w.viscosity_quadratic)
+        q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear_z, w.viscosity_quadratic)
         qr_j[i] = 0.0 if void else q_r
         qz_j[i] = 0.0 if void else q_z
         qt_j[i] = qr_j[i]
@@ -298,7 +307,7 @@ def compression_viscosity_row(j, w):
     has the width of one along it, and a front that converges heats nothing that it has not reached (explanation/
     lagrangian-step, equation 11a).
 
-    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]
+    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]; dt, the last step
     Writes   qr, qz, qt, qrz [j, i]
     """
     lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
@@ -338,13 +347,15 @@ def compression_viscosity_row(j, w):
         sv_r = 0.5 * ((vb[i + 2] - vb[i + 1]) + (vt[i + 2] - vt[i + 1]))
         rate, n_r, n_z = strongest_compression(du / w.dr[i], dv / h, 0.5 * (su / h + sv / w.dr[i]))
         loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
-        jump = max(rate, -max(loss, 0.0)) * length_along(n_r, n_z, w.dr[i], h)
+        length = length_along(n_r, n_z, w.dr[i], h)
+        jump = max(rate, -max(loss, 0.0)) * length
         psi_r = smoothness(n_r * du_l + n_z * sv_l, n_r * du + n_z * sv, n_r * du_r + n_z * sv_r)
         psi_z = smoothness(n_r * su_b + n_z * dv_b, n_r * su + n_z * dv, n_r * su_t + n_z * dv_t)
         psi = n_r * n_r * psi_r + n_z * n_z * psi_z
         c = bulk_j[i] / rho
         c = sqrt(c) if c > 0.0 else cl_j[i]
-        q = shut(solid_j[i]) * directional_viscosity(rho, c, jump, psi, w.viscosity_linear, w.viscosity_quadratic)
+        linear = linear_in_step(w.viscosity_linear, w.dt * cl_j[i] / length)
+        q = shut(solid_j[i]) * directional_viscosity(rho, c, jump, psi, linear, w.viscosity_quadratic)
         q = 0.0 if void else q
         qr_j[i] = q * (n_r * n_r)
         qz_j[i] = q * (n_z * n_z)
@@ -352,8 +363,8 @@ def compression_viscosity_row(j, w):
         qt_j[i] = 0.0
 
 
-@rowwise
-def steps_row(j, b, w):
+@cell_rows
+def limit_step(j, part, w):
     """The time step that every cell allows, and the coefficient of its hourglass filter.
 
     dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), less in a shock, and a share of the largest that is stable
@@ -375,7 +386,7 @@ def steps_row(j, b, w):
     qz_j = w.qz[j]
     rho_j = w.rhobar[j]
     cl_j = w.cl[j]
-    step_j = w.scratch[1, b]
+    step_j = w.scratch[1, part]
     hg_j = w.hg_coefficient[j]
     h = w.dz[j]
     wrong = 0
@@ -392,7 +403,7 @@ def steps_row(j, b, w):
         hg_j[i] = 0.25 * w.hourglass * rho_j[i] * cl_j[i] * w.metrics[VOL_R, i] * h / max(w.dr[i], h)
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
         wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
-    w.row_step[j] = row_minimum(step_j, lo, n)
+    w.row_step[j] = min(w.row_step[j], row_minimum(step_j, lo, n))
     w.bad[j, 3] = wrong
 
 
@@ -415,7 +426,7 @@ def least_step(w):
 def step_cause(w):
     """Which cell of the row with the least step allows it, and which of the bounds it is.
 
-    Reads    what steps_row read; least_row [3]
+    Reads    what limit_step read; least_row [3]
     Writes   cause [2]: index into CAUSES, column
     """
     j = w.least_row[0]

@@ -5,6 +5,10 @@ from math import sqrt
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
+#: what courant^2 + 2 linear courant may be for a front that does not ring: of 1, where one that all cells damp is unstable
+CARRIED = 0.75
+#: a courant that carries any viscosity
+SHORT = 1e-3
 #: share of solids in a cell up to which void takes the compression, and nothing is shocked
 OPEN = 0.99
 
@@ -18,6 +22,14 @@ def smoothness(left, centre, right):
     inverse = 1.0 / centre if centre != 0.0 else 0.0
     a, b = left * inverse, right * inverse
     return max(0.0, min(min(1.0, 0.5 * (a + b)), min(2.0 * a, 2.0 * b)))
+
+
+@point
+def linear_in_step(linear, courant):
+    """The linear coefficient where sound crosses the share `courant` of a cell in a step: as much of `linear` as such a step
+    carries, since a front whose viscosity is that at the beginning of the step rings with more (explanation/lagrangian-step,
+    equation 10a)."""
+    return min(linear, max(CARRIED - courant * courant, 0.0) / (2.0 * max(courant, SHORT)))
 
 
 @point

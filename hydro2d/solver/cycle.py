@@ -104,7 +104,7 @@ class Cycle:
             self.speed_limit = time_step.speed_limit(s, self.sound_speeds)
         else:
             self.active.box = every
-        self.given.handle.give(speed_limit=self.speed_limit)
+        self.given.handle.give(speed_limit=self.speed_limit, dt=self.dt)
         if not self.active.is_all:  # beyond the box nothing has a range yet
             s.empty_ranges()
             self._in_one_part(remap_step.find_bodies, anew=True)
