@@ -19,8 +19,11 @@ GROWING = 0.1
 
 @point
 def within(offset, fraction):
-    """Offset of a centroid from the middle of the cell, such that the fraction of the cell fits in around it."""
-    most = 0.5 * (1.0 - fraction)
+    """Offset of a centroid from the middle of the cell, such that the fraction of the cell fits in around it.
+
+    A fraction that is above 1 by round-off leaves no room on either side.
+    """
+    most = max(0.5 * (1.0 - fraction), 0.0)
     return min(max(offset, -most), most)
 
 

@@ -79,6 +79,11 @@ def test_a_centroid_leaves_room_for_what_it_is_of(offset, fraction):
 
 def test_a_centroid_goes_no_further_than_to_the_face():
     assert within(0.1, 0.3) == 0.1
+
+
+@pytest.mark.parametrize("offset", [-0.1, 0.0, 0.1])
+def test_a_fraction_above_one_leaves_no_room_on_either_side(offset):
+    assert within(offset, 1.0 + 2e-16) == 0.0
     assert within(0.5, 0.3) == pytest.approx(0.35)
     assert within(-0.5, 0.3) == pytest.approx(-0.35)
     assert within(0.2, 1.0) == 0.0

@@ -15,6 +15,7 @@ directional_viscosity = viscosity.directional_viscosity.py_func
 shut = viscosity.shut.py_func
 strongest_compression = viscosity.strongest_compression.py_func
 length_along = viscosity.length_along.py_func
+linear_in_step = viscosity.linear_in_step.py_func
 
 DIFFERENCE = st.floats(-1e3, 1e3)
 #: nothing so small that its inverse overflows
@@ -98,6 +99,13 @@ def test_the_quadratic_part_can_be_the_pressure_of_a_strong_shock():
     gamma, rho, u_p = 5.0 / 3.0, 1.2, 3000.0
     u_s = 0.5 * (gamma + 1.0) * u_p
     assert directional_viscosity(rho, 340.0, -u_p, 0.0, 0.0, u_s / u_p) == pytest.approx(rho * u_s * u_p)
+
+
+@pytest.mark.parametrize(("courant", "expected"), [(0.0, 0.5), (0.3, 0.5), (0.5, 0.5), (0.6, 0.325), (0.7, 0.26 / 1.4), (0.9, 0.0)])
+def test_a_step_carries_so_much_linear_viscosity(courant, expected):
+    """courant^2 + 2 linear courant is no more than it is with 0.5 and 0.5; a deck with less keeps that."""
+    assert linear_in_step(0.5, courant) == pytest.approx(expected)
+    assert linear_in_step(0.1, courant) == pytest.approx(min(0.1, expected))
 
 
 def test_the_linear_part_can_be_the_pressure_of_a_weak_wave():

@@ -17,6 +17,7 @@ CELL = {
     "vb": [9e9, 1.0, 1.0, 9e9],
     "vt": [9e9, 1.0, 1.0, 9e9],
     "courant": 0.5,
+    "shock_courant": 0.5,
     "advective": 0.4,
     "linear": 0.0,
     "quadratic": 1.0,
@@ -158,8 +159,18 @@ def test_a_cell_with_void_has_a_longitudinal_impedance_alone():
 def test_sound_and_a_shock_cross_a_length():
     """The viscosity counts as twice its stress over the density: (3, 4, 5) in km/s."""
     sound_step = waves.sound_step.py_func
-    assert sound_step(0.5, 1e-3, 0.5, 1.3, 8000.0, 5000.0, 0.0) == pytest.approx(1e-7)
-    assert sound_step(0.5, 1e-3, 0.5, 1.3, 8000.0, 3000.0, 0.5 * 8000.0 * 4000.0**2) == pytest.approx(1e-7)
+    assert sound_step(0.5, 0.5, 1e-3, 0.5, 1.3, 8000.0, 5000.0, 0.0) == pytest.approx(1e-7)
+    assert sound_step(0.5, 0.5, 1e-3, 0.5, 1.3, 8000.0, 3000.0, 0.5 * 8000.0 * 4000.0**2) == pytest.approx(1e-7)
+
+
+def test_a_shock_crosses_less_of_a_cell():
+    """From a thousandth of rho c_l^2 on, and half of the way at the half of that; a courant below shock_courant holds as it is."""
+    shocked = waves.SHOCKED * RHO * C_LONG**2
+    shares = [waves.share_crossed.py_func(0.7, 0.5, RHO, C_LONG, q) for q in (0.0, 0.5 * shocked, shocked, 9.0 * shocked)]
+    assert shares == pytest.approx([0.7, 0.6, 0.5, 0.5])
+    assert waves.share_crossed.py_func(0.4, 0.5, RHO, C_LONG, 9.0 * shocked) == 0.4
+    step = waves.sound_step.py_func(0.7, 0.5, 1e-3, 0.0, 0.0, RHO, C_LONG, shocked)
+    assert step == pytest.approx(0.5e-3 / (C_LONG * np.sqrt(1.0 + 2.0 * waves.SHOCKED)))
 
 
 def test_the_slope_of_the_viscosity():
@@ -175,7 +186,7 @@ def test_no_step_is_longer_than_a_share_of_the_largest_that_a_damped_leapfrog_al
     of -1 at the limit."""
     rho, c, length, quadratic = 8000.0, 5000.0, 1e-3, 1.3
     q = rho * (quadratic * du * du + linear * c * du)
-    step = waves.sound_step.py_func(1.0, length, linear, quadratic, rho, c, q) / waves.STABLE
+    step = waves.sound_step.py_func(1.0, 1.0, length, linear, quadratic, rho, c, q) / waves.STABLE
     wave, loss = 2.0 * c * step / length, 2.0 * (linear * c + 2.0 * quadratic * du) * step / length
     eigenvalues = np.linalg.eigvals([[1.0 - loss, -wave], [wave * (1.0 - loss), 1.0 - wave * wave]])
     assert np.abs(eigenvalues).max() == pytest.approx(1.0, abs=1e-9)
