@@ -73,7 +73,10 @@ class Handle:
 
         Raises KeyError for a name that is not declared, TypeError for a value of another type, axes or order in memory.
         """
+        kept = self.values
         for name, value in values.items():
+            if kept.get(name) is value:
+                continue
             row, kind, axes = _rows[name]
             if axes:
                 if not (isinstance(value, np.ndarray) and value.dtype == kind and value.ndim == axes
@@ -86,7 +89,7 @@ class Handle:
                 raise TypeError(f"{name} is a number, {kind.__name__}, not {value!r:.80}")
             else:
                 (self._floats if kind is float else self._words)[row, 0] = value
-            self.values[name] = value
+            kept[name] = value
 
     def exchange(self, some: tuple[str, ...], others: tuple[str, ...]) -> None:
         """Has every name stand for what its partner among the others stood for, which is of the same type, and the reverse."""

@@ -29,12 +29,13 @@ class ActiveBox:
         self._state, self._table, self._boundaries, self._skips = state, table, boundaries, skips
         g, nz, nr = state.grid.g, state.grid.nz, state.grid.nr
         self.mesh = np.array([g, g + nz, g, g + nr], dtype=np.int64)
-        self.box: list[int] = self.mesh.tolist()
+        self._all: list[int] = self.mesh.tolist()
+        self.box = list(self._all)
 
     @property
     def is_all(self) -> bool:
         """Whether every cell is active."""
-        return self.box == self.mesh.tolist()
+        return self.box == self._all
 
     @property
     def rows(self) -> np.ndarray:
@@ -43,7 +44,7 @@ class ActiveBox:
 
     def reaches(self) -> list[bool]:
         """Whether it has come to the low and the high edge along z, and along r."""
-        return [here == there for here, there in zip(self.box, self.mesh.tolist(), strict=True)]
+        return [here == there for here, there in zip(self.box, self._all, strict=True)]
 
     def begin(self) -> None:
         """Becomes the smallest box around everything that moves or is under pressure or stress, the edges that drive, and the

@@ -48,9 +48,11 @@ class Books:
 
     def outflow(self, di: int) -> None:
         """What left through the edges of a sweep, and came in."""
-        cycle = self._cycle
+        cycle, edges = self._cycle, self.open_edges(di)
+        if not any(edges):
+            return
         first, last = cycle.box[:2] if di else cycle.box[2:]
-        for side, (opened, (out, back)) in enumerate(zip(self.open_edges(di), self._state.outflow, strict=True)):
+        for side, (opened, (out, back)) in enumerate(zip(edges, self._state.outflow, strict=True)):
             if opened:
                 cycle.courses.crossed(di, side, first, last, cycle.mesh.velocity * cycle.dt)
             if opened and out.any():
@@ -75,8 +77,10 @@ class Books:
 
     def _kinetic_outflow(self, di: int) -> float:
         """Enters the momentum that went through open edges and returns the kinetic energy that left with it."""
-        total = 0.0
-        for opened, ways in zip(self.open_edges(di), self._state.kinetic_outflow.tolist(), strict=True):
+        total, edges = 0.0, self.open_edges(di)
+        if not any(edges):
+            return total
+        for opened, ways in zip(edges, self._state.kinetic_outflow.tolist(), strict=True):
             for name, (axial, energy) in zip(("outflow", "inflow"), ways, strict=True):
                 if opened and energy != 0.0:
                     self.audit.add(name, momentum=axial, energy=energy)

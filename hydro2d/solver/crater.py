@@ -123,8 +123,10 @@ class Crater:
     def _unbent(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         """The same, with every column of cells moved back by as much as it has gone along with the plate: as its rear has."""
         order = slice(None, None, 1 if self.direction > 0 else -1)
-        wall, filled = (cells[order].copy() for cells in walls)
         edges = self._depth(self.sim.grid.z_edges)[order]
+        if edges[-1] <= self.rear:
+            return walls
+        wall, filled = (cells[order].copy() for cells in walls)
         face, way, whole = self._bends(wall, filled, edges)
         for i in np.nonzero(way * np.where(whole, face, 1.0) > 0.0)[0]:
             if whole[i]:

@@ -18,7 +18,7 @@ from problems import kept as results
 KEPT = Path(__file__).parent / "results" / "spall.csv"
 COLUMNS = ("shot", "failure", "cells", "top_m_s", "lowest_m_s", "pull_back_m_s", "rebound_m_s")
 #: what velocities have to rise by after the lowest one for it to be that, m/s: less is a ripple
-RISE = 15.0
+RISE = 20.0
 #: thickness of the target, m
 THICKNESS = 4e-3
 

@@ -101,7 +101,8 @@ def test_the_quadratic_part_can_be_the_pressure_of_a_strong_shock():
     assert directional_viscosity(rho, 340.0, -u_p, 0.0, 0.0, u_s / u_p) == pytest.approx(rho * u_s * u_p)
 
 
-@pytest.mark.parametrize(("courant", "expected"), [(0.0, 0.5), (0.3, 0.5), (0.5, 0.5), (0.6, 0.325), (0.7, 0.26 / 1.4), (0.9, 0.0)])
+@pytest.mark.parametrize(("courant", "expected"), [(0.0, 0.5), (0.3, 0.5), (0.5, 0.5), (0.6, 0.325), (0.7, 0.26 / 1.4),
+                                                   (0.9, 0.0)])  # fmt: skip
 def test_a_step_carries_so_much_linear_viscosity(courant, expected):
     """courant^2 + 2 linear courant is no more than it is with 0.5 and 0.5; a deck with less keeps that."""
     assert linear_in_step(0.5, courant) == pytest.approx(expected)

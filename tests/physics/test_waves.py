@@ -164,7 +164,7 @@ def test_sound_and_a_shock_cross_a_length():
 
 
 def test_a_shock_crosses_less_of_a_cell():
-    """From a thousandth of rho c_l^2 on, and half of the way at the half of that; a courant below shock_courant holds as it is."""
+    """From a thousandth of rho c_l^2 on, and by half at the half of that; a courant below shock_courant holds as it is."""
     shocked = waves.SHOCKED * RHO * C_LONG**2
     shares = [waves.share_crossed.py_func(0.7, 0.5, RHO, C_LONG, q) for q in (0.0, 0.5 * shocked, shocked, 9.0 * shocked)]
     assert shares == pytest.approx([0.7, 0.6, 0.5, 0.5])

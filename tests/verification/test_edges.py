@@ -90,7 +90,7 @@ def middle(simulation: Simulation, component: str) -> np.ndarray:
 @pytest.mark.parametrize(("velocity", "component", "time"), [((0.0, 10.0), "v", "4 us"), ((10.0, 0.0), "u", "7 us")],
                          ids=["longitudinal", "shear"])
 def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, time):
-    """A pulse of 5 m/s goes out; a free surface sends all of it back, the edge 2.4 % (longitudinal) and 5.4 % (shear).
+    """A pulse of 5 m/s goes out; a free surface sends all of it back, the edge 3.3 % (longitudinal) and 5.4 % (shear).
 
     The pulse is eight cells long, and what comes back is mostly the ringing behind its steep ends.
     """
@@ -99,7 +99,7 @@ def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, ti
     endless = middle(Simulation(decks.loads(WAVE, [*options, *LONG])), component)
     free = middle(Simulation(decks.loads(WAVE, [*options, *FREE])), component)
     assert np.abs(free - endless).max() > 3.0
-    assert np.abs(left - endless).max() < (0.15 if component == "v" else 0.3)
+    assert np.abs(left - endless).max() < (0.2 if component == "v" else 0.3)
 
 
 def test_what_goes_through_transmitting_edges_is_recorded():

@@ -84,12 +84,8 @@ def pulled(material, choice):
     return top, lowest, velocity[time > time[velocity == lowest][0]], depth
 
 
-SHORT = pytest.mark.xfail(strict=True, reason="10.01 % short")
-
-
-@pytest.mark.parametrize(("material", "choice"), [
-    pytest.param(name, choice, marks=SHORT if (name, choice) == ("Al5083", "both") else ()) for name in CASES
-    for choice in ("ke", "both")])  # fmt: skip
+@pytest.mark.parametrize("material", CASES)
+@pytest.mark.parametrize("choice", ["ke", "both"])
 def test_pull_back(material, choice):
     """The surface slows by 2 p_cut/(rho0 c0) (acoustics, 10 %)."""
     top, lowest, _, _ = pulled(material, choice)
