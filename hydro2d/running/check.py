@@ -15,7 +15,7 @@ from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import BY_NAME, halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
-from hydro2d.physics import waves
+from hydro2d.physics.waves import STABLE
 from hydro2d.solver import insertion, memory, sources
 from hydro2d.terminal import duration, one_line, several
 
@@ -220,9 +220,9 @@ def _cycles(deck, grid, table, start) -> int:
     mesh_speed = decks.body(deck, deck.mesh.follow).velocity[1] if deck.mesh.follow else 0.0
     speed = float(np.max(np.hypot(start["u_cell"], start["v_cell"] - mesh_speed)))
     numerics = deck.numerics
-    sound = waves.sound_step(numerics.courant, numerics.shock_courant, smallest, numerics.viscosity_linear,
-                             numerics.viscosity_quadratic, 1.0, max(fastest, 1e-30), 0.0)
-    dt = min(sound, numerics.advective_courant * smallest / max(speed, 1e-30))
+    half = 0.5 * numerics.viscosity_linear
+    courant = min(numerics.courant, STABLE / (half + math.sqrt(1.0 + half * half)))  # `waves.sound_step` without a shock
+    dt = smallest / max(fastest / courant, speed / numerics.advective_courant, 1e-30)
     if dt < numerics.dt_min:
         raise DeckError(f"the first time step would be {dt:.3g} s, below numerics.dt_min = {numerics.dt_min:g} s: "
                         f"the smallest cell is {smallest:.3g} m wide")
