@@ -230,7 +230,7 @@ def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
 def seen(cells: Cells) -> np.ndarray:
     step = np.full(8, 1e300)
     cells.call(contact_motion.contact_viscosity, viscosity_linear=0.5, viscosity_quadratic=2.0, courant=0.5,
-               row_step=step)  # fmt: skip
+               shock_courant=0.5, dt=0.0, row_step=step)  # fmt: skip
     return step
 
 

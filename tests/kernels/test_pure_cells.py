@@ -5,7 +5,7 @@ import pytest
 
 from eos import ideal_gas
 from eos.layout import ROW
-from hydro2d.kernels import deformation, mixed
+from hydro2d.kernels import deformation, mixed, thermodynamics
 from hydro2d.kernels.cut_cells import KIND, WHOLE
 from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
 from hydro2d.mesh.fields import RHO, E
@@ -28,8 +28,11 @@ def gas(**given) -> Cells:
 
 
 def closed(cells: Cells, **given) -> Cells:
-    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, viscosity_linear=0.5, viscosity_quadratic=2.0,
-               courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1, **given)  # fmt: skip
+    viscosity = {"viscosity_linear": 0.5, "viscosity_quadratic": 2.0}
+    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, **viscosity, **({"dt": 0.0} | given))
+    assert (cells.row_step[2:6] == 1e300).all()
+    cells.call(thermodynamics.limit_step, courant=0.5, shock_courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1,
+               **viscosity)  # fmt: skip
     return cells
 
 
@@ -53,6 +56,23 @@ def test_viscosity_along_the_one_direction_that_is_pressed_together():
     b = 0.5 * (4.0 * 2.0 + 0.5 * np.sqrt(7.5))
     assert cells.row_step[3] == pytest.approx(STABLE / (b + np.sqrt(7.5 + b * b)))
     assert cells.row_step[3] < min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0)
+
+
+def test_a_cell_has_the_linear_viscosity_that_its_last_step_carries():
+    """Sound crosses 0.7 of the cell of 1 m in it: (0.75 - 0.49)/1.4 instead of 0.5."""
+    cells = gas()
+    cells.v[0, 4:] = -2.0
+    closed(cells, dt=0.7 / np.sqrt(7.5))
+    assert cells.qz[AT] == pytest.approx(2.0 * (2.0 * 4.0 + 0.26 / 1.4 * np.sqrt(7.5) * 2.0))
+
+
+def test_another_bound_of_the_step_is_kept():
+    """That of a contact, which stands in row_step when the cells are looked at."""
+    cells = closed(gas())
+    cells.row_step[3] = 0.01
+    cells.call(thermodynamics.limit_step, courant=0.5, shock_courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1,
+               viscosity_linear=0.5, viscosity_quadratic=2.0)  # fmt: skip
+    assert cells.row_step[3] == 0.01
 
 
 @pytest.mark.parametrize(("along", "across"), [("u", "v"), ("v", "u")])

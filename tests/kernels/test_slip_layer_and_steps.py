@@ -76,7 +76,7 @@ def test_what_sets_the_step(u, v, cause):
     cells = Cells()
     cells.rhobar[3, 3:5], cells.cl[3, 3], cells.cl[3, 4] = 1.0, 9.0, 10.0
     cells.u[...], cells.v[...], cells.least_row[0] = u, v, 3
-    cells.call(thermodynamics.step_cause, courant=0.5, advective_courant=1.0, mesh_speed=0.0, **VISCOSITY)
+    cells.call(thermodynamics.step_cause, courant=0.5, shock_courant=0.5, advective_courant=1.0, mesh_speed=0.0, **VISCOSITY)
     assert CAUSES[cells.cause[0]] == cause
     assert cells.cause[1] == (4 if cause == "sound" else 3)
 
@@ -85,7 +85,7 @@ def test_a_cell_that_is_pressed_together_sets_the_step():
     cells = Cells()
     cells.rhobar[3, 3:5], cells.cl[3, 3:5] = 1.0, 10.0
     cells.v[0, 4:, 3], cells.least_row[0] = -20.0, 3
-    cells.call(thermodynamics.step_cause, courant=0.5, advective_courant=5.0, mesh_speed=0.0, **VISCOSITY)
+    cells.call(thermodynamics.step_cause, courant=0.5, shock_courant=0.5, advective_courant=5.0, mesh_speed=0.0, **VISCOSITY)
     assert (CAUSES[cells.cause[0]], cells.cause[1]) == ("volume change", 3)
 
 
