@@ -77,24 +77,23 @@ def give_tie(g, j, i, x, push_r, push_z, w):
 
 
 @point
-def list_vertex(e, g, j, i, weight, still_r, still_z, vertices, w):
-    """Lists a vertex of a tie as its e-th entry; returns how many vertices have a number then.
+def number_entry(e, vertices, w):
+    """Gives the vertex of entry e its number and N over its mass; returns how many vertices have a number then.
 
-    Updates  places [b, j, i], number of a vertex, from 1 on;  writes entries [4, e], portions [e, 4]
+    Updates  places [b, j, i], number of a vertex, from 1 on;  writes entries [3, e], portions [e, 2:]
     """
+    g, j, i = w.entries[0, e], w.entries[1, e], w.entries[2, e]
     new = w.places[g, j, i] == 0
     if new:
         w.places[g, j, i] = vertices + 1
-    w.entries[0, e], w.entries[1, e], w.entries[2, e], w.entries[3, e] = g, j, i, w.places[g, j, i] - 1
-    for c in range(2):
-        w.portions[e, c] = 0.0 if (still_z if c == 1 else still_r) else weight
-        w.portions[e, 2 + c] = w.portions[e, c] / w.mass[g, j, i]
+    w.entries[3, e] = w.places[g, j, i] - 1
+    w.portions[e, 2], w.portions[e, 3] = w.portions[e, 0] / w.mass[g, j, i], w.portions[e, 1] / w.mass[g, j, i]
     return vertices + 1 if new else vertices
 
 
 @apart
 def list_ties(w):
-    """(number of tied slaves, number of vertices), all slaves listed with their vertices: their own and those of their masters.
+    """The number of tied slaves, all of them listed with their vertices: their own and those of their masters.
 
     Writes   nodes [4, t]: slot, group, row and column of a slave; starts [t + 1], its first entry; entries [4, e]: group, row,
              column and number of a vertex, the slave's own first; portions [e, 4]: N, along r and z, 1 for its own and less the
@@ -112,19 +111,22 @@ def list_ties(w):
                 held_r, held_z = held(j, i, w.constrained)
                 w.nodes[SLOT, tied], w.nodes[GROUP, tied], w.nodes[ROW, tied], w.nodes[COLUMN, tied] = x, g, j, i
                 w.starts[tied] = e
-                vertices = list_vertex(e, g, j, i, 1.0, held_r, held_z, vertices, w)
+                w.entries[0, e], w.entries[1, e], w.entries[2, e] = g, j, i
+                w.portions[e, 0], w.portions[e, 1] = 0.0 if held_r else 1.0, 0.0 if held_z else 1.0
+                vertices = number_entry(e, vertices, w)
                 for n in range(w.masters[x, g]):
                     e += 1
-                    by, row, column = master(n, g, j, i, x, w.where)
-                    still_r, still_z = held(row, column, w.constrained)
-                    vertices = list_vertex(e, by, row, column, -w.weights[x, g, n], held_r or still_r, held_z or still_z,
-                                           vertices, w)
+                    w.entries[0, e], w.entries[1, e], w.entries[2, e] = master(n, g, j, i, x, w.where)
+                    still_r, still_z = held(w.entries[1, e], w.entries[2, e], w.constrained)
+                    w.portions[e, 0] = 0.0 if held_r or still_r else -w.weights[x, g, n]
+                    w.portions[e, 1] = 0.0 if held_z or still_z else -w.weights[x, g, n]
+                    vertices = number_entry(e, vertices, w)
                 e += 1
                 tied += 1
                 w.starts[tied] = e
     for n in range(e):
         w.places[w.entries[0, n], w.entries[1, n], w.entries[2, n]] = 0
-    return tied, vertices
+    return tied
 
 
 @point
@@ -138,17 +140,18 @@ def mismatch(t, u, v, w):
 
 
 @apart
-def assemble(tied, vertices, w):
+def assemble(tied, w):
     """The matrix of the ties, N M^-1 N^T and the compliance, row by row; ties have an element where they share a vertex.
 
     Writes   lines [t + 1], the first element of a row; columns [n]; matrix [n, c]
     Scratch  firsts [v + 1] and sharing [2, e], which ties a vertex has; elements [t]
     """
-    for n in range(vertices + 1):
+    entries = w.starts[tied]  # there are no more vertices than entries
+    for n in range(entries + 1):
         w.firsts[n] = 0
-    for e in range(w.starts[tied]):
+    for e in range(entries):
         w.firsts[w.entries[3, e] + 1] += 1
-    for n in range(vertices):
+    for n in range(entries):
         w.firsts[n + 1] += w.firsts[n]
     for t in range(tied):
         w.elements[t] = -1
@@ -351,8 +354,8 @@ def settle(w):
                 w.taken[c, x, g] = 0.0
         for c in range(3):
             w.rubbing[c, x] = 0.0
-    tied, vertices = list_ties(w)
-    assemble(tied, vertices, w)
+    tied = list_ties(w)
+    assemble(tied, w)
     meet_ties(tied, w)
     for _ in range(ROUNDS if w.friction > 0.0 else 0):
         for j in range(j0, j1 + 1):

@@ -285,7 +285,7 @@ def viscosity_row(j, w):
         dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
         c = bulk_j[i] / rho
         c = sqrt(c) if c > 0.0 else cl_j[i]
-        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
+        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, w.dz[j])
         du_q = max(du, -max(loss, 0.0) * w.dr[i])
         dv_q = max(dv, -max(loss, 0.0) * h)
         full = shut(solid_j[i])
@@ -346,8 +346,8 @@ def compression_viscosity_row(j, w):
         sv_l = 0.5 * ((vb[i] - vb[i - 1]) + (vt[i] - vt[i - 1]))
         sv_r = 0.5 * ((vb[i + 2] - vb[i + 1]) + (vt[i + 2] - vt[i + 1]))
         rate, n_r, n_z = strongest_compression(du / w.dr[i], dv / h, 0.5 * (su / h + sv / w.dr[i]))
-        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
-        length = length_along(n_r, n_z, w.dr[i], h)
+        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, w.dz[j])
+        length = length_along(n_r, n_z, w.dr[i], w.dz[j])
         jump = max(rate, -max(loss, 0.0)) * length
         psi_r = smoothness(n_r * du_l + n_z * sv_l, n_r * du + n_z * sv, n_r * du_r + n_z * sv_r)
         psi_z = smoothness(n_r * su_b + n_z * dv_b, n_r * su + n_z * dv, n_r * su_t + n_z * dv_t)
@@ -388,7 +388,6 @@ def limit_step(j, part, w):
     cl_j = w.cl[j]
     step_j = w.scratch[1, part]
     hg_j = w.hg_coefficient[j]
-    h = w.dz[j]
     wrong = 0
     for x in range(n):
         i = lo + x
@@ -396,11 +395,11 @@ def limit_step(j, part, w):
         rho = 1.0 if void else rho_j[i]
         du = (ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i])
         dv = (vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1])
-        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, h)
+        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, w.dz[j])
         sound, radial, axial, volume = step_limits(
             i, ub, ut, vb, vt, w.courant, w.shock_courant, w.advective_courant, w.viscosity_linear, w.viscosity_quadratic,
-            w.mesh_speed, w.dr, h, rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
-        hg_j[i] = 0.25 * w.hourglass * rho_j[i] * cl_j[i] * w.metrics[VOL_R, i] * h / max(w.dr[i], h)
+            w.mesh_speed, w.dr, w.dz[j], rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
+        hg_j[i] = 0.25 * w.hourglass * rho_j[i] * cl_j[i] * w.metrics[VOL_R, i] * w.dz[j] / max(w.dr[i], w.dz[j])
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
         wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
     w.row_step[j] = min(w.row_step[j], row_minimum(step_j, lo, n))

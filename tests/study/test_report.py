@@ -108,7 +108,7 @@ def test_provenance_and_decks(made):
     assert "hydro2d run <deck> & more" in text
     assert "numerics.advection ke advection = ke (3) momentum advection = momentum (3)" in text
     assert "body.rod.velocity [0, 1086] velocity = 1086 m/s (2)" in text
-    assert "numerics.courant 0.5" in text.split("What all 6 decks share")[1]
+    assert "numerics.courant 0.7" in text.split("What all 6 decks share")[1]
 
 
 def test_cases_that_are_not_done_are_shown(study):
