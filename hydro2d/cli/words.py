@@ -40,7 +40,7 @@ WORDS = {
         ("failure.tensile", "fracture_pressure", "water_tillotson", "cavity"), ("explanation/fracture.md",)),
     "cfl": Word(
         "The ratio of the time step to the time in which a wave crosses a cell is numerics.courant.",
-        ("numerics.courant", "numerics.advective_courant")),
+        ("numerics.courant", "numerics.shock_courant", "numerics.advective_courant")),
     "concrete": Word(
         "There is none: neither a material nor a strength model that was made for it, and no shot into concrete has been "
         "compared. The models of ceramics are not a substitute. A model of your own is a Python file; for a rigid projectile "
