@@ -184,7 +184,7 @@ def assemble(tied, w):
 
 @apart
 def image_of_search(tied, w):
-    """What the search direction, as impulses, does to the mismatch; returns p . image.
+    """The matrix of the ties times the search direction; returns search . image, along r and z.
 
     Reads    search [t, c], and the matrix;  writes impulses [t, IMAGE]
     """

@@ -14,6 +14,7 @@ from tests.kernels.cells import Cells
 
 GAMMA = 1.5
 AT = (3, 3)
+VISCOSITY = {"viscosity_linear": 0.5, "viscosity_quadratic": 2.0}
 
 
 def gas(**given) -> Cells:
@@ -27,12 +28,15 @@ def gas(**given) -> Cells:
     return cells
 
 
-def closed(cells: Cells, **given) -> Cells:
-    viscosity = {"viscosity_linear": 0.5, "viscosity_quadratic": 2.0}
-    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, **viscosity, **({"dt": 0.0} | given))
-    assert (cells.row_step[2:6] == 1e300).all()
+def limit(cells: Cells) -> None:
     cells.call(thermodynamics.limit_step, courant=0.5, shock_courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1,
-               **viscosity)  # fmt: skip
+               **VISCOSITY)  # fmt: skip
+
+
+def closed(cells: Cells, **given) -> Cells:
+    cells.call(mixed.close_cells, max_opening=0.5, smallest_tension=False, **VISCOSITY, **({"dt": 0.0} | given))
+    assert (cells.row_step[2:6] == 1e300).all()
+    limit(cells)
     return cells
 
 
@@ -70,8 +74,7 @@ def test_another_bound_of_the_step_is_kept():
     """That of a contact, which stands in row_step when the cells are looked at."""
     cells = closed(gas())
     cells.row_step[3] = 0.01
-    cells.call(thermodynamics.limit_step, courant=0.5, shock_courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1,
-               viscosity_linear=0.5, viscosity_quadratic=2.0)  # fmt: skip
+    limit(cells)
     assert cells.row_step[3] == 0.01
 
 

@@ -20,8 +20,8 @@ CYCLES = [
 @pytest.mark.parametrize(("deck", "time", "cycles"), CYCLES)
 def test_cycles_are_estimated(deck, time, cycles):
     """7 % too few; 16 to 17 % where a shock shortens the steps all the time."""
-    found = check.check(decks.load(deck, [f"stop.time={time}"])).cycles
-    assert found == pytest.approx(cycles, rel=0.18 if "classic" in deck else 0.1)
+    guess = check.check(decks.load(deck, [f"stop.time={time}"])).cycles
+    assert guess == pytest.approx(cycles, rel=0.18 if "classic" in deck else 0.1)
 
 
 def wall(cells, threads):
