@@ -43,8 +43,8 @@ def problems_folder() -> Path:
 
 
 def is_study(data: dict) -> bool:
-    """Whether parsed TOML has axes or a transition to search, which only a study has."""
-    return "axis" in data or "transition" in data
+    """Whether parsed TOML has axes, a transition to search or parts, which only a study has."""
+    return "axis" in data or "transition" in data or "part" in data
 
 
 def parse(text: str, name: str) -> dict:

@@ -18,7 +18,7 @@ MOST = 1000
 FINEST, MOST_MESHES = 1000.0, 20
 
 
-def _whole(least: int, most: int):
+def whole(least: int, most: int):
     """A converter to a whole number within bounds."""
     def convert(_type, tokens) -> int:
         text = tokens[0].value
@@ -29,9 +29,9 @@ def _whole(least: int, most: int):
     return Parameter(converter=convert)
 
 
-Repeats = Annotated[int, _whole(2, MOST)]
-Member = Annotated[int, _whole(0, MOST - 1)]
-Seed = Annotated[int, _whole(0, 2**32)]
+Repeats = Annotated[int, whole(2, MOST)]
+Member = Annotated[int, whole(0, MOST - 1)]
+Seed = Annotated[int, whole(0, 2**32)]
 By = Annotated[list[str] | None, Parameter(negative="")]
 
 

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Annotated
 
-from hydro2d.cli.base import Out, Overrides
+from cyclopts import Parameter
+
+from hydro2d.cli.base import Out, Overrides, UsageError
+from hydro2d.cli.ensemble import FINEST, MOST, whole
 from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say, wrapped
+
+#: by how much the priority of a study in the background is lowered
+NICE = 10
 
 
 def sweep(
@@ -18,58 +26,148 @@ def sweep(
     set_: Overrides = None,
     workers: Workers = DEFAULT,
     only: list[str] | None = None,
+    members: Annotated[int | None, whole(1, MOST)] = None,
+    cells: float | None = None,
     check: bool = False,
     status: bool = False,
+    background: Annotated[bool, Parameter(negative="")] = False,
     quiet: bool = False,
 ) -> int:
     """Runs all cases of a study, on this machine or on many.
 
     Example: hydro2d sweep problems/cth_nose_shape/velocity_advection.toml --workers 4 --out runs/study
 
+    A study of parts runs them in turn, sweeps and searches, each in a directory of its own. Where a study keeps rows of its
+    runs in a file (`keep`), a run is made only if the file has no row of its deck and of this version of the method.
+
     Parameters
     ----------
     study
-        Study file (TOML): a base deck, axes to vary, exclusions. With --status, a study directory is accepted too.
+        Study file (TOML): a base deck, axes to vary, exclusions; or parts. With --status, a study directory is accepted too.
     out
         Study directory; default: `out` of the study file, else runs/<name of the study file>.
     set_
         Overrides a value of the deck in all cases, as key=value; can be repeated.
     only
-        Runs the cases whose names match this pattern, such as "*ogive*"; can be repeated. The others wait for a later --resume.
+        Runs the cases whose names match this pattern, such as "*ogive*", or these parts; can be repeated. The others wait for a
+        later --resume.
+    members
+        Number of members of each case, in the place of that of the study file; 1 runs each case once.
+    cells
+        Cells across the radius of the projectile of each deck, in the place of those of the decks.
     check
         Resolves all decks and prints the cases with their cells and estimated times; runs nothing.
     status
         Prints the table of the study directory; runs nothing.
+    background
+        Returns at once; the study goes on at low priority, whatever becomes of the terminal.
     quiet
         Prints errors only; sweep.log is still written.
     """
+    from hydro2d.study.scaling import Size
+
     workers.check()
+    if cells is not None and not 0.0 < cells <= FINEST:
+        raise UsageError(f"--cells {cells:g}: must lie between 0 and {FINEST:g}")
+    size = Size(members, cells)
+    if _is_of_parts(study):
+        if status:
+            return _status_of_parts(study, out)
+        if background:
+            return _in_background(_place_of_parts(study, out))
+        return _parts(study, out, set_ or [], size, workers, only or (), check=check, quiet=quiet)
     if status:
         return _status(study, out)
     from hydro2d.study import cases
 
-    plan = cases.plan(study, set_, search=False, quiet=quiet)
+    if background:
+        return _in_background(out or _directory(study))
+    plan = cases.plan(study, set_, search=False, quiet=quiet, size=size)
     if check:
         from hydro2d.study import estimate
         from hydro2d.study.choice import Choice
 
-        choice = Choice(plan, only or ())
-        return estimate.show(replace(plan, cases=choice.selected), workers.number)
+        choice = Choice(plan, only or (), again=workers.overwrite)
+        if choice.kept():
+            say(wrapped(choice.kept()))
+        return estimate.show(replace(plan, cases=choice.selected), workers.number) if choice.selected else 0
     return run_study(plan, out or plan.out, workers, only=only or (), quiet=quiet)
 
 
-def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), quiet: bool) -> int:
+def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), skip: Sequence[str] = (), quiet: bool) -> int:
     """Runs the cases of a plan and prints what the members of ensembles say together. Returns the exit status."""
+    from hydro2d.study import layout
     from hydro2d.study import sweep as sweeps
     from hydro2d.study.choice import Choice
 
-    choice = Choice(plan, only)
+    choice = Choice(plan, only, skip, again=workers.overwrite and not workers.resume)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
                           overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
-    if plan.ensemble and not quiet:
+    if plan.ensemble and not quiet and (out / layout.STUDY).is_file():
         say("")
         _show_ensembles(out)
     return status
+
+
+def _is_of_parts(study: Path) -> bool:
+    from hydro2d.study import parts
+
+    return study.is_file() and parts.is_of_parts(study)
+
+
+def _place_of_parts(study: Path, out: Path | None) -> Path:
+    from hydro2d.study import parts
+
+    return out or parts.out(study)
+
+
+def _parts(study: Path, out: Path | None, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
+           quiet: bool) -> int:  # fmt: skip
+    """Runs the parts of a study in turn. A failed case does not keep the next part from running; an interrupt does."""
+    from hydro2d.study import layout, parts
+    from hydro2d.study.sweep import SOME_FAILED
+
+    found = parts.plans(study, overrides, size, only, again=workers.overwrite and not workers.resume, quiet=quiet)
+    if check:
+        return parts.show(found, workers.number)
+    place, worst = _place_of_parts(study, out), 0
+    place.mkdir(parents=True, exist_ok=True)
+    for number, each in enumerate(found, 1):
+        if not quiet:
+            say(f"part {number} of {len(found)}: {each.name}")
+        directory = place / each.name
+        of_part = replace(workers, resume=workers.resume and (directory / layout.STUDY).is_file())
+        if each.plan.search:
+            status = run_search(each.plan, directory, of_part, quiet=quiet)
+        else:
+            status = run_study(each.plan, directory, of_part, only=each.part.only, skip=each.part.skip, quiet=quiet)
+        if status > SOME_FAILED:
+            return status
+        worst = max(worst, status)
+    for told in parts.mixed(found):
+        say(wrapped(told))
+    return worst
+
+
+def _status_of_parts(study: Path, out: Path | None) -> int:
+    """Prints how far each part of a study is."""
+    from hydro2d.study import layout, monitor
+
+    for directory in sorted(file.parent for file in _place_of_parts(study, out).glob(f"*/{layout.STUDY}")):
+        say(wrapped(f"{directory.name}: {monitor.counts(list(layout.read(directory).cases))}"))
+    return 0
+
+
+def _in_background(place: Path) -> int:
+    """Starts this command again without --background, detached and at low priority, with its lines in a file."""
+    from hydro2d.children import detached
+
+    place.mkdir(parents=True, exist_ok=True)
+    log = place / "background.log"
+    process = detached([word for word in sys.argv[1:] if word != "--background"], log, NICE)
+    say(wrapped(f"process {process} runs the study in {place}; {log} has its lines; `kill {process}` stops it, and --resume "
+                "continues it"))
+    return 0
 
 
 def transition(
@@ -118,10 +216,15 @@ def transition(
         from hydro2d.study import estimate
 
         return estimate.show_search(plan, workers.number)
+    return run_search(plan, out or plan.out, workers, quiet=quiet)
+
+
+def run_search(plan, out: Path, workers: Workers, *, quiet: bool) -> int:
+    """Runs a search and prints its transitions. Returns the exit status."""
     from hydro2d.study import transition as transitions
 
     return transitions.find(
-        plan, out or plan.out, workers.connect(len(plan.cases)), threads=workers.threads, resume=workers.resume,
+        plan, out, workers.connect(len(plan.cases)), threads=workers.threads, resume=workers.resume,
         overwrite=workers.overwrite, quiet=quiet,
     )  # fmt: skip
 

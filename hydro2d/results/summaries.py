@@ -13,8 +13,8 @@ from hydro2d.files import read_json
 from hydro2d.running.run import DECK, PROGRESS, SUMMARY, deck_hash
 
 #: keys that hold words, lists of words, tables, and yes or no
-WORDS = ("deck", "title", "deck_sha256", "version", "status", "stop_reason", "regime", "qualifier", "source",
-         "body", "host")
+WORDS = ("deck", "title", "deck_sha256", "version", "method", "status", "stop_reason", "regime", "qualifier",
+         "source", "body", "host")
 TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
           "bodies", "stations", "targets", "projectile", "debris", "derived", "off_course_cells")
 YES_OR_NO = ("trustworthy", "git_dirty")

@@ -74,8 +74,24 @@ class Check:
         found += [f"stop      {_stop(deck.stop)}"]
         time = f"{duration(self.wall(threads))} on {several(threads, 'thread')} (a guess)"
         found += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
-                  f"{self.memory / 2**20:.0f} MiB of memory, {_disk(self)}"]  # fmt: skip
+                  f"{self.memory / 2**20:.0f} MiB of memory, at most {self.disk / 2**20:.0f} MiB on disk with "
+                  f"{several(self.dumps, 'dump')}"]  # fmt: skip
         return found + [f"warning   {text}" for text in self.warnings]
+
+    @property
+    def dumps(self) -> int:
+        """Number of dumps at most."""
+        stop, interval = self.deck.stop.time, self.deck.output.vtk_interval
+        return math.ceil(stop / interval) + 1 if stop and interval else 2
+
+    @property
+    def disk(self) -> int:
+        """Bytes of the dumps and restart files at most, before compression."""
+        keys = [quantities.BY_KEY[key] for key in quantities.expand(self.deck.output.fields)]
+        contact = self.deck.sliding.method == "contact"
+        values = sum((len(self.table) if each.per_body else 1) * (3 if each.unit == "m/s" else 1) for each in keys
+                     if not each.internal and (contact or not each.contact))
+        return 4 * values * self.dumps * self.grid.cells + 2 * self.memory
 
     def wall(self, threads: int) -> float:
         """Estimated seconds of a run by itself. Threads share the cells and not the calls of kernels (Amdahl's law)."""
@@ -231,18 +247,6 @@ def _cycles(deck, grid, table, start) -> int:
     if cycles > MOST_CYCLES:
         raise DeckError(f"the run would take {cycles:.3g} cycles at a time step of {dt:.3g} s, and not end in a lifetime")
     return math.ceil(cycles)
-
-
-def _disk(found: Check) -> str:
-    """Number of dumps, and the disk space that they and the restart files need at most, before compression."""
-    deck, bodies = found.deck, len(found.table)
-    keys = [quantities.BY_KEY[key] for key in quantities.expand(deck.output.fields)]
-    contact = deck.sliding.method == "contact"
-    values = sum((bodies if each.per_body else 1) * (3 if each.unit == "m/s" else 1) for each in keys
-                 if not each.internal and (contact or not each.contact))
-    dumps = math.ceil(deck.stop.time / deck.output.vtk_interval) + 1 if deck.stop.time and deck.output.vtk_interval else 2
-    size = (4 * values * dumps * found.grid.cells + 2 * found.memory) / 2**20
-    return f"at most {size:.0f} MiB on disk with {dumps} dumps"
 
 
 def _axis(name: str, edges: np.ndarray) -> str:

@@ -42,6 +42,7 @@ SUMMARY: dict[str, str] = {
     "title": "title of the deck",
     "deck_sha256": "hash of the resolved deck, the same for the same case",
     "version": "version of hydro2d",
+    "method": "version of the method: results of one version can be compared",
     "status": "done, interrupted or unphysical",
     "stop_reason": "why the run ended",
     "trustworthy": "whether the state at the end has no faults",

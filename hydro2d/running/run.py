@@ -31,6 +31,7 @@ from hydro2d.deck.warnings import warnings
 from hydro2d.errors import Error, UnphysicalState
 from hydro2d.files import locked, remove, write_json, write_text
 from hydro2d.interrupt import Interrupt, signals
+from hydro2d.method import METHOD
 from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.series import Series, numbered
@@ -436,6 +437,7 @@ class Run:
             "title": self.deck.title,
             "deck_sha256": deck_hash(self.deck_text),
             "version": __version__,
+            "method": METHOD,
             "status": status,
             "stop_reason": reason,
             "trustworthy": not faults,

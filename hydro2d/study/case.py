@@ -14,6 +14,7 @@ from hydro2d.errors import DeckError
 from hydro2d.files import LockError, LostPlaceError, holder
 from hydro2d.interrupt import Interrupt
 from hydro2d.mesh.quantities import FieldError
+from hydro2d.method import METHOD
 from hydro2d.output import snapshot
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
@@ -96,7 +97,12 @@ def _finished(directory: Path, deck_text: str) -> dict | None:
     sha256 = run.deck_hash(deck_text)
     found = state(directory, sha256)
     ended = found["status"] in (DONE, UNPHYSICAL) and found["summary"].get("deck_sha256") == sha256
-    return found["summary"] if ended else None
+    return found["summary"] if ended and not is_older(found["summary"]) else None
+
+
+def is_older(summary: dict) -> bool:
+    """Whether a run has ended that was of another version of the method."""
+    return bool(summary) and summary.get("method") != METHOD
 
 
 def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> dict:

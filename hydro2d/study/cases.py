@@ -20,6 +20,7 @@ from hydro2d.running.progress import counted
 from hydro2d.running.run import deck_hash
 from hydro2d.study import members, ranges, velocities
 from hydro2d.study.definition import DECK, Axis, Definition, Ensemble, Overrides, StudyError, of_tables, read
+from hydro2d.study.scaling import AS_IT_IS, Size
 
 #: longest part of the name of a case that comes from one axis
 LONGEST = 40
@@ -72,18 +73,21 @@ class Plan:
     search: velocities.Velocities | None = None
     ensemble: Ensemble | None = None
     again: str = "--resume"
+    keep: Path | None = None
 
 
-def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False) -> Plan:
+def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False,
+         size: Size = AS_IT_IS) -> Plan:  # fmt: skip
     """Reads a study file and resolves all decks.
 
     search : whether the study must be a search; None: it may be either
     quiet : prints nothing while the decks of many cases are read
+    size : members and cells, where they are not those of the file
 
     Raises StudyError for mistakes in the study itself.
     """
     path = Path(path)
-    return _Planner(path, *read(path, overrides or [])).plan(search, quiet)
+    return _Planner(path, *read(path, overrides or []), size).plan(search, quiet)
 
 
 def plan_of(tables: dict, name: str, overrides: Overrides = ()) -> Plan:
@@ -104,8 +108,9 @@ def _label(value) -> str:
 class _Planner:
     """Assembles a plan; `wrong` collects the mistakes, one line each."""
 
-    def __init__(self, path: Path, definition: Definition, text: str, data: dict, sources: Sources):
+    def __init__(self, path: Path, definition: Definition, text: str, data: dict, sources: Sources, size: Size = AS_IT_IS):
         self.path, self.definition, self.text, self.data, self.sources = path, definition, text, data, sources
+        self.size, self.ensemble = size, size.ensemble(definition)
         self.wrong: list[str] = []
 
     def plan(self, search: bool | None, quiet: bool) -> Plan:
@@ -139,11 +144,13 @@ class _Planner:
         return Plan(
             name=self.path.stem, title=self.definition.title, text=self.text,
             out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=found,
-            ensemble=self.definition.ensemble,
+            ensemble=self.ensemble, keep=self.path.parent / keep if (keep := self.definition.keep) else None,
         )  # fmt: skip
 
     def _of_the_kind(self, search: bool | None) -> None:
-        """Raises StudyError for a search instead of a sweep, or a sweep instead of a search."""
+        """Raises StudyError for a search instead of a sweep, a sweep instead of a search, or a study of parts."""
+        if self.definition.part:
+            self._say(("part",), f"part: the study is made of others; run it with `hydro2d sweep {self.path}`")
         if search is False and self.definition.transition is not None:
             command = f"run it with `hydro2d transition {self.path}`; `hydro2d sweep` only runs the cases of [[axis]]"
             self._say(("transition",), f"transition: the study is a search in velocity; {command}")
@@ -193,7 +200,7 @@ class _Planner:
                 keys[parts] = axis.name
 
     def _number(self, axes: list[list[Option]]) -> None:
-        ensemble = self.definition.ensemble
+        ensemble = self.ensemble
         count, of = math.prod(len(choices) for choices in axes), "the axes make"
         if ensemble:
             count, of = count * ensemble.repeats, f"the axes and {ensemble.repeats} repeats make"
@@ -204,7 +211,7 @@ class _Planner:
         """Checks that no axis sets what the members of an ensemble change."""
         for number, (axis, choices) in enumerate(zip(self.definition.axis, axes, strict=True)):
             for choice in choices:
-                found = self.definition.ensemble and members.conflict(self.definition.ensemble.by, choice.settings)
+                found = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
                 if found:
                     self._say(("axis", number), f'axis "{axis.name}" sets {found[1]}, and the ensemble changes it by '
                                                 f'"{found[0]}"; leave out one of them')  # fmt: skip
@@ -340,8 +347,14 @@ class _Planner:
     def _repeated(self, name: str, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> list[Planned]:
         """A case, or its members if there is an ensemble; of a wrong deck the first alone, so that it is reported once."""
         deck, message = _read(files[base], overrides)
+        if deck and self.size.cells:
+            try:
+                overrides = [*overrides, *self.size.overrides(deck)]
+                deck, message = _read(files[base], overrides)
+            except DeckError as error:
+                deck, message = None, str(error)
         case = Planned(name, labels, base, overrides, deck.to_toml() if deck else "", message)
-        ensemble = self.definition.ensemble
+        ensemble = self.ensemble
         if ensemble is None:
             return [case]
         group = [replace(case, name=members.name(name, number), of=name or self.path.stem, member=number,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from fnmatch import fnmatchcase
 from itertools import islice
 from pathlib import Path
@@ -10,32 +10,40 @@ from pathlib import Path
 from hydro2d.errors import unknown
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.definition import StudyError
+from hydro2d.study.keeping import Keeper
 from hydro2d.study.layout import ENDED, Case, Study
 
 
-def _matching(plan: Plan, patterns: Sequence[str]) -> list[Planned]:
-    """The cases whose names match one of the patterns, with ``*`` and ``?`` as wildcards; all cases without patterns.
+def _matching(plan: Plan, only: Sequence[str], skip: Sequence[str]) -> list[Planned]:
+    """The cases whose names match one of the patterns `only`, or all without patterns, and none of `skip`.
 
-    Raises StudyError for a pattern that no name matches.
+    ``*`` and ``?`` are wildcards. Raises StudyError for a pattern that no name matches.
     """
     names = [case.name for case in plan.cases]
-    for pattern in patterns:
-        if not any(fnmatchcase(name, pattern) for name in names):
-            raise StudyError(f"--only {pattern}: matches no case; {unknown('case', pattern, names)}")
-    return [case for case in plan.cases if not patterns or any(fnmatchcase(case.name, pattern) for pattern in patterns)]
+    for option, patterns in (("only", only), ("skip", skip)):
+        for pattern in patterns:
+            if not any(fnmatchcase(name, pattern) for name in names):
+                raise StudyError(f"{option} {pattern}: matches no case; {unknown('case', pattern, names)}")
+    return [case for case in plan.cases if (not only or any(fnmatchcase(case.name, pattern) for pattern in only))
+            and not any(fnmatchcase(case.name, pattern) for pattern in skip)]  # fmt: skip
 
 
 class Choice:
     """All cases of a plan, one after another, or those whose names match a pattern; the others wait for another sweep.
 
+    Cases that are up to date in the rows that the study keeps are not run.
+
     Dask is given no more cases at a time than there are workers. It would assign more to the workers at once, and when a worker
     dies, it blames every case that waits there.
     """
 
-    def __init__(self, plan: Plan, only: Sequence[str] = ()):
+    def __init__(self, plan: Plan, only: Sequence[str] = (), skip: Sequence[str] = (), again: bool = False):
         self.plan = plan
         self.given: set[str] = set()
-        self.selected = _matching(plan, only)
+        chosen = _matching(plan, only, skip)
+        self.keeper = Keeper(plan) if plan.keep else None
+        self.fresh = self.keeper.fresh(case.name for case in chosen) if self.keeper and not again else set()
+        self.selected = [case for case in chosen if case.name not in self.fresh]
         self.left_out = {case.name for case in plan.cases} - {case.name for case in self.selected}
 
     def compared(self, directory: Path) -> Plan:
@@ -50,6 +58,19 @@ class Choice:
         """The first line."""
         some = f"{len(self.selected)} of " if self.left_out else ""
         return f"{study.name}: {some}{len(study.cases)} cases in {study.directory}"
+
+    def complete(self) -> bool:
+        """Whether the rows that the study keeps have all that it is run for."""
+        return not self.selected
+
+    def kept(self) -> str:
+        """What the rows that the study keeps say of its cases; empty if it keeps none."""
+        return "" if self.keeper is None else self.keeper.told([*self.fresh, *(case.name for case in self.selected)])
+
+    def keep(self, cases: Iterable[Case]) -> None:
+        """Adds those that have ended to the rows that the study keeps. Raises OSError."""
+        if self.keeper is not None:
+            self.keeper.add(cases, self.plan.cases)
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """Names of cases to run now, at most `room`, besides those in `busy`. They need not be in the study yet."""

@@ -171,8 +171,21 @@ class Ensemble(Section):
     seed: int = Field(0, ge=0, le=2**32, description="which sequence of changes; another seed makes other members")
 
 
+class Part(Section):
+    """A study of a large one, or some of its cases."""
+
+    study: str = Field(min_length=1, description="study file, beside this one")
+    name: str | None = Field(None, min_length=1, description="name of its directory; default: that of its file, and the cells")
+    about: str = Field("", description="what it is run for")
+    members: int | None = Field(None, ge=1, le=1000, description="members of each case; default: as in its file")
+    cells: float | None = Field(None, gt=0.0, le=1000.0, description="cells across the radius of the projectile; default: as "
+                                "in its decks")
+    only: tuple[str, ...] = Field((), description="patterns of the names of the cases that are run; default: all")
+    skip: tuple[str, ...] = Field((), description="patterns of the names of cases that are not run")
+
+
 class Definition(Section):
-    """A study file: a sweep with axes, an ensemble, or both; or a search for a transition, with or without axes."""
+    """A study file: a sweep with axes, an ensemble, or both; a search for a transition, with or without axes; or parts."""
 
     title: str = Field("", description="title for tables and reports")
     deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
@@ -182,11 +195,24 @@ class Definition(Section):
     transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
     ensemble: Ensemble | None = Field(None, description="repeats of every case")
     exclude: tuple[dict[str, Any], ...] = Field((), description="combinations to leave out")
+    keep: str | None = Field(
+        None, min_length=1, description="CSV file, beside this one, with a row for every run that has ended; a run is not made "
+        "again while the file has a row of its deck and of this version of the method",
+    )
+    part: Annotated[tuple[Part, ...], AfterValidator(_filled)] = Field((), description="studies that make up this one, in turn")
+
+    @model_validator(mode="after")
+    def _parts_alone(self):
+        if self.part:
+            others = [name for name in self.model_fields_set if name not in ("title", "out", "set", "part")]
+            if others:
+                raise ValueError(f"{' and '.join(sorted(others))}: belongs to the files of the parts")
+        return self
 
 
 _TABLES: dict[tuple, type[Section]] = {
     (): Definition, ("axis",): Axis, ("axis", "range"): Range, ("transition",): Transition,
-    ("ensemble",): Ensemble,
+    ("ensemble",): Ensemble, ("part",): Part,
 }  # fmt: skip
 
 
@@ -251,7 +277,7 @@ def _validated(data: dict, sources: Sources) -> Definition:
         found = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
-    if not (found.axis or found.transition or found.ensemble):
+    if not (found.axis or found.transition or found.ensemble or found.part):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
     if found.transition and found.ensemble:
         raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(found.transition)}")

@@ -15,8 +15,12 @@ class Searching(Choice, ABC):
     """A choice of cases that looks at what has become of earlier ones."""
 
     def __init__(self, plan: Plan):
-        super().__init__(plan)
+        super().__init__(plan, again=True)  # a search needs the runs themselves
         self.records: dict[str, record.Record] = {}
+
+    def complete(self) -> bool:
+        """Whether the rows that the study keeps have all runs of the search, which a bisection does not know beforehand."""
+        return False
 
     def record(self, case: Case) -> record.Record:
         """The record of a case; a finished case is read only once."""

@@ -12,9 +12,11 @@ from pathlib import Path
 
 from hydro2d import toml
 from hydro2d.deck import deck as decks
+from hydro2d.method import METHOD
 from hydro2d.study import draws, layout, regimes, sequence, v50, velocities
 from hydro2d.study.bisection import MOST_FAILED
 from hydro2d.study.cases import Plan, Planned, distinct, short
+from hydro2d.study.keeping import MEMBER, OF_METHOD
 from hydro2d.study.layout import DONE, ENDED, WAITING, Case
 from hydro2d.study.searching import Searching
 
@@ -85,16 +87,31 @@ class Shots(Searching):
 
     def _add(self, group: Combination, speed: float) -> Planned:
         """A further shot at a velocity."""
-        number = len(group.shots) + 1
-        label = f"{'-' if self.backwards else ''}{speed:.6g} m/s"
-        end = group.ends[0]
-        given = [f"{self.search.key}={toml.inline(label)}", *draws.overrides(end.text, self.search.budget.seed, number)]
-        shot = Planned(
-            name=f"{group.prefix}{number:03d}_{short(label)}", values={**end.values, velocities.AXIS: label}, deck=end.deck,
-            overrides=[*end.overrides, *given], text=decks.loads(end.text, given).to_toml(), message="",
-        )  # fmt: skip
+        shot = self._shot(group, len(group.shots) + 1, f"{'-' if self.backwards else ''}{speed:.6g} m/s")
         group.shots.append(shot)
         return shot
+
+    def _shot(self, group: Combination, number: int, label: str) -> Planned:
+        """The shot of this number, at a velocity."""
+        end = group.ends[0]
+        given = [f"{self.search.key}={toml.inline(label)}", *draws.overrides(end.text, self.search.budget.seed, number)]
+        return Planned(
+            name=f"{group.prefix}{number:03d}_{short(label)}", values={**end.values, velocities.AXIS: label}, deck=end.deck,
+            overrides=[*end.overrides, *given], text=decks.loads(end.text, given).to_toml(), message="", member=number,
+        )  # fmt: skip
+
+    def complete(self) -> bool:
+        """Whether every combination has the rows of all its shots."""
+        return all(len(self.kept_of(group)) >= self.search.budget.runs for group in self.groups)
+
+    def kept_of(self, group: Combination) -> set[str]:
+        """The names of those shots of a combination whose rows are up to date."""
+        if self.keeper is None:
+            return set()
+        others = {**group.ends[0].values, velocities.AXIS: ""}
+        rows = [row for row in self.keeper.rows if {**{name: row[name] for name in others}, velocities.AXIS: ""} == others]
+        shots = [self._shot(group, int(row[MEMBER]), row[velocities.AXIS]) for row in rows if row[OF_METHOD] == METHOD]
+        return self.keeper.fresh_of(shots)
 
     def _planned(self) -> Plan:
         """The plan with the shots so far."""

@@ -22,15 +22,16 @@ from hydro2d import compilation
 from hydro2d.deck import deck as decks
 from hydro2d.files import locked, write_json
 from hydro2d.interrupt import Interrupt, signals, status
+from hydro2d.method import METHOD
 from hydro2d.running.run import SUMMARY, clear
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study import layout, monitor
-from hydro2d.study.case import Outcome
+from hydro2d.study.case import Outcome, is_older
 from hydro2d.study.cases import Plan
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import CASES, DONE, FAILED, FAILED_STATUS, INTERRUPTED, INVALID, LOCK, STUDY, UNPHYSICAL, WAITING
-from hydro2d.terminal import duration, several
+from hydro2d.terminal import duration, say, several
 
 ALL_DONE, SOME_FAILED = 0, 3
 #: seconds between checks for a finished case, a signal, and the table
@@ -67,16 +68,18 @@ def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
     new = {case.name: case for case in plan.cases}
     begun = [name for name in new if name in old and old[name].directory.exists()]
     changed = [name for name in begun if old[name].deck_sha256 != new[name].sha256]
-    if changed and not overwrite:
-        raise StudyError(
-            f"{before.directory}: {_names(changed)} had a different deck when the study was begun; "
-            "--overwrite runs them again from the beginning, --out makes a separate study"
-        )
+    older = [name for name in begun if name not in changed and is_older(old[name].summary)]
+    for names, why in ((changed, "had a different deck when the study was begun"),
+                       (older, f"ran with another version of the method than that of {METHOD}")):  # fmt: skip
+        if names and not overwrite:
+            raise StudyError(f"{before.directory}: {_names(names)} {why}; "
+                             "--overwrite runs them again from the beginning, --out makes a separate study")
     added, gone = [name for name in new if name not in old], [name for name in old if name not in new]
     told = [f"{_names(added)} new"] if added else []
     if gone and plan.search is None:  # a search may draw the velocity of a run that has not ended again
         told.append(f"{_names(gone)} no longer in the study; the files in {CASES} are kept")
-    return told + ([f"{_names(changed)} with a different deck than before"] if changed else [])
+    told += [f"{_names(changed)} with a different deck than before"] if changed else []
+    return told + ([f"{_names(older)} with another version of the method than before"] if older else [])
 
 
 def _names(names: list[str]) -> str:
@@ -96,6 +99,10 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
 
     Raises StudyError, LockError (another sweep uses the directory).
     """
+    if choice.complete():
+        if not quiet:
+            say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
+        return ALL_DONE
     told, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
     layout.make(directory)
     with locked(directory / LOCK):
@@ -109,7 +116,7 @@ def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: Abstra
            threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
     with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
         board.line(choice.heading(study))
-        for text in told:
+        for text in (*told, choice.kept()):
             board.line(text)
         started = time.perf_counter()
         with connect as client:
@@ -149,6 +156,7 @@ class _Sweep:
     def run(self, interrupt: Interrupt) -> float:
         """Runs until every case has ended and no more are wanted. Returns the seconds that they took in their workers."""
         told = False
+        self._keep(self.board.cases)
         self._begin()
         while self.tasks:
             if interrupt.reason:
@@ -245,6 +253,14 @@ class _Sweep:
         if outcome.trace:
             self.board.note(outcome.trace)
         self.board.line(self.choice.news(self.board.cases, case.name))
+        self._keep([case])
+
+    def _keep(self, cases: Sequence[layout.Case]) -> None:
+        """Adds rows to the file that the study keeps. If it cannot be written, the cases run all the same."""
+        try:
+            self.choice.keep(cases)
+        except OSError as error:
+            self.board.line(f"{self.choice.plan.keep} cannot be written: {error.strerror or error}")
 
     def _record(self, case: layout.Case, outcome: Outcome) -> None:
         """Writes failed.json; if that is impossible, the log has the reason."""

@@ -113,7 +113,10 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
     Raises StudyError, LockError (another sweep uses the directory).
     """
     choice = Shots(plan) if plan.search.budget else Bisection(plan)
+    complete = choice.complete()
     status = sweep.sweep(choice, directory, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
+    if complete:
+        return status
     study = layout.read(directory)
     found = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:

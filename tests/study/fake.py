@@ -10,6 +10,7 @@ import numpy as np
 
 from hydro2d.deck import deck
 from hydro2d.files import write_json
+from hydro2d.method import METHOD
 from hydro2d.output import vtk
 from hydro2d.output.history import History
 from hydro2d.running.run import deck_hash
@@ -72,7 +73,7 @@ def _summary(depth: float, shortened: float, text: str) -> dict:
     energies = {"cutoff": 1e-3, "advection": 300.0, "outflow": 12.0}
     return {
         "status": "done", "stop_reason": "speed of rod below 5 m/s", "time_s": TIME, "cycles": 1000, "cells": 60984,
-        "wall_s": 321.3, "ns_per_cell_cycle": 120.0, "version": "0.1.0", "deck_sha256": deck_hash(text),
+        "wall_s": 321.3, "ns_per_cell_cycle": 120.0, "version": "0.1.0", "method": METHOD, "deck_sha256": deck_hash(text),
         "penetration_depth_m": depth, "rod_length_m": LENGTH * (1.0 - shortened), "rod_initial_length_m": LENGTH,
         "rod_max_radius_m": RADIUS * (1.0 + shortened), "rod_initial_radius_m": RADIUS, "rod_mass_kg": MASS,
         "rod_tail_velocity_m_s": 3.0, "regime": "rigid" if shortened < 0.02 else "deforming",

@@ -1,0 +1,142 @@
+"""A study of parts: studies that are run in turn, each in a directory of its own, with one summary of what all of them take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from hydro2d.deck import deck as decks
+from hydro2d.errors import DeckError
+from hydro2d.running import check
+from hydro2d.running.progress import counted
+from hydro2d.study import cases, keeping
+from hydro2d.study.cases import Plan, Planned
+from hydro2d.study.choice import Choice
+from hydro2d.study.definition import Definition, Overrides, Part, StudyError, read
+from hydro2d.study.monitor import lines
+from hydro2d.study.scaling import Size
+from hydro2d.study.shots import Shots
+from hydro2d.study.transition import Bisection
+from hydro2d.terminal import say, wrapped
+
+HEADS = ("part", "runs", "up to date", "stale", "to run", "core hours", "MB")
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A part with the cases that it has to run. ``name`` is that of its directory."""
+
+    part: Part
+    name: str
+    plan: Plan
+    again: bool
+
+    @cached_property
+    def choice(self) -> Choice:
+        if self.plan.search:
+            return Shots(self.plan) if self.plan.search.budget else Bisection(self.plan)
+        return Choice(self.plan, self.part.only, self.part.skip, self.again)
+
+    @cached_property
+    def states(self) -> tuple[int, int, int]:
+        """Runs of the part; those that are up to date, and stale."""
+        choice = self.choice
+        if self.plan.search:
+            budget = self.plan.search.budget
+            runs = len(choice.groups) * budget.runs if budget else len(self.plan.cases)
+            fresh = sum(min(len(choice.kept_of(group)), budget.runs) for group in choice.groups) if budget else 0
+            return runs, fresh, 0
+        names = [*choice.fresh, *(case.name for case in choice.selected)]
+        keeper = choice.keeper
+        return len(names), len(choice.fresh), keeper.stale(names) if keeper else 0
+
+
+def is_of_parts(path: Path) -> bool:
+    """Whether a study file is made of others. Raises StudyError."""
+    return bool(read(Path(path), ())[0].part)
+
+
+def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = (), *, again: bool = False,
+          quiet: bool = False) -> list[Chosen]:  # fmt: skip
+    """The parts of a study, with all decks resolved.
+
+    overrides : of all decks, over those of [set];  size : replaces members and cells of all parts
+    only : patterns of the names of parts;  again : whether cases are chosen that are up to date
+
+    Raises StudyError.
+    """
+    path = Path(path)
+    definition, *_ = read(path, overrides)
+    chosen = [(part, name) for part, name in zip(definition.part, _names(definition), strict=True)
+              if not only or any(Path(name).match(pattern) for pattern in only)]  # fmt: skip
+    if not chosen:
+        raise StudyError(f"only {' '.join(only)}: matches no part; parts: {', '.join(_names(definition))}")
+    found = []
+    for part, name in chosen:
+        of_part = Size(size.members or part.members, size.cells or part.cells)
+        plan = cases.plan(path.parent / part.study, definition.set, quiet=quiet, size=of_part)
+        found.append(Chosen(part, name, plan, again))
+    return found
+
+
+def out(path: Path) -> Path:
+    """The directory of a study of parts. Raises StudyError."""
+    return Path(read(Path(path), ())[0].out or f"runs/{Path(path).stem}")
+
+
+def _names(definition: Definition) -> list[str]:
+    given = [part.name or Path(part.study).stem + (f"_{part.cells:g}" if part.cells else "") for part in definition.part]
+    return cases.distinct(given)
+
+
+def show(found: Sequence[Chosen], workers: int) -> int:
+    """Prints what each part and all together take. Returns 0, or 2 if a case is invalid."""
+    rows, wrong, hours, size, left = [], [], 0.0, 0.0, 0
+    for each in found:
+        runs, fresh, stale = each.states
+        seconds, space, problems = _cost(each)
+        wrong += problems
+        to_run = runs - fresh
+        part_hours, part_size = to_run * seconds / 3600, to_run * space / 1e6
+        hours, size, left = hours + part_hours, size + part_size, left + to_run
+        rows.append((each.name, str(runs), str(fresh), str(stale), str(to_run), f"{part_hours:.1f}", f"{part_size:.0f}"))
+    sums = (str(sum(int(row[column]) for row in rows)) for column in (1, 2, 3, 4))
+    rows.append(("all", *sums, f"{hours:.1f}", f"{size:.0f}"))
+    for told in lines(rows, HEADS):
+        say(told)
+    for each in found:
+        if each.part.about:
+            say(wrapped(f"{each.name}: {each.part.about}"))
+    say(wrapped(f"{left} runs, about {hours / workers:.1f} hours on {workers} workers (a guess), at most {size:.0f} MB"))
+    for told in wrong:
+        say(told)
+    return 2 if wrong else 0
+
+
+def _cost(each: Chosen) -> tuple[float, float, list[str]]:
+    """Mean seconds on one thread and bytes of a run, and the mistakes of cases: the first member of each case is looked at."""
+    selected = each.plan.cases if each.plan.search else each.choice.selected
+    first = {case.of or case.name: case for case in reversed(selected)}
+    checks, wrong = [], []
+    for case in counted(list(first.values()), f"cases of {each.name} estimated"):
+        try:
+            checks.append(_checked(case))
+        except DeckError as error:
+            wrong.append(f"{each.name}, {case.name}: {error}")
+    mean = [sum(values) / len(checks) for values in zip(*((one.seconds, one.disk) for one in checks), strict=True)]
+    return *(mean or (0.0, 0.0)), wrong
+
+
+def _checked(case: Planned) -> check.Check:
+    if not case.text:
+        raise DeckError(case.message)
+    return check.check(decks.loads(case.text))
+
+
+def mixed(found: Sequence[Chosen]) -> Iterator[str]:
+    """What must be said of kept rows that are not all of this method."""
+    for path in dict.fromkeys(each.plan.keep for each in found if each.plan.keep):
+        if told := keeping.methods(keeping.read(path)):
+            yield f"{path.name}: {told}"

@@ -1,0 +1,39 @@
+"""The size of a study: how many members of each case, and how many cells across the radius of the projectile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hydro2d import toml
+from hydro2d.deck.deck import Deck
+from hydro2d.study import meshes
+from hydro2d.study.definition import Definition, Ensemble
+
+
+@dataclass(frozen=True)
+class Size:
+    """What replaces the numbers of a study file; None leaves them.
+
+    members : members of each case; 1 leaves the first, whose deck is that of the case
+    cells : cells across the radius of the projectile of every deck
+    """
+
+    members: int | None = None
+    cells: float | None = None
+
+    def ensemble(self, definition: Definition) -> Ensemble | None:
+        """How the members are made. Without [ensemble] in the study they are made in the usual way."""
+        found = definition.ensemble
+        if self.members is None or (found is None and self.members == 1):
+            return found
+        return (found or Ensemble(repeats=2)).model_copy(update={"repeats": self.members})
+
+    def overrides(self, deck: Deck) -> list[str]:
+        """Overrides that give a deck these cells. Raises DeckError."""
+        if self.cells is None:
+            return []
+        return [toml.assigned(key, value) for key, value in meshes.settings(deck, self.cells).items()]
+
+
+#: the study as its file has it
+AS_IT_IS = Size()
