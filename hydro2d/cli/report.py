@@ -23,7 +23,7 @@ def report(
 ) -> int:
     """Writes a report of a study or of runs: one HTML page with figures that zoom, a table as CSV and pictures as PNG.
 
-    Example: hydro2d report runs/rigid_rod_laws --y penetration_depth_m --y crater.volume_m3 --by law
+    Example: hydro2d report runs/velocity_advection --y penetration_depth_m --y crater.volume_m3 --by advection
 
     Parameters
     ----------

@@ -20,6 +20,8 @@ from pathlib import Path
 from hydro2d.deck import deck as decks
 from hydro2d.files import read_text, write_text
 from hydro2d.method import METHOD
+from hydro2d.running.run import DECK
+from hydro2d.study import layout
 from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import DONE, UNPHYSICAL, Case
@@ -122,9 +124,28 @@ def read(path: Path) -> list[Row]:
     return rows
 
 
-def methods(rows: Iterable[Row]) -> str:
-    """What a table must say of the rows that it is made of: nothing if all are of this method, else which are not."""
-    found = Counter(row[OF_METHOD] or "unknown" for row in rows)
+def of_directory(directory: Path) -> list[Row]:
+    """The same for the runs of a study directory that have ended. Raises StudyError, DeckError."""
+    study = layout.read(directory)
+    axes = tuple(axis.name for axis in study.axes)
+    rows = []
+    for case in study.cases:
+        if case.status in ENDED:
+            text = read_text(case.directory / DECK, StudyError)
+            planned = Planned(case.name, case.values, case.base, list(case.overrides), text, "", case.of, case.member)
+            rows.append(Wanted(planned, axes).row(case))
+    return rows
+
+
+def labels(row: Row) -> Row:
+    """The labels of the case of a row, and its cells across the projectile."""
+    others = {MEMBER, *RESULTS, *ORIGIN}
+    return {name: text for name, text in row.items() if text and name not in others}
+
+
+def methods(versions: Iterable[str]) -> str:
+    """What a table must say of the versions of its runs: nothing if all are of this method, else which are not."""
+    found = Counter(version or "unknown" for version in versions)
     others = {name: number for name, number in found.items() if name != METHOD}
     if not others:
         return ""

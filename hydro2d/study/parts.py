@@ -138,5 +138,5 @@ def _checked(case: Planned) -> check.Check:
 def mixed(found: Sequence[Chosen]) -> Iterator[str]:
     """What must be said of kept rows that are not all of this method."""
     for path in dict.fromkeys(each.plan.keep for each in found if each.plan.keep):
-        if told := keeping.methods(keeping.read(path)):
+        if told := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
             yield f"{path.name}: {told}"

@@ -106,8 +106,9 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
     told, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
     layout.make(directory)
     with locked(directory / LOCK):
-        if overwrite and not resume:
-            _clear(case for case in layout.of_plan(choice.plan, directory).cases if case.name not in choice.left_out)
+        if overwrite:
+            cases = layout.of_plan(choice.plan, directory).cases
+            _clear(case for case in cases if case.name not in choice.left_out and (not resume or is_older(case.summary)))
         layout.write(choice.begin(directory), directory)
         return _sweep(choice, layout.read(directory), told, connect, interrupt, threads, overwrite, quiet)
 

@@ -21,6 +21,8 @@ from problems.cth_nose_shape.rigid_rod import COLOURS, Result
 
 HERE = Path(__file__).parent
 OTHERS = HERE.parent / "validation"
+#: cells across the rod of the twelve shots' members that are compared
+CELLS = 8.5
 #: ways to fail, by what the studies call them
 WAYS = {"none": "none", "fracture pressure": "fracture pressure", "1.8 GPa": "1.8 GPa", "damage of 4340": "damage",
         "damage of 90W-7Ni-3Fe": "damage", "Johnson-Cook damage": "damage", "strain 150 %": "strain 150 %"}  # fmt: skip
@@ -43,8 +45,9 @@ def measured(shot: str) -> float:
 
 def kept() -> list[Result]:
     """All runs of the three studies."""
-    files = (HERE / "results/rigid_rod_failure.csv", HERE / "results/twelve_shots.csv", OTHERS / "results/eroded_heads.csv")
-    return [result for file in files for result in rigid_rod.read(file)]
+    files = (HERE / "results/rigid_rod_failure.csv", OTHERS / "results/eroded_heads.csv")
+    members = rigid_rod.read(HERE / "results/twelve_shots.csv", CELLS)
+    return [*rigid_rod.read(files[0]), *members, *rigid_rod.read(files[1])]
 
 
 def cases(results: list[Result]) -> dict[tuple[str, str], dict[str, list[float]]]:

@@ -1,11 +1,12 @@
 """The twelve shots by their members: depth and loss of length with their spread, a score for each law, and a figure with dots.
 
-    python -m problems.cth_nose_shape.members RESULTS [RESULTS ...] [--figure PATH]
+    python -m problems.cth_nose_shape.members RESULTS [RESULTS ...] [--cells NUMBER] [--figure PATH]
 
-RESULTS are what `rigid_rod` reads: directories of studies with `[ensemble]`, or the file that it keeps of them. Two tables are
-printed in Markdown. In the first a cell has the median depth of the members and the least and the largest, the median loss of
-length, and how many members end on the side of the transition on which the experiment did. The second counts, for each law,
-members on that side and shots whose median depth is within the aim: 10 % for rods that stay rigid, 20 % for eroded ones, and a
+RESULTS are what `rigid_rod` reads: directories of studies with `[ensemble]`, or files of kept rows. With --cells only runs with
+so many cells across the rod are taken. Two tables are printed in Markdown. In the first a cell has the median depth of the
+members and the least and the largest, the median loss of length, and how many members end on the side of the transition on
+which the experiment did. The second counts, for each law, members on that side, with the interval of their share that holds
+with 90 %, and shots whose median depth is within the aim: 10 % for rods that stay rigid, 20 % for eroded ones, and a
 perforation where there was one. In the figure each dot is a member.
 """
 
@@ -18,6 +19,7 @@ from statistics import median
 
 from hydro2d.errors import DeckError
 from hydro2d.results import figures
+from hydro2d.study import chance
 from hydro2d.study.layout import StudyError
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import COLOURS, PLATE, Result, Shot
@@ -79,10 +81,10 @@ def within_aim(members: list[Result], shot: Shot) -> bool:
     return not through and abs(median(result.reach for result in members) / (1e2 * measured.depth) - 1.0) <= most
 
 
-def scores(found: dict[str, dict[Shot, list[Result]]]) -> list[str]:
-    """Lines of Markdown: what every law has right."""
+def scores(found: dict[str, dict[Shot, list[Result]]], head: str = "law") -> list[str]:
+    """Lines of Markdown: what every column has right; ``head`` says what the columns are."""
     sides = rigid()
-    lines = ["| law | shots | members on the right side | shots with nine in ten on it | depths within the aim |",
+    lines = [f"| {head} | shots | members on the right side | shots with nine in ten on it | depths within the aim |",
              "|---|---|---|---|---|"]  # fmt: skip
     for column, cases in found.items():
         known = {shot: members for shot, members in cases.items() if shot in sides}
@@ -92,7 +94,8 @@ def scores(found: dict[str, dict[Shot, list[Result]]]) -> list[str]:
         sure = sum(10 * rights[shot] >= 9 * len(members) for shot, members in known.items())
         aims = sum(within_aim(members, shot) for shot, members in known.items())
         members = sum(map(len, known.values()))
-        lines.append(f"| {column} | {len(known)} | {sum(rights.values())} of {members} | {sure} | {aims} |")
+        share = chance.wilson(sum(rights.values()), members)
+        lines.append(f"| {column} | {len(known)} | {share.words} | {sure} | {aims} |")
     return lines
 
 
@@ -111,7 +114,7 @@ def draw(found: dict[str, dict[Shot, list[Result]]]):
                 shift = 6.0 * (number - 0.5 * (len(found) - 1))  # beside one another, m/s
                 here = {shot.velocity + shift: members for shot, members in cases.items()
                         if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
-                _dots(axes, column, COLOURS[number % len(COLOURS)], here)
+                dots(axes, column, COLOURS[number % len(COLOURS)], here)
             for marker, is_measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
                 shots = [(shot.velocity, 1e2 * told.depth) for shot, told in measured.items()
                          if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, is_measured)]  # fmt: skip
@@ -128,7 +131,7 @@ def draw(found: dict[str, dict[Shot, list[Result]]]):
     return figure
 
 
-def _dots(axes, column: str, colour: str, members: dict[float, list[Result]]) -> None:
+def dots(axes, column: str, colour: str, members: dict[float, list[Result]]) -> None:
     """The members of one law in one panel, by velocity, with a line through their medians."""
     places = sorted(members)
     axes.plot(places, [median(result.reach for result in members[at]) for at in places], color=colour, linewidth=0.8)
@@ -141,15 +144,17 @@ def _dots(axes, column: str, colour: str, members: dict[float, list[Result]]) ->
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="+", type=Path)
+    parser.add_argument("--cells", type=float)
     parser.add_argument("--figure", type=Path)
     given = parser.parse_args(arguments)
     try:
-        results = list({result.name: result for path in given.results for result in rigid_rod.read(path)}.values())
+        runs = [result for path in given.results for result in rigid_rod.read(path, given.cells)]
+        results = list({result.identity: result for result in runs}.values())
         found = grouped(results)
         if not found:
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
-        print("\n".join([*table(found), "", *scores(found)]))
+        print("\n".join([*table(found), "", *scores(found), *rigid_rod.mixed(results)]))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError) as error:

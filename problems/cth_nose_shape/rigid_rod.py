@@ -1,12 +1,12 @@
-"""Depth against velocity for the rods of the shots: tables, and the results that are kept beside the studies.
+"""Depth against velocity for the rods of the shots: tables of the runs of studies.
 
-    python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...] [--keep FILE]
+    python -m problems.cth_nose_shape.rigid_rod RESULTS [RESULTS ...]
 
-RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
-run before. If several have the same case, the last one counts. Three tables are printed in Markdown. In the first each row is a
-shot, each column a variant of whatever else the studies vary, and the experiments stand beside the runs. The second has the
-transitions, by the loss of length and by the depth, and the third the kinetic energy over the volume of the hole. `--keep`
-writes all cases into a CSV file, in the order in which they were given. `problems.cth_nose_shape.members` draws them.
+RESULTS is the directory of a study, finished or not, or a file in `results`, which has the rows that a sweep keeps. If several
+have the same case, the last one counts. Three tables are printed in Markdown. In the first each row is a shot, each column a
+variant of whatever else the studies vary, and the experiments stand beside the runs. The second has the transitions, by the
+loss of length and by the depth, and the third the kinetic energy over the volume of the hole. A line below them says which
+versions of the method the runs are of, if they are not all of the present one. `problems.cth_nose_shape.members` draws them.
 """
 
 from __future__ import annotations
@@ -22,22 +22,19 @@ from pathlib import Path
 from hydro2d.analytic import model_transition
 from hydro2d.errors import DeckError
 from hydro2d.mesh.regime import LEAST_KEPT
-from hydro2d.study import bisection, layout
+from hydro2d.study import bisection, keeping, layout
 from hydro2d.study.layout import StudyError
 from hydro2d.study.regimes import DEPTHS, KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
-from problems import kept
 
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
 #: noses by what labels and decks call them
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
 #: the axis of the shots; those that make a shot in a search for a transition
-SHOTS, SEARCHED = "shot", ("plate", "velocity")
+SHOTS, SEARCHED, NOSE, CELLS = "shot", ("plate", "velocity"), "nose", keeping.CELLS
 #: rods and plates of the shots
 RODS = tuple(itertools.product(NOSES.values(), ("5083", "7039")))
-#: what a case gave, in a file of results, after its labels
-RESULTS = ("depth_cm", "loss_percent", "regime", "residual_m_s", "hole_cm3", "time_us", "minutes")
 #: thickness of the plates, cm; mass of the rods, kg
 PLATE, MASS = 53.34, 0.063
 #: what rods lose of their length, by the largest loss in per cent
@@ -78,25 +75,27 @@ class Experiment:
 
 @dataclass(frozen=True)
 class Result:
-    """A finished case.
+    """A finished run.
 
-    name, labels : of the case, and its label on every axis;  nose : of its rod
+    labels : its label on every axis, and the cells across the rod;  member : its number in an ensemble
     depth, residual : depth in cm if it came to rest, velocity in m/s if it left the plate; the other is None
-    loss : of length, per cent;  regime : of the summary
-    hole : volume of the hole in cm3, None for results that were kept without it
-    time, minutes : time of flight in us, and of computing
+    loss : of length, per cent;  regime : of the summary;  hole : volume of the hole in cm3, None where it was not kept
+    method : version of the method
     """
 
-    name: str
     labels: dict[str, str]
-    nose: str
+    member: int
     depth: float | None
     loss: float
     residual: float | None
     regime: str
     hole: float | None
-    time: float
-    minutes: float
+    method: str
+
+    @property
+    def identity(self) -> tuple:
+        """What no other run has."""
+        return *self.labels.items(), self.member
 
     @property
     def shot(self) -> Shot | None:
@@ -104,13 +103,14 @@ class Result:
         if SHOTS in self.labels:
             return Shot.named(self.labels[SHOTS])
         plate, velocity = (self.labels.get(axis, "") for axis in SEARCHED)
-        return Shot(self.nose, plate, speed(velocity)) if plate in ("5083", "7039") and velocity else None
+        nose = self.labels.get(NOSE, NOSES["hemi"])
+        return Shot(nose, plate, speed(velocity)) if plate in ("5083", "7039") and velocity else None
 
     @property
     def column(self) -> str:
-        """What the case varies besides the shot."""
-        of_shot = (SHOTS,) if SHOTS in self.labels else SEARCHED
-        return ", ".join(label for axis, label in self.labels.items() if axis not in of_shot)
+        """What the case varies besides the shot; cells across the rod only if they are asked for."""
+        of_shot = (SHOTS,) if SHOTS in self.labels else (*SEARCHED, NOSE)
+        return ", ".join(label for axis, label in self.labels.items() if axis not in (*of_shot, CELLS))
 
     @property
     def held(self) -> bool:
@@ -121,16 +121,6 @@ class Result:
     def reach(self) -> float:
         """Depth in cm, and the thickness of the plate for a rod that perforates."""
         return PLATE if self.depth is None else self.depth
-
-    @property
-    def row(self) -> dict[str, str]:
-        """The case as it is kept."""
-        def number(value: float | None, digits: int) -> str:
-            return "" if value is None else f"{round(value, digits):.12g}"
-
-        told = (number(self.depth, 3), number(self.loss, 2), self.regime, number(self.residual, 0), number(self.hole, 2),
-                number(self.time, 0), number(self.minutes, 1))  # fmt: skip
-        return {**self.labels, "nose": self.nose, **dict(zip(RESULTS, told, strict=True)), "case": self.name}
 
     def __str__(self) -> str:
         lost = f"{self.loss:.1f} %" if self.loss < 10.0 else f"{self.loss:.0f} %"
@@ -144,35 +134,24 @@ def experiments() -> dict[Shot, Experiment]:
             Experiment(each.depth, each.depth_is, each.stayed_rigid) for each in model_transition.experiments()}  # fmt: skip
 
 
-def read(path: Path) -> list[Result]:
-    """The finished cases of the directory of a study, or of a file of results. Raises StudyError, OSError."""
-    return kept.read(path, ("case", "nose", *RESULTS), _kept, _of)
+def read(path: Path, cells: float | None = None) -> list[Result]:
+    """The finished runs of the directory of a study, or of a file of kept rows; cells : those across the rod, else all.
+
+    Raises StudyError, DeckError, OSError.
+    """
+    rows = keeping.read(path) if path.is_file() else keeping.of_directory(path)
+    found = [_of(row) for row in rows if row["status"] == layout.DONE]
+    return [run for run in found if cells is None or float(run.labels[CELLS]) == cells]
 
 
-def _kept(row: dict[str, str]) -> Result:
-    labels = kept.labels(row, ("nose", *RESULTS))
-    depth, residual, hole = (float(row[name]) if row[name] else None for name in ("depth_cm", "residual_m_s", "hole_cm3"))
-    loss, time, minutes = (float(row[name]) for name in ("loss_percent", "time_us", "minutes"))
-    return Result(row["case"], labels, row["nose"], depth, loss, residual, row["regime"], hole, time, minutes)
+def _of(row: keeping.Row) -> Result:
+    def number(name: str, factor: float = 1.0) -> float | None:
+        return round(factor * float(row[name]), 9) if row[name] else None
 
-
-def _of(case: layout.Case) -> Result:
-    told = case.summary
-    loss = 100.0 * (1.0 - told["rod_length_m"] / told["rod_initial_length_m"])
-    through = told.get("stop_reason", "").startswith("perforation")
-    depth, residual = (None, told["rod_residual_velocity_m_s"]) if through else (1e2 * told["penetration_depth_m"], None)
-    nose = next((body["nose"] for body in case.deck["body"] if body.get("nose")), None)
-    if nose is None:
-        raise StudyError(f"{case.name}: no body of its deck has a nose")
-    hole = 1e6 * told["crater"]["volume_m3"] if told.get("crater") else None
-    time, minutes = 1e6 * told["time_s"], told["wall_s"] / 60
-    return Result(case.name, case.values, NOSES.get(nose, nose), depth, loss, residual, told["regime"], hole, time, minutes)
-
-
-def keep(results: list[Result], path: Path) -> None:
-    """Writes a file of results. Raises OSError."""
-    axes = dict.fromkeys(axis for result in results for axis in result.labels)
-    kept.write(path, [*axes, "nose", *RESULTS, "case"], (result.row for result in results))
+    through = row["stop_reason"].startswith("perforation")
+    depth, residual = (None, number("residual_velocity_m_s")) if through else (number("depth_m", 1e2), None)
+    return Result(keeping.labels(row), int(row[keeping.MEMBER]), depth, round(100.0 * (1.0 - float(row["length_ratio"])), 9), residual,
+                  row["regime"], number("hole_m3", 1e6), row[keeping.OF_METHOD])
 
 
 def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:
@@ -230,6 +209,12 @@ def _deeper(depths: dict[float, float], limit: float) -> str:
     return _extent(bisection.bracket(found, NOT_DEEPER, DEPTHS)) if found else "none deeper" if depths else ""
 
 
+def mixed(results: list[Result]) -> list[str]:
+    """What the tables must say of runs that are not all of the present version of the method."""
+    told = keeping.methods(result.method for result in results)
+    return ["", told] if told else []
+
+
 def holes(results: list[Result]) -> list[str]:
     """Lines of Markdown: kinetic energy over the volume of the hole in GPa, by nose, loss of length and alloy."""
     ratios: dict[tuple[str, str, str], list[float]] = {}
@@ -255,18 +240,14 @@ def _range(values: list[float]) -> str:
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="+", type=Path)
-    parser.add_argument("--keep", type=Path, metavar="FILE", help="write all cases to a CSV file")
     given = parser.parse_args(arguments)
     try:
-        results = list({(result.name, result.nose): result for path in given.results for result in read(path)}.values())
+        results = list({result.identity: result for path in given.results for result in read(path)}.values())
         found = columns(results)
-        if not (results if given.keep else found):
+        if not found:
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
-        if given.keep:
-            keep(results, given.keep)
-        if found:
-            print("\n".join([*table(found), "", *transitions(found), "", *holes(results)]))
+        print("\n".join([*table(found), "", *transitions(found), "", *holes(results), *mixed(results)]))
     except (StudyError, DeckError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -1,10 +1,8 @@
-"""The velocity at which half of the hemispherical rods lose a third of their length, with its interval.
+"""The velocity at which half of the rods lose a third of their length, with its interval.
 
-    python -m problems.cth_nose_shape.transitions [STUDY ...]
+    python -m problems.cth_nose_shape.transitions [FILE]
 
-prints the table of `transition_members.toml` and `transition_members_weaker.toml` in Markdown, from results/transitions.csv.
-With the directories of these searches it first writes what has been found there to that file: for each finished run the labels
-of its case, its velocity, the share of the rod's length that is left at the end, and the depth.
+prints the table of `transition.toml` in Markdown, from the rows that its searches keep in results/transition.csv.
 """
 
 from __future__ import annotations
@@ -14,72 +12,77 @@ import sys
 from pathlib import Path
 
 from hydro2d.mesh.regime import LEAST_KEPT
-from hydro2d.study import layout, logit, velocities
+from hydro2d.study import keeping, layout, logit, velocities
 from hydro2d.study.layout import StudyError
-from problems import kept as results
+from problems.kept import grouped
 
 HERE = Path(__file__).parent
-FILE = HERE / "results" / "transitions.csv"
-COLUMNS = ("law", "plate", "velocity_m_s", "length_left", "depth_cm")
+FILE = HERE / "results" / "transition.csv"
+#: what tells one search from another
+CASE = ("nose", keeping.CELLS, "law", "plate")
 #: velocities of the experiments between which the change lies, m/s: the fastest rod that stayed rigid, the next that eroded
-EXPERIMENTS = {"5083": (1086.0, 1200.0), "7039": (1038.0, 1165.0)}
+EXPERIMENTS = {("hemispherical", "5083"): "1086 to 1200 m/s", ("hemispherical", "7039"): "1038 to 1165 m/s",
+               ("ogival", "5083"): "above 1227 m/s", ("ogival", "7039"): "above 1291 m/s"}  # fmt: skip
+HEAD = ("nose", "cells", "law", "plate", "experiments", "half of the rods", "90 % interval",
+        "fastest that kept, slowest that lost", "runs")  # fmt: skip
+
+Rows = list[keeping.Row]
 
 
-def of_case(case: layout.Case) -> dict[str, str]:
-    """The row of a finished case."""
-    told = case.summary
-    return {
-        "law": case.values["law"], "plate": case.values["plate"],
-        "velocity_m_s": f"{velocities.speed(case.values[velocities.AXIS]):g}",
-        "length_left": f"{told['rod_length_m'] / told['rod_initial_length_m']:.3f}",
-        "depth_cm": f"{1e2 * told['penetration_depth_m']:.2f}",
-    }  # fmt: skip
+def velocity(row: keeping.Row) -> float:
+    """m/s"""
+    return velocities.speed(row[velocities.AXIS])
 
 
-def kept(row: dict[str, str]) -> bool:
+def kept(row: keeping.Row) -> bool:
     """Whether the rod of a row has kept two thirds of its length."""
-    return float(row["length_left"]) >= LEAST_KEPT
+    return float(row["length_ratio"]) >= LEAST_KEPT
 
 
-def grouped(rows: list[dict[str, str]]) -> dict[tuple[str, ...], list[dict[str, str]]]:
-    """Rows by law and plate, the slowest first."""
-    found = results.grouped(rows, ("law", "plate"))
-    return {case: sorted(members, key=lambda row: float(row["velocity_m_s"])) for case, members in found.items()}
+def searches(rows: Rows) -> dict[tuple[str, ...], Rows]:
+    """The finished runs of every search, the slowest first."""
+    found = grouped((row for row in rows if row["status"] == layout.DONE), CASE)
+    return {case: sorted(members, key=velocity) for case, members in found.items()}
 
 
-def found(rows: list[dict[str, str]]) -> logit.Fit:
-    """v50 and the width of the change from the rows of one law and plate. Raises ValueError where they do not tell."""
-    fit = logit.fit([float(row["velocity_m_s"]) for row in rows], [not kept(row) for row in rows])
+def fitted(rows: Rows) -> logit.Fit:
+    """v50 and the width of the change from the rows of one search. Raises ValueError where they do not tell."""
+    fit = logit.fit([velocity(row) for row in rows], [not kept(row) for row in rows])
     if fit is None:
         raise ValueError("the runs do not tell the velocity of the change")
     return fit
 
 
-def table(rows: list[dict[str, str]]) -> list[str]:
-    """Lines of Markdown: a row for each law and plate."""
-    lines = ["| law | plate | experiments | half of the rods | 90 % interval | fastest that kept, slowest that lost | runs |",
-             "|---|---|---|---|---|---|---|"]  # fmt: skip
-    for (law, plate), members in grouped(rows).items():
-        fit = found(members)
-        low, high = EXPERIMENTS[plate]
-        fastest = max(float(row["velocity_m_s"]) for row in members if kept(row))
-        slowest = min(float(row["velocity_m_s"]) for row in members if not kept(row))
-        ends = " to ".join("open" if end is None else f"{end:.0f}" for end in (fit.v50_low, fit.v50_high))
-        lines.append(f"| {law} | {plate} | {low:.0f} to {high:.0f} m/s | {fit.v50:.0f} m/s | {ends} m/s "
-                     f"| {fastest:.0f}, {slowest:.0f} m/s | {len(members)} |")  # fmt: skip
-    return lines
+def _said(rows: Rows) -> tuple[str, str, str]:
+    """v50, its interval, and the runs on both sides; where all runs end alike, which bound they give."""
+    held, lost = ([f"{velocity(row):.0f}" for row in rows if kept(row) == side] for side in (True, False))
+    if not (held and lost):
+        return (f"above {held[-1]} m/s" if held else f"below {lost[0]} m/s"), "", ""
+    try:
+        fit = fitted(rows)
+    except ValueError:
+        return "not known", "", f"{held[-1]}, {lost[0]} m/s"
+    ends = " to ".join("open" if end is None else f"{end:.0f}" for end in (fit.v50_low, fit.v50_high))
+    return f"{fit.v50:.0f} m/s", f"{ends} m/s", f"{held[-1]}, {lost[0]} m/s"
+
+
+def table(rows: Rows) -> list[str]:
+    """Lines of Markdown: a row for each search, and what must be said of runs of other versions of the method."""
+    lines = [f"| {' | '.join(HEAD)} |", "|---" * len(HEAD) + "|"]
+    for (nose, cells, law, plate), members in searches(rows).items():
+        half, interval, sides = _said(members)
+        lines.append(f"| {nose} | {cells} | {law} | {plate} | {EXPERIMENTS[nose, plate]} | {half} | {interval} | {sides} "
+                     f"| {len(members)} |")  # fmt: skip
+    told = keeping.methods(row[keeping.OF_METHOD] for row in rows)
+    return [*lines, "", told] if told else lines
 
 
 def main(arguments: list[str]) -> int:
     """Prints the table. Returns the exit status."""
     parser = argparse.ArgumentParser(prog="transitions", description=__doc__.splitlines()[0])
-    parser.add_argument("studies", type=Path, nargs="*", metavar="STUDY", help="directory of a search, to be kept")
-    studies = parser.parse_args(arguments).studies
+    parser.add_argument("file", type=Path, nargs="?", default=FILE, help="rows of a search; default: those that are kept")
     try:
-        if studies:
-            cases = [case for study in studies for case in layout.read(study).cases if case.status == layout.DONE]
-            results.write(FILE, COLUMNS, map(of_case, cases))
-        print("\n".join(table(results.rows(FILE, COLUMNS))))
+        print("\n".join(table(keeping.read(parser.parse_args(arguments).file))))
     except (StudyError, OSError) as problem:
         print(problem, file=sys.stderr)
         return 2

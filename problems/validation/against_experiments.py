@@ -92,7 +92,7 @@ def twelve(name: str, law: str) -> list[Row]:
     """The twelve shots with one law."""
     file = PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"
     measured, rows = rigid_rod.experiments(), []
-    found = members.grouped(rigid_rod.read(file)).get(law, {})
+    found = members.grouped(rigid_rod.read(file, heads.CELLS)).get(law, {})
     for shot, runs in sorted(found.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)):
         told = measured[shot]
         through = sum(run.depth is None for run in runs)

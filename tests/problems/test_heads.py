@@ -4,6 +4,7 @@ import csv
 
 import pytest
 
+from hydro2d.method import METHOD
 from problems.cth_nose_shape import heads
 from problems.cth_nose_shape.rigid_rod import Result
 from tests.rules import source
@@ -11,9 +12,9 @@ from tests.rules import source
 PAGE = source.ROOT / "docs/explanation/eroding-heads.md"
 
 
-def made(shot, depth, failure=None, law=None, nose="hemispherical"):
+def made(shot, depth, failure=None, law=None):
     labels = {key: text for key, text in (("shot", shot), ("failure", failure), ("law", law)) if text}
-    return Result(f"{shot}_{depth}", labels, nose, depth, 50.0, None, "eroding", None, 1.0, 1.0)
+    return Result(labels, 0, depth, 50.0, None, "eroding", None, METHOD)
 
 
 def test_runs_are_gathered_by_shot_law_and_way_to_fail():

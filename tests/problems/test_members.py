@@ -4,16 +4,17 @@ from statistics import median
 
 import pytest
 
+from hydro2d.method import METHOD
+from hydro2d.study import keeping
 from problems.cth_nose_shape import members, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
-from tests.rules import source
 
 HELD, USED_UP = Shot("hemispherical", "5083", 1086.0), Shot("hemispherical", "5083", 1200.0)
 THROUGH = Shot("ogival", "5083", 1227.0)
 
 
-def made(depth, loss, shot="5083-1086", law="A", residual=None, nose="hemispherical"):
-    return Result(f"{law}_{shot}_{depth}", {"law": law, "shot": shot}, nose, depth, loss, residual, "rigid", None, 1.0, 1.0)
+def made(depth, loss, shot="5083-1086", law="A", residual=None):
+    return Result({"law": law, "shot": shot}, 0, depth, loss, residual, "rigid", None, METHOD)
 
 
 def test_a_cell_has_the_median_the_spread_and_the_outcome():
@@ -41,7 +42,7 @@ def test_scores_count_members_and_shots():
     results = [made(44.0, 2.0), made(43.0, 2.5), made(20.0, 60.0, "5083-1200"), made(41.0, 9.0, "5083-1200"),
                made(9.0, 80.0, law="B")]  # fmt: skip
     assert members.scores(members.grouped(results))[2:] == [
-        "| A | 2 | 3 of 4 | 1 | 1 |", "| B | 1 | 0 of 1 | 0 | 0 |",
+        "| A | 2 | 3 of 4 (36 to 94 %) | 1 | 1 |", "| B | 1 | 0 of 1 (0 to 73 %) | 0 | 0 |",
     ]  # fmt: skip
 
 
@@ -61,17 +62,8 @@ def test_the_figure_has_a_dot_for_every_member():
     assert list(line.get_ydata()) == [median([44.0, 46.0, rigid_rod.PLATE]), 20.0]
 
 
-def test_pages_have_the_tables_of_what_is_kept():
-    found = members.grouped(rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"))
-    assert len(found) == 4
-    page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
-    shots = members.table(found)
-    assert len(shots) == 14
-    assert [line for line in [*shots, *members.scores(found)] if line not in page] == []
-
-
 def test_nothing_to_show(tmp_path, capsys):
     file = tmp_path / "none.csv"
-    file.write_text(",".join(["law", "shot", "nose", *rigid_rod.RESULTS, "case"]) + "\n")
+    file.write_text(",".join(["law", "shot", keeping.CELLS, keeping.MEMBER, *keeping.RESULTS, *keeping.ORIGIN]) + "\n")
     assert members.main([str(file)]) == 2
     assert "no finished case" in capsys.readouterr().err

@@ -1,45 +1,55 @@
 """The tables of what ends a rigid rod, and the results that are kept beside the studies."""
 
 import re
-from collections import Counter
-from types import SimpleNamespace
+from dataclasses import replace
 
 import pytest
 
 from hydro2d.mesh.regime import DEFORMING, ERODING, RIGID, regime
-from hydro2d.study import cases
-from problems.cth_nose_shape import braking, rigid_rod, transitions
+from hydro2d.method import METHOD
+from hydro2d.study import cases, keeping, layout
+from hydro2d.study.choice import Choice
+from hydro2d.study.scaling import Size
+from problems import kept
+from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 from tests.rules import source
+from tests.study import fake
 
-#: what `depths` and `table` keep there has other columns, and so has what `braking` and `transitions` keep
-OTHERS = ("ceramics", "classic", "explosives", "long_rods", "spall", "verification", "whipple")
-KEPT = sorted(file for file in source.PROBLEMS.glob("*/results/*.csv")
-              if file.parent.parent.name not in OTHERS and file.stem not in braking.STUDIES and file != transitions.FILE)
+#: the studies whose rows `rigid_rod` reads
+KEPT = sorted(source.PROBLEMS / name for name in (
+    "cth_nose_shape/results/advection.csv", "cth_nose_shape/results/rigid_rod_failure.csv",
+    "cth_nose_shape/results/twelve_shots.csv", "cth_nose_shape/results/yield_factor.csv", "validation/results/eroded_heads.csv",
+    "validation/results/eroding_rods.csv", "validation/results/rigid_steel_rods.csv",
+    "validation/results/steel_rods_fitted.csv"))  # fmt: skip
 #: a result of a run on a page, as Result writes it
 CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")
+AXES = ("law", "shot", "nose", "plate", "velocity")
 
 
-def case(name, values, depth, length, status="done", reason="speed of rod below 5 m/s"):
-    summary = {"penetration_depth_m": depth, "rod_length_m": length, "rod_initial_length_m": 0.1, "stop_reason": reason,
-               "rod_residual_velocity_m_s": 123.4, "regime": "rigid", "time_s": 3.2e-4, "wall_s": 150.0,
-               "crater": {"volume_m3": 1.6e-5}}  # fmt: skip
-    deck = {"body": [{"name": "plate"}, {"name": "rod", "nose": "ogive" if "ogive" in name else "hemispherical"}]}
-    return SimpleNamespace(name=name, values=values, status=status, summary=summary, deck=deck)
+def row(labels, depth, length, status="done", reason="speed of rod below 5 m/s", member=0, method=METHOD):
+    numbers = {"depth_m": depth, "length_ratio": length / 0.1, "residual_velocity_m_s": 123.4, "regime": "rigid",
+               "hole_m3": 1.6e-5}  # fmt: skip
+    about = {"cells_across": "8.5", "member": member, "status": status, "stop_reason": reason, "method": method}
+    return dict.fromkeys(AXES, "") | labels | about | numbers
 
 
 @pytest.fixture
-def study(tmp_path, monkeypatch):
-    there = (
-        case("A_5083-1086", {"law": "A", "shot": "5083-1086"}, 0.4168, 0.0958),
-        case("A_ogive", {"law": "A", "shot": "ogive-7039-1291"}, 0.537, 0.0995, reason="perforation of plate"),
-        case("B_7039-1165", {"law": "B", "shot": "hemi 7039 1165"}, 0.156, 0.0384),
-        case("B_5083-1200", {"law": "B", "shot": "5083-1200"}, 0.1, 0.09, status="running"),
-        case("B_else", {"law": "B", "shot": "something else"}, 0.1, 0.09),
-        case("B_search", {"law": "B", "plate": "5083", "velocity": "700 m/s"}, 0.2, 0.095),
-    )
-    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
-    return tmp_path
+def study(tmp_path):
+    """A file of kept rows."""
+    return write(tmp_path / "rows.csv", [
+        row({"law": "A", "shot": "5083-1086"}, 0.4168, 0.0958),
+        row({"law": "A", "shot": "ogive-7039-1291"}, 0.537, 0.0995, reason="perforation of plate"),
+        row({"law": "B", "shot": "hemi 7039 1165"}, 0.156, 0.0384),
+        row({"law": "B", "shot": "5083-1200"}, 0.1, 0.09, status="unphysical"),
+        row({"law": "B", "shot": "something else"}, 0.1, 0.09),
+        row({"law": "B", "plate": "5083", "velocity": "700 m/s"}, 0.2, 0.095),
+    ])  # fmt: skip
+
+
+def write(file, rows):
+    kept.write(file, (*AXES, keeping.CELLS, keeping.MEMBER, *keeping.RESULTS, *keeping.ORIGIN), rows)
+    return file
 
 
 @pytest.mark.parametrize(("label", "shot"), [
@@ -51,11 +61,12 @@ def test_labels(label, shot):
 
 @pytest.mark.parametrize(("labels", "shot", "column"), [
     ({"law": "A", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "A"),
-    ({"law": "A", "plate": "7039", "velocity": "875 m/s"}, Shot("ogival", "7039", 875.0), "A"),
+    ({"law": "A", "nose": "ogival", "plate": "7039", "velocity": "875 m/s", "cells_across": "5.5"},
+     Shot("ogival", "7039", 875.0), "A"),
     ({"plate": "5083-H116", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "5083-H116"),
     ({"plate": "6061", "velocity": "875 m/s"}, None, "")])  # fmt: skip
 def test_shots_of_studies_and_of_searches(labels, shot, column):
-    result = Result("name", labels, "ogival", 1.0, 0.0, None, "rigid", None, 1.0, 1.0)
+    result = Result(labels, 0, 1.0, 0.0, None, "rigid", None, METHOD)
     assert (result.shot, result.column) == (shot, column)
 
 
@@ -95,64 +106,45 @@ def test_the_transition_by_depth(depths, said):
     assert rigid_rod._deeper(depths, 25.6) == said
 
 
-def test_nothing_to_show_or_to_keep(tmp_path, monkeypatch):
-    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=()))
-    file = tmp_path / "kept.csv"
-    file.write_text("what was kept before")
-    assert rigid_rod.main([str(tmp_path)]) == 2
-    assert rigid_rod.main([str(tmp_path), "--keep", str(file)]) == 2
-    assert file.read_text() == "what was kept before"
-
-
-def test_results_that_are_no_shots_are_kept_and_have_no_table(study, monkeypatch, capsys):
-    there = (case("elsewhere", {"law": "A", "shot": "steel-2120"}, 0.1, 0.02),)
-    monkeypatch.setattr(rigid_rod.layout, "read", lambda directory: SimpleNamespace(cases=there))
-    assert rigid_rod.main([str(study), "--keep", str(study / "kept.csv")]) == 0
-    assert rigid_rod.main([str(study / "kept.csv")]) == 2
+def test_nothing_to_show(tmp_path, capsys):
+    assert rigid_rod.main([str(write(tmp_path / "rows.csv", [row({"law": "A", "shot": "steel-2120"}, 0.1, 0.02)]))]) == 2
     assert capsys.readouterr().err == "there is no finished case of a shot\n"
 
 
-def test_another_table_is_no_file_of_results(capsys):
+def test_another_table_is_no_file_of_rows(capsys):
     assert rigid_rod.main([str(source.PROBLEMS / "cth_nose_shape" / "experiments.csv")]) == 2
-    assert "experiments.csv: no file of results: it has no column case, " in capsys.readouterr().err
+    assert "experiments.csv: holds no rows of a study: it has no column " in capsys.readouterr().err
 
 
-def test_kept_results_are_read_again(study, capsys):
-    file = study / "kept.csv"
-    assert rigid_rod.main([str(study), "--keep", str(file)]) == 0
-    assert file.read_text().splitlines()[:3] == [
-        "law,shot,plate,velocity,nose,depth_cm,loss_percent,regime,residual_m_s,hole_cm3,time_us,minutes,case",
-        "A,5083-1086,,,hemispherical,41.68,4.2,rigid,,16,320,2.5,A_5083-1086",
-        "A,ogive-7039-1291,,,ogival,,0.5,rigid,123,16,320,2.5,A_ogive",
-    ]
-    from_runs = capsys.readouterr().out
-    assert rigid_rod.main([str(file)]) == 0
-    assert capsys.readouterr().out == from_runs
-    newer = study / "newer.csv"
-    newer.write_text(file.read_text().splitlines()[0] + "\nA,5083-1086,,,hemispherical,30,50,eroding,,,320,2.5,A_5083-1086\n")
-    assert rigid_rod.main([str(file), str(newer), "--keep", str(file)]) == 0
-    assert len(file.read_text().splitlines()) == 6
-    assert "| 30.0 cm, 50 % |" in capsys.readouterr().out
+def test_later_rows_replace_earlier_ones_and_old_ones_are_told(study, tmp_path, capsys):
+    newer = write(tmp_path / "newer.csv", [row({"law": "A", "shot": "5083-1086"}, 0.3, 0.05, method="2020-01-01")])
+    assert rigid_rod.main([str(study), str(newer)]) == 0
+    said = capsys.readouterr().out
+    assert "| 30.0 cm, 50 % |" in said
+    assert "41.7 cm" not in said
+    assert said.endswith(": 1 of 2020-01-01.\n")
+
+
+def test_runs_of_a_directory_read_as_their_rows_do(tmp_path):
+    plan = cases.plan(source.PROBLEMS / "cth_nose_shape/twelve_shots.toml", quiet=True, size=Size(members=2))
+    plan = replace(plan, cases=plan.cases[:4], keep=tmp_path / "rows.csv")
+    for case in plan.cases:
+        fake.write_run(tmp_path / "out/cases" / case.name, text=case.text)
+    layout.make(tmp_path / "out")
+    layout.write(plan, tmp_path / "out")
+    Choice(plan).keep(layout.read(tmp_path / "out").cases)
+    assert rigid_rod.read(tmp_path / "out") == rigid_rod.read(plan.keep)
+    assert [run.member for run in rigid_rod.read(plan.keep)] == [0, 1, 0, 1]
 
 
 @pytest.mark.parametrize("file", KEPT, ids=lambda file: file.stem)
-def test_kept_results_are_those_of_their_study(file):
+def test_kept_rows_are_those_of_their_study(file):
     plan = cases.plan(file.parent.parent / f"{file.stem}.toml", quiet=True)
-    results = rigid_rod.read(file)
-    assert len({result.name for result in results}) == len(results) > 0
-    planned = {case.name: case.values for case in plan.cases}
-    assert [(result.name, result.labels) for result in results] == [
-        (result.name, planned.get(result.name)) for result in results
-    ]
-
-
-def test_the_holes_of_the_page_are_those_of_the_kept_results():
-    page = (source.ROOT / "docs/explanation/rigid-rod.md").read_text(encoding="utf-8").splitlines()
-    names = ("twelve_shots", "rigid_rod_mesh", "rigid_rod_failure")
-    kept = [result for name in names for result in rigid_rod.read(source.PROBLEMS / f"cth_nose_shape/results/{name}.csv")]
-    rows = rigid_rod.holes(kept)
-    assert len(rows) == 7
-    assert [row for row in rows if row not in page] == []
+    assert plan.keep.resolve() == file.resolve()
+    rows = keeping.read(file)
+    assert len({(*keeping.labels(each).items(), each["member"]) for each in rows}) == len(rows) > 0
+    planned = [case.values for case in plan.cases]
+    assert [each for each in rows if {name: each[name] for name in planned[0]} not in planned] == []
 
 
 def test_kept_results_are_judged_by_the_rule_of_today():
@@ -164,16 +156,11 @@ def test_kept_results_are_judged_by_the_rule_of_today():
         left = 1.0 - result.loss / 100.0
         by_length = regime(left, 1.0, 1.0)
         allowed = {RIGID: tuple(words), DEFORMING: (DEFORMING, ERODING), ERODING: (ERODING,)}[by_length]
-        assert result.regime in allowed, result.name
+        assert result.regime in allowed, result
     assert min(words.values()) > 0
-    page = (source.ROOT / "problems/cth_nose_shape/README.md").read_text(encoding="utf-8")
-    assert f"{words[f'{RIGID} or {DEFORMING}']} runs had lost 2 to 5 %" in " ".join(page.split())
-    twelve = Counter(each.regime for each in rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"))
-    told = f"{twelve[RIGID]} of {twelve.total()} runs are rigid, {twelve[DEFORMING]} deforming and {twelve[ERODING]} eroding"
-    assert told in " ".join(page.split())
 
 
-@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", 3)])
+@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", 2)])
 def test_results_on_a_page_are_kept_ones(page, least):
     told = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
     assert len(told) > least

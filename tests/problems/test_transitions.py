@@ -1,56 +1,60 @@
-"""The velocity at which half of the hemispherical rods lose a third of their length: how it is found, and the page's table."""
+"""The velocity at which half of the rods lose a third of their length: how it is found, and the page's table."""
+
+from collections import Counter
 
 import pytest
 
-from hydro2d.study import cases
-from problems import kept
+from hydro2d.method import METHOD
+from hydro2d.study import cases, keeping
 from problems.cth_nose_shape import transitions
 from tests.rules import source
 
-PAGE = source.ROOT / "docs/explanation/rigid-rod.md"
-ROWS = kept.rows(transitions.FILE, transitions.COLUMNS)
+ROWS = keeping.read(transitions.FILE)
 
 
-def rows(law, plate, **outcomes):
-    """Rows with velocity and share of the length."""
-    return [{"law": law, "plate": plate, "velocity_m_s": f"{velocity:g}", "length_left": f"{left}", "depth_cm": "1"}
-            for velocity, left in outcomes["runs"]]  # fmt: skip
+def rows(runs, nose="hemispherical", method=METHOD):
+    """Rows of a search, of velocities and shares of the length."""
+    return [{"nose": nose, "law": "a", "plate": "5083", "cells_across": "5.5", "velocity": f"{velocity} m/s", "status": "done",
+             "length_ratio": f"{left}", "method": method} for velocity, left in runs]  # fmt: skip
 
 
 def test_the_velocity_lies_between_what_kept_and_what_lost():
-    runs = [(1000, 0.99), (1050, 0.98), (1100, 0.97), (1150, 0.6), (1200, 0.9), (1250, 0.3), (1300, 0.2), (1350, 0.1)]
-    found = rows("a", "5083", runs=runs)
-    fit = transitions.found(found)
-    assert 1125.0 < fit.v50 < 1225.0
+    found = rows([(1300, 0.2), (1000, 0.99), (1050, 0.98), (1100, 0.97), (1150, 0.6), (1200, 0.9), (1250, 0.3), (1350, 0.1)])
+    assert 1125.0 < transitions.fitted(found).v50 < 1225.0
     line = transitions.table(found)[2]
-    assert line.startswith("| a | 5083 | 1086 to 1200 m/s | 1175 m/s |")
+    assert line.startswith("| hemispherical | 5.5 | a | 5083 | 1086 to 1200 m/s | 1175 m/s |")
     assert line.endswith("| 1200, 1150 m/s | 8 |")
-    assert transitions.kept({"length_left": "0.667"})
-    assert not transitions.kept({"length_left": "0.666"})
+    assert transitions.kept({"length_ratio": "0.667"})
+    assert not transitions.kept({"length_ratio": "0.666"})
 
 
-def test_runs_that_do_not_tell_are_refused():
+def test_runs_that_do_not_tell():
     with pytest.raises(ValueError, match="do not tell"):
-        transitions.found(rows("a", "5083", runs=[(1000, 0.99), (1100, 0.98)]))
+        transitions.fitted(rows([(1000, 0.99), (1100, 0.98)]))
+    held, lost = rows([(1000, 0.99), (1100, 0.98)]), rows([(1000, 0.2), (1100, 0.1)])
+    assert "| above 1100 m/s |  |  | 2 |" in transitions.table(held)[2]
+    assert "| below 1000 m/s |  |  | 2 |" in transitions.table(lost)[2]
 
 
-def test_the_table_of_the_page_is_that_of_the_kept_results():
-    page = PAGE.read_text(encoding="utf-8").splitlines()
-    assert set(transitions.table(ROWS)[2:]) <= set(page)
+def test_runs_that_did_not_end_well_do_not_count():
+    assert len(transitions.table([{**row, "status": "unphysical"} for row in rows([(1000, 0.9)])])) == 2
 
 
-def test_kept_runs_have_the_laws_and_plates_of_the_studies():
-    """All runs of the budget of each; of the weaker laws only one was run."""
-    plans = [cases.plan(source.PROBLEMS / f"cth_nose_shape/{name}.toml", quiet=True)
-             for name in ("transition_members", "transition_members_weaker")]  # fmt: skip
-    studied = {(case.values["law"], case.values["plate"]) for plan in plans for case in plan.cases}
-    assert len(transitions.grouped(ROWS)) == 6
-    assert set(transitions.grouped(ROWS)) < studied
-    assert {len(runs) for runs in transitions.grouped(ROWS).values()} == {plan.search.budget.runs for plan in plans}
+def test_a_table_says_that_its_runs_are_old():
+    assert transitions.table(rows([(1000, 0.99)], method="2020-01-01"))[-1].endswith(": 1 of 2020-01-01.")
 
 
-def test_a_directory_that_is_no_study_is_refused(tmp_path, capsys):
-    before = transitions.FILE.read_bytes()
-    assert transitions.main([str(tmp_path)]) == 2
-    assert str(tmp_path) in capsys.readouterr().err
-    assert transitions.FILE.read_bytes() == before
+def test_kept_runs_are_those_of_the_study():
+    plan = cases.plan(source.PROBLEMS / "cth_nose_shape/transition.toml", quiet=True)
+    studied = {(case.values["nose"], case.values["law"], case.values["plate"]) for case in plan.cases}
+    found = transitions.searches(ROWS)
+    assert {(nose, law, plate) for nose, _, law, plate in found} <= studied
+    numbers = Counter(len(runs) for runs in found.values())
+    assert max(numbers) <= plan.search.budget.runs
+
+
+def test_a_file_of_something_else_is_refused(tmp_path, capsys):
+    file = tmp_path / "other.csv"
+    file.write_text("a,b\n1,2\n")
+    assert transitions.main([str(file)]) == 2
+    assert "holds no rows of a study" in capsys.readouterr().err

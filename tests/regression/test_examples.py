@@ -22,7 +22,8 @@ from hydro2d import jit, toml
 from hydro2d.cli.main import app, call
 from hydro2d.deck import deck as decks
 from hydro2d.deck import templates
-from hydro2d.study import cases, cluster
+from hydro2d.study import cases, cluster, parts
+from hydro2d.study.scaling import AS_IT_IS
 from tests.rules import source
 
 #: cycles of a run, enough for a hole to be there
@@ -30,7 +31,6 @@ CYCLES = 40
 DECK = "problems/cth_nose_shape/hemi_5083_1086.toml"
 SWEEP = "problems/cth_nose_shape/velocity_advection.toml"
 SEARCH = "problems/cth_nose_shape/transition_hemi_5083.toml"
-LAWS = "problems/cth_nose_shape/rigid_rod_laws.toml"
 
 #: commands that are not run, by how they begin, and why
 NOT_RUN = {
@@ -177,7 +177,14 @@ def short_study(data: dict) -> dict:
             axis["values"] = axis["values"][several]
         else:
             axis["variants"] = dict(list(axis["variants"].items())[several])
-    data.get("transition", {})["tolerance"] = "1 km/s"
+    if "budget" in data.get("transition", {}):
+        data["transition"]["budget"] = 4
+    else:
+        data.get("transition", {})["tolerance"] = "1 km/s"
+    data.get("ensemble", {})["repeats"] = 2
+    for part in data.get("part", ()):
+        for key in ("only", "skip"):
+            part.pop(key, None)
     return {key: value for key, value in data.items() if key != "exclude"}
 
 
@@ -215,7 +222,7 @@ def folder(short, tmp_path, monkeypatch):
                 continue
             kept = short / "runs" / Path(file).stem
             if not kept.exists():
-                assert call(["sweep" if file == LAWS else "run", file, "--quiet", "--out", str(kept)]) == 0
+                assert call(["sweep" if file == SWEEP else "run", file, "--quiet", "--out", str(kept)]) == 0
             shutil.copytree(kept, name)
 
     yield prepare
@@ -263,19 +270,21 @@ def test_toml_of_the_text_is_valid(page, folder):
             assert run(text.replace(" -o ", " -o problems/cth_nose_shape/")) == 0
     for line, _, text in of_kind(page, "toml"):
         data, file = tomllib.loads(text), Path(f"problems/cth_nose_shape/line_{line}.toml")
-        if {"transition", "ensemble"} & set(data) and "deck" not in data:
+        if {"transition", "ensemble", "keep"} & set(data) and "deck" not in data:
             whole = tomllib.loads(Path(SEARCH if "transition" in data else SWEEP).read_text(encoding="utf-8"))
             if "budget" in data.get("transition", {}):
                 del whole["transition"]["tolerance"]
             data = toml.merge(whole, data)
             text = toml.dumps(data)
-        elif not {"deck", "include", "mesh", "cores"} & set(data):
+        elif not {"deck", "include", "mesh", "cores", "part"} & set(data):
             text = f'include = "{BASES.get(page, QUICK)}"\n{text}'
         if str(data.get("include", "")).startswith("problems/"):
             file = Path(file.name)  # a deck in the reader's folder
         file.write_text(text)
         if "cores" in data:
             assert cluster.read_slurm(file)
+        elif "part" in data:
+            assert [each.states[0] for each in parts.plans(file, (), AS_IT_IS, quiet=True)], f"{page}:{line}"
         elif toml.is_study(data):
             assert [case.message for case in cases.plan(file, quiet=True).cases if case.message] == [], f"{page}:{line}"
         else:

@@ -1,0 +1,166 @@
+"""What advection, sliding and failure do to the twelve shots: the tables of the nose-shape study, from kept rows.
+
+    python -m problems.cth_nose_shape.findings [FILE] [--figure PATH]
+
+FILE is what `advection.toml` keeps. Three tables are printed in Markdown: depth and loss of length of every shot in every way
+to compute it; how many rods end as in the experiments; and by how much the depth differs between two schemes of advection. The
+figure has depth against velocity, as Figures 2 and 3 of the study have it, with a dot for every run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import fmean, median, stdev
+
+from hydro2d.errors import DeckError
+from hydro2d.results import figures
+from hydro2d.study.layout import StudyError
+from problems.cth_nose_shape import members, rigid_rod
+from problems.cth_nose_shape.rigid_rod import Result, Shot
+
+HERE = Path(__file__).parent
+FILE = HERE / "results" / "advection.csv"
+#: axes of the study besides the shots, and the schemes that are compared with the first
+AXES = ("sliding", "failure", "advection")
+SCHEMES = ("ke", "momentum", "both")
+
+Runs = dict[tuple[str, ...], dict[Shot, list[Result]]]
+
+
+def grouped(results: Sequence[Result]) -> Runs:
+    """The runs by the way in which they were computed, and shot."""
+    found: Runs = {}
+    for result in results:
+        if result.shot is not None:
+            way = tuple(result.labels[axis] for axis in AXES)
+            found.setdefault(way, {}).setdefault(result.shot, []).append(result)
+    return found
+
+
+def shots_of(found: Runs, nose: str) -> list[Shot]:
+    """The shots with a nose, by alloy and velocity."""
+    return sorted({shot for cases in found.values() for shot in cases if shot.nose == nose},
+                  key=lambda shot: (shot.alloy, shot.velocity))
+
+
+def _cell(runs: Sequence[Result]) -> str:
+    """Median depth, the least and the largest, and median loss of length."""
+    through = sum(run.depth is None for run in runs)
+    lost = median(run.loss for run in runs)
+    loss = f"{lost:.1f} %" if lost < 10.0 else f"{lost:.0f} %"
+    if through == len(runs):
+        return f"perforated, {loss}"
+    depths = sorted(run.reach for run in runs)
+    spread = f" ({depths[0]:.1f} to {depths[-1]:.1f})" if len(depths) > 1 else ""
+    some = f", {through} of {len(runs)} perforated" if through else ""
+    return f"{median(depths):.1f}{spread}{some}, {loss}"
+
+
+def depths(found: Runs, nose: str) -> list[str]:
+    """Lines of Markdown: a row for each way to compute, a column for each shot with this nose."""
+    shots, measured = shots_of(found, nose), rigid_rod.experiments()
+    if not shots:
+        return [f"No {nose} rod has been run yet."]
+    lines = [f"| sliding, failure, advection | {' | '.join(f'{shot.alloy}, {shot.velocity:g} m/s' for shot in shots)} |",
+             "|---" * (len(shots) + 1) + "|", f"| experiment | {' | '.join(str(measured[shot]) for shot in shots)} |"]
+    for way, cases in found.items():
+        if any(shot in cases for shot in shots):
+            cells = [_cell(cases[shot]) if shot in cases else "" for shot in shots]
+            lines.append(f"| {', '.join(way)} | {' | '.join(cells)} |")
+    return lines
+
+
+def scores(found: Runs) -> list[str]:
+    """Lines of Markdown: what every way to compute has right."""
+    return members.scores({", ".join(way): cases for way, cases in found.items()}, "sliding, failure, advection")
+
+
+def difference(one: Sequence[Result], other: Sequence[Result]) -> tuple[float, float | None]:
+    """By how much the mean depth of some runs exceeds that of others, per cent, and its standard error by their scatter."""
+    means = [fmean(run.reach for run in runs) for runs in (one, other)]
+    error = None
+    if min(len(one), len(other)) > 1:
+        error = 100.0 / means[1] * math.sqrt(sum(stdev([run.reach for run in runs]) ** 2 / len(runs) for runs in (one, other)))
+    return 100.0 * (means[0] / means[1] - 1.0), error
+
+
+def schemes(found: Runs, nose: str) -> list[str]:
+    """Lines of Markdown: by how much the depths of a scheme exceed those of `ke`, shot by shot and in the mean."""
+    shots = shots_of(found, nose)
+    lines = [f"| sliding, failure | scheme | {' | '.join(f'{shot.alloy}, {shot.velocity:g} m/s' for shot in shots)} | mean |",
+             "|---" * (len(shots) + 3) + "|"]
+    ways = dict.fromkeys(way[:2] for way in found)
+    for way, scheme in itertools.product(ways, SCHEMES[1:]):
+        first, second = found.get((*way, SCHEMES[0]), {}), found.get((*way, scheme), {})
+        told = {shot: difference(second[shot], first[shot]) for shot in shots if shot in first and shot in second}
+        if told:
+            cells = [_difference(*told[shot]) if shot in told else "" for shot in shots]
+            errors = [error for _, error in told.values()]
+            of_mean = None if None in errors else math.sqrt(sum(error**2 for error in errors)) / len(errors)
+            mean = _difference(fmean(value for value, _ in told.values()), of_mean)
+            lines.append(f"| {', '.join(way)} | {scheme} | {' | '.join(cells)} | {mean} |")
+    return lines
+
+
+def _difference(value: float, error: float | None) -> str:
+    return f"{value:+.1f} %" if error is None else f"{value:+.1f} ± {error:.1f} %"
+
+
+def draw(found: Runs):
+    """A matplotlib Figure: a panel for each treatment of sliding and alloy, a colour for each scheme, hemispherical rods."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    ways = list(dict.fromkeys(way[:2] for way in found))
+    figure = Figure(figsize=(9.0, 2.9 * len(ways)), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = figure.subplots(len(ways), 2, sharex="col", sharey=True, squeeze=False)
+    measured, nose = rigid_rod.experiments(), rigid_rod.NOSES["hemi"]
+    for way, row in zip(ways, panels, strict=True):
+        for alloy, axes in zip(("5083", "7039"), row, strict=True):
+            for number, scheme in enumerate(SCHEMES):
+                here = {shot.velocity + 8.0 * (number - 1): runs for shot, runs in found.get((*way, scheme), {}).items()
+                        if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
+                members.dots(axes, scheme, rigid_rod.COLOURS[number], here)
+            shots = [(shot.velocity, 1e2 * told.depth) for shot, told in measured.items()
+                     if (shot.nose, shot.alloy) == (nose, alloy)]  # fmt: skip
+            axes.plot(*zip(*shots, strict=True), "s", color="black", markersize=8, markerfacecolor="none", label="experiment")
+            axes.set_title(f"{', '.join(way)}: {alloy}", fontsize="medium")
+            axes.grid(alpha=0.3)
+        row[0].set_ylabel("depth [cm]")
+    for axes in panels[-1]:
+        axes.set_xlabel("impact velocity [m/s]")
+    panels[0][0].set_ylim(0.0, 60.0)
+    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=4)
+    return figure
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", nargs="?", type=Path, default=FILE)
+    parser.add_argument("--figure", type=Path)
+    given = parser.parse_args(arguments)
+    try:
+        results = rigid_rod.read(given.file)
+        found = grouped(results)
+        if not found:
+            print("there is no finished case of a shot", file=sys.stderr)
+            return 2
+        for nose in rigid_rod.NOSES.values():
+            print("\n".join([*depths(found, nose), ""]))
+        print("\n".join([*scores(found), "", *schemes(found, rigid_rod.NOSES["hemi"]), *rigid_rod.mixed(results)]))
+        if given.figure:
+            figures.save(draw(found), given.figure)
+    except (StudyError, DeckError, OSError, KeyError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,106 @@
+"""Fills the tables of the pages of the study from kept rows.
+
+    python -m problems.cth_nose_shape.pages [--check]
+
+A table stands between `<!-- NAME -->` and `<!-- end -->`, and is what the function of that name in TABLES makes of the rows.
+With --check nothing is written, and the status is 1 if a page has another table. A test does the same.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from hydro2d.files import write_text
+from hydro2d.study import keeping
+from problems.cth_nose_shape import findings, members, rigid_rod, transitions
+
+HERE = Path(__file__).parent
+PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape"))
+RESULTS = HERE / "results"
+#: cells across the rod of the tables of all twelve shots, and of those that are compared with them
+USUAL, OTHERS = 8.5, (5.5, 6.5, 12.5)
+HEMISPHERICAL, OGIVAL = rigid_rod.NOSES.values()
+_BLOCK = re.compile(r"(<!-- (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+
+def _twelve(cells: float | None = USUAL) -> list[rigid_rod.Result]:
+    return rigid_rod.read(RESULTS / "twelve_shots.csv", cells)
+
+
+def _shots() -> list[str]:
+    runs = _twelve()
+    return [*members.table(members.grouped(runs)), *rigid_rod.mixed(runs)]
+
+
+def _scores() -> list[str]:
+    lines: list[str] = []
+    for cells in (*OTHERS, USUAL):
+        found = members.grouped(_twelve(cells))
+        head, rule, *rows = members.scores(found) if found else ("", "")
+        lines = lines or [f"| cells {head}", f"|---{rule}"] if head else lines
+        lines += [f"| {cells:g} {row}" for row in rows]
+    return [*lines, *rigid_rod.mixed(_twelve(None))]
+
+
+def _meshes() -> list[str]:
+    runs = [run for run in _twelve(None) if float(run.labels[rigid_rod.CELLS]) in OTHERS]
+    found: dict[str, dict[rigid_rod.Shot, list[rigid_rod.Result]]] = {}
+    for run in sorted(runs, key=lambda run: float(run.labels[rigid_rod.CELLS])):
+        if run.shot is not None and run.shot.nose == HEMISPHERICAL:
+            column = f"{run.column}, {run.labels[rigid_rod.CELLS]}"
+            found.setdefault(column, {}).setdefault(run.shot, []).append(run)
+    return [*members.table(found), *rigid_rod.mixed(runs)]
+
+
+def _holes() -> list[str]:
+    runs = [*_twelve(None), *rigid_rod.read(RESULTS / "rigid_rod_failure.csv")]
+    return [*rigid_rod.holes(runs), *rigid_rod.mixed(runs)]
+
+
+def _transitions() -> list[str]:
+    return transitions.table(keeping.read(transitions.FILE))
+
+
+def _of_advection(make: Callable[[findings.Runs], list[str]]) -> Callable[[], list[str]]:
+    def lines() -> list[str]:
+        runs = rigid_rod.read(findings.FILE)
+        return [*make(findings.grouped(runs)), *rigid_rod.mixed(runs)]
+
+    return lines
+
+
+TABLES: dict[str, Callable[[], list[str]]] = {
+    "shots": _shots, "scores": _scores, "meshes": _meshes, "holes": _holes, "transitions": _transitions,
+    "hemispherical": _of_advection(lambda found: findings.depths(found, HEMISPHERICAL)),
+    "ogival": _of_advection(lambda found: findings.depths(found, OGIVAL)),
+    "ways": _of_advection(findings.scores),
+    "schemes": _of_advection(lambda found: findings.schemes(found, HEMISPHERICAL)),
+}  # fmt: skip
+
+
+def filled(text: str) -> str:
+    """The text of a page with the tables that the kept rows make."""
+    return _BLOCK.sub(lambda found: "\n".join([found[1].rstrip(), *TABLES[found[2]](), found[3]]), text)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    check, status = parser.parse_args(arguments).check, 0
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        new = filled(text)
+        if new != text:
+            print(f"{page.name}: {'has other tables' if check else 'filled'}")
+            status = 1 if check else 0
+            if not check:
+                write_text(page, new)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,161 @@
+"""Rows that a study keeps: which runs are up to date, which are stale, and what a table says that mixes versions."""
+
+import csv
+from dataclasses import replace
+
+import pytest
+
+from hydro2d.deck import deck as decks
+from hydro2d.files import write_json
+from hydro2d.study import cases, keeping, layout
+from hydro2d.study.choice import Choice
+from hydro2d.study.definition import StudyError
+from hydro2d.study.scaling import AS_IT_IS, Size
+from tests.study import fake, tubes
+
+
+@pytest.fixture
+def study(tmp_path):
+    """The plan of a study of two velocities, each with two members, whose runs nobody made."""
+    return plan(tmp_path)
+
+
+def plan(folder, more="", size=AS_IT_IS):
+    file = folder / "velocities.toml"
+    file.write_text(f"""deck = "{(tubes.ROOT / fake.BASE).as_posix()}"
+keep = "rows.csv"
+{more}
+[ensemble]
+repeats = 2
+[[axis]]
+name = "speed"
+key = "body.rod.velocity"
+values = ["1086 m/s", "1200 m/s"]
+""")
+    return cases.plan(file, quiet=True, size=size)
+
+
+def ended(found, folder, **summary):
+    """The cases of a plan with runs in a folder, as a sweep reads them."""
+    for case in found.cases:
+        fake.write_run(folder / "cases" / case.name, text=case.text, **summary)
+    layout.make(folder)
+    layout.write(found, folder)
+    return layout.read(folder).cases
+
+
+def rows(found):
+    with open(found.keep, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_rows_of_runs_that_ended(study, tmp_path):
+    choice = Choice(study)
+    assert len(choice.selected) == 4
+    assert not choice.complete()
+    choice.keep(ended(study, tmp_path / "out"))
+    kept = rows(study)
+    assert [(row["speed"], row["member"]) for row in kept] == [
+        ("1086 m/s", "0"), ("1086 m/s", "1"), ("1200 m/s", "0"), ("1200 m/s", "1")]  # fmt: skip
+    assert {row["cells_across"] for row in kept} == {"5.5"}
+    assert {row["method"] for row in kept} == {keeping.METHOD}
+    assert len({row["setup"] for row in kept}) == 4
+    assert float(kept[0]["depth_m"]) == 0.31
+    assert float(kept[0]["length_ratio"]) == pytest.approx(0.98)
+    again = Choice(study)
+    assert again.complete()
+    assert again.kept().endswith("4 runs up to date, 0 stale, 0 not made")
+    assert not Choice(study, again=True).complete()
+
+
+def test_a_running_case_has_no_row(study, tmp_path):
+    cases_of = ended(study, tmp_path / "out")
+    Choice(study).keep([replace(cases_of[0], status="interrupted"), *cases_of[1:]])
+    assert len(rows(study)) == 3
+
+
+def test_another_deck_or_method_makes_rows_stale(study, tmp_path):
+    Choice(study).keep(ended(study, tmp_path / "out"))
+    changed = plan(tmp_path, '[set]\n"sliding.friction" = 0.01\n')
+    assert Choice(changed).kept().endswith("0 runs up to date, 4 stale, 0 not made")
+    told = plan(tmp_path, '[set]\ntitle = "another"\n"output.vtk_interval" = "1 ms"\n')
+    assert Choice(told).kept().endswith("4 runs up to date, 0 stale, 0 not made"), "neither changes a result"
+    text = study.keep.read_text().replace(keeping.METHOD, "2020-01-01")
+    study.keep.write_text(text)
+    assert Choice(study).kept().endswith("0 runs up to date, 4 stale, 0 not made")
+    choice = Choice(study)
+    choice.keep(layout.read(tmp_path / "out").cases)
+    assert len(rows(study)) == 4, "new rows take the places of stale ones"
+    assert Choice(study).complete()
+
+
+def test_runs_of_another_method_are_not_kept(study, tmp_path):
+    Choice(study).keep(ended(study, tmp_path / "out", method="2020-01-01"))
+    assert not study.keep.exists()
+
+
+def test_members_and_cells_of_another_size(study, tmp_path):
+    Choice(study).keep(ended(study, tmp_path / "out"))
+    one = plan(tmp_path, size=Size(members=1))
+    assert [case.member for case in one.cases] == [0, 0]
+    assert Choice(one).complete()
+    fine = plan(tmp_path, size=Size(cells=8.5))
+    choice = Choice(fine)
+    assert choice.kept().endswith("0 runs up to date, 0 stale, 4 not made")
+    choice.keep(ended(fine, tmp_path / "fine"))
+    assert [row["cells_across"] for row in rows(study)] == ["5.5"] * 4 + ["8.5"] * 4
+    assert Choice(study).complete()
+    assert Choice(fine).complete()
+
+
+def test_a_default_does_not_count_in_a_setup():
+    plain = decks.load(fake.BASE)
+    assert keeping.setup(plain) == keeping.setup(decks.load(fake.BASE, [f"numerics.courant={plain.numerics.courant}"]))
+    assert keeping.setup(plain) != keeping.setup(decks.load(fake.BASE, ["numerics.courant=0.4"]))
+    alloy = ["body.rod.material=alloy", "materials.alloy.based_on=W_alloy"]
+    stronger = [*alloy, "materials.alloy.strength.yield_stress=1.9 GPa"]
+    titled = [*alloy, "materials.alloy.title=another"]
+    first, second, third = (keeping.setup(decks.load(fake.BASE, each)) for each in (alloy, stronger, titled))
+    assert first == third != second
+
+
+def test_a_file_of_something_else_is_refused(study):
+    study.keep.write_text("a,b\n1,2\n")
+    with pytest.raises(StudyError, match="holds no rows of a study"):
+        Choice(study)
+
+
+def test_rows_of_another_study_are_refused(study, tmp_path):
+    Choice(study).keep(ended(study, tmp_path / "out"))
+    study.keep.write_text(study.keep.read_text().replace("speed,", "velocity,", 1))
+    with pytest.raises(StudyError, match="is of another study: it has no column speed"):
+        Choice(study)
+
+
+def test_a_table_says_that_it_mixes_versions():
+    assert keeping.methods([keeping.METHOD]) == ""
+    assert keeping.methods([keeping.METHOD, "2020-01-01", ""]).endswith(": 1 of 2020-01-01, 1 of unknown.")
+
+
+def test_a_label_that_a_spreadsheet_would_compute(tmp_path):
+    assert keeping._text("=1+1") == "'=1+1"
+    assert keeping._text(-1.5) == "-1.5"
+
+
+def test_an_older_run_in_a_directory_is_not_taken(tmp_path):
+    """Of a finished run of this deck only the version of the method is changed."""
+    file, out = tubes.write(tmp_path), tmp_path / "out"
+    command = [file, "--out", out, "--workers", 1, "--only", "ke_0.1"]
+    status, said = tubes.sweep(*command)
+    assert status == 0, said
+    place = out / "cases" / "ke_0.1" / "summary.json"
+    summary = layout.read(out).cases[0].summary
+    assert summary["method"] == keeping.METHOD
+    place.unlink()
+    write_json(place, {name: value for name, value in summary.items() if name != "sha256"} | {"method": "2020-01-01"})
+    status, said = tubes.sweep(*command, "--resume")
+    assert status == 2
+    assert "ran with another version of the method" in said
+    status, said = tubes.sweep(*command, "--resume", "--overwrite")
+    assert status == 0, said
+    assert layout.read(out).cases[0].summary["method"] == keeping.METHOD
