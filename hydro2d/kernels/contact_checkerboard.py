@@ -2,7 +2,7 @@
 
 A stress that is constant in every cell, while velocities are linear, has a blind spot: where it goes up and down from cell to
 cell, the forces on every vertex cancel. On a mesh that follows the body nothing washes that away either (explanation/sliding,
-equation 9).
+equation 10).
 """
 
 from hydro2d.jit import cell_rows, point, vertex_rows

@@ -3,13 +3,15 @@
 The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
+from math import sqrt
+
 from hydro2d.jit import apart, cell_rows, kernel, point, vertex_rows
 from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
-from hydro2d.kernels.contact_geometry import HARD_FIRST, SOFT_AFTER
+from hydro2d.kernels.contact_geometry import HARD_FIRST, HARD_R, HARD_Z, SOFT_AFTER, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
 from hydro2d.mesh.fields import RHO, E
-from hydro2d.mesh.grid import FACE_R
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
 from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.traction import smoothstep
@@ -48,37 +50,60 @@ EVENING = 0.05
 
 
 @point
-def evening_volume(j, i, row, column, w):
-    """Volume that moves from cell (j, i) of a surface to its neighbour (row, column), also of it, by the difference of p_c + q.
+def surface_volume(j, i, row, column, w):
+    """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column), beside what velocities sweep.
 
-    explanation/sliding, equation 8.
+    Between cells of the surface it evens out p_c + q (explanation/sliding, equation 8). Where one of them has void between the
+    groups, its full neighbour closes it (equation 9): a cell of the surface pushes with p_c + q, any other with its stress
+    across the surface. The weight of this grows with the void, up to GAP.
     """
-    if w.skin[KIND, j, i] != INTERFACE or w.skin[KIND, row, column] != INTERFACE:
-        return 0.0
-    give = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-    return EVENING * give * ((w.ph[j, i] + w.qr[j, i]) - (w.ph[row, column] + w.qr[row, column]))
+    here_meets, there_meets = w.skin[KIND, j, i] == INTERFACE, w.skin[KIND, row, column] == INTERFACE
+    here, there = w.ph[j, i] + w.qr[j, i], w.ph[row, column] + w.qr[row, column]
+    moved = 0.0
+    if here_meets and there_meets:
+        give = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
+        moved = EVENING * give * (here - there)
+    opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
+        smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
+    if opened == 0.0:
+        return moved
+    full, at, hole, beside = (j, i, row, column) if opened > 0.0 else (row, column, j, i)
+    n_r = w.line[HARD_R, hole, beside] + w.line[SOFT_R, hole, beside]
+    n_z = w.line[HARD_Z, hole, beside] + w.line[SOFT_Z, hole, beside]
+    steep = n_r * n_r + n_z * n_z
+    if steep == 0.0 or w.solid[full, at] <= 1.0 - GAP or w.bulk[full, at] <= 0.0:
+        return moved
+    push, part = w.ph[full, at] + w.qr[full, at], 1.0
+    if w.skin[KIND, full, at] != INTERFACE:
+        push = -(n_r * n_r * w.sig_rr[full, at] + n_z * n_z * w.sig_zz[full, at] + 2.0 * n_r * n_z * w.sig_rz[full, at]) / steep
+        part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
+    excess = push - w.ph[hole, beside] - w.qr[hole, beside]
+    if excess <= 0.0:
+        return moved
+    swept = w.metrics[FACE_R, column] * w.dz[j] if row == j else w.metrics[AZ_IN, i] + w.metrics[AZ_OUT, i]
+    return moved + opened * part * swept * w.dt * excess / sqrt(w.rhobar[full, at] * w.bulk[full, at])
 
 
 @vertex_rows
 def even_out(j, w):
-    """Volumes that even out p_c along the surface.
+    """Volumes that even out p_c along the surface, and those that close void between the groups.
 
     A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
     to cell) that pushes no vertex. The volumes that the faces between these cells sweep are corrected by the difference.
 
-    Reads    ph, qr, bulk, volume [j, i], skin [3, j, i]
+    Reads    ph, qr, bulk, rhobar, solid, volume, sig_rr, sig_zz, sig_rz [j, i], skin [3, j, i], line [10, j, i]
     Writes   even_r, even_z [j, i]
     """
     j0, j1 = outer_rows(w.parts)
     if j < j1:
         for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
             inside = w.contact_columns[j, 0] < i < w.contact_columns[j, 1]
-            w.even_r[j, i] = evening_volume(j, i - 1, j, i, w) if inside else 0.0
+            w.even_r[j, i] = surface_volume(j, i - 1, j, i, w) if inside else 0.0
     lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
     for i in range(lo, hi):
         inside = j0 < j < j1 and w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1] and (
             w.contact_columns[j, 0] <= i < w.contact_columns[j, 1])
-        w.even_z[j, i] = evening_volume(j - 1, i, j, i, w) if inside else 0.0
+        w.even_z[j, i] = surface_volume(j - 1, i, j, i, w) if inside else 0.0
 
 
 @cell_rows
