@@ -16,10 +16,12 @@ from hydro2d.study import cases
 from hydro2d.toml import is_study, problems_folder
 
 #: columns of kept results that are no axes begin with the first of these
-FIRST = ("nose", "slenderness", "status", "member")
+FIRST = ("slenderness", "cells_across", "status", "member", "nose")
 #: columns of what a run gave, and what the axis of the chart says
-VALUES = {"depth_cm": "depth [cm]", "depth_over_length": "depth / length", "value": "number of the shot / its median",
+VALUES = {"depth_m": "depth [m]", "depth_cm": "depth [cm]", "depth_over_length": "depth / length", "value": "number of the shot / its median",
           "force_GPa": "force over the section [GPa]"}
+#: most labels of a chart
+TICKS = 16
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
@@ -37,10 +39,14 @@ each on one core. The page of the folder says what came out.
 
 @dataclass(frozen=True)
 class Study:
-    """A study of `problems`; results : the rows that are kept, each with the names of its axes; empty if there are none."""
+    """A study of `problems`; results : the rows that are kept, each with the names of its axes; empty if there are none.
+
+    plan : None for a study of parts
+    """
 
     file: Path
-    plan: cases.Plan
+    title: str
+    plan: cases.Plan | None
     results: list[dict[str, str]]
 
     @property
@@ -60,14 +66,16 @@ class Study:
     def minutes(self) -> float | None:
         """Sum of the minutes of all runs."""
         found = [float(row["minutes"]) for row in self.results if row.get("minutes")]
+        found += [float(row["wall_s"]) / 60.0 for row in self.results if row.get("wall_s")]
         return sum(found) if found else None
 
 
 def studies() -> list[Study]:
     """All studies, by folder and name."""
     files = sorted(file for file in problems_folder().rglob("*.toml") if file.parent.name != "materials")
-    found = [file for file in files if is_study(tomllib.loads(file.read_text(encoding="utf-8")))]
-    return [Study(file, cases.plan(file, quiet=True), _kept(file)) for file in found]
+    tables = {file: tomllib.loads(file.read_text(encoding="utf-8")) for file in files}
+    return [Study(file, data["title"], None if "part" in data else cases.plan(file, quiet=True), _kept(file))
+            for file, data in tables.items() if is_study(data)]  # fmt: skip
 
 
 def _kept(file: Path) -> list[dict[str, str]]:
@@ -79,12 +87,12 @@ def _kept(file: Path) -> list[dict[str, str]]:
 
 
 def _measured(study: Study) -> dict[str, float]:
-    """Measured depth in cm of every case whose deck has one, by the name of the case."""
+    """Measured depth in cm of every case whose deck has one, by the name of the case and by the label of its shot."""
     found = {}
     for case in study.plan.cases:
         experiment = tomllib.loads(case.text or "").get("experiment", {})
         if experiment.get("penetration"):
-            found[case.name] = experiment["penetration"] * 100
+            found[case.name] = found[case.values.get("shot", case.name)] = experiment["penetration"] * 100
     return found
 
 
@@ -109,11 +117,14 @@ def chart(study: Study):
         points = [(labels.index(row[across]) + shift, found) for row in rows if (found := _value(row, scale)) is not None]
         place.plot([x for x, _ in points], [y for _, y in points], "os^vDP*X"[number % 8], markersize=4,
                    label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")  # fmt: skip
-    shots = {(labels.index(row[across]), measured[row["case"]]) for row in study.results if row.get("case") in measured}
+    keys = [(row[across], row.get("case", row.get("shot"))) for row in study.results]
+    scaled = 0.01 if value == "depth_m" else 1.0
+    shots = {(labels.index(label), scaled * measured[key]) for label, key in keys if key in measured}
     if shots:
         place.plot([x for x, _ in shots], [y for _, y in shots], "D", markersize=9, markerfacecolor="none", color="black",
                    label="measured")  # fmt: skip
-    place.set_xticks(range(len(labels)), [figures.verbatim(label) for label in labels], fontsize=7, rotation=30, ha="right")
+    some = range(0, len(labels), -(-len(labels) // TICKS))
+    place.set_xticks(some, [figures.verbatim(labels[n]) for n in some], fontsize=7, rotation=30, ha="right")
     place.set_ylabel(VALUES[value], fontsize=8)
     if scale:
         place.set_ylim(0.8, 1.2)  # a block that is stuck in its hole, or not, lies outside
@@ -154,14 +165,15 @@ def sections() -> list[str]:
     parts = [HEADING]
     for study in studies():
         path = f"problems/{study.file.relative_to(problems_folder())}"
-        verb = "transition" if study.plan.search else "sweep"
-        minutes, count = study.minutes(), len(study.plan.cases)
-        told = f"At most {count} runs" if study.plan.search else f"{count} runs"
+        search = study.plan.search if study.plan else None
+        verb = "transition" if search else "sweep"
+        minutes, count = study.minutes(), len(study.plan.cases) if study.plan else 0
+        told = f"At most {count} runs" if search else f"{count} runs" if count else "Several of the studies here"
         told += f", {spoken(60.0 * minutes)} in all" if minutes else ""
         page = f"`{Path(path).parent}/README.md` says what came out"
-        lines = [f"### {study.name}", "", f"{study.plan.title}. {told}; {page}.", ""]
+        lines = [f"### {study.name}", "", f"{study.title}. {told}; {page}.", ""]
         if study.picture:
-            lines += [f"![{study.plan.title}](_static/{study.picture})", ""]
+            lines += [f"![{study.title}](_static/{study.picture})", ""]
         lines += ["```text", f"hydro2d {verb} {path}"]
         lines += [OTHERS[study.name][1]] if study.name in OTHERS and not study.results else []
         parts.append("\n".join([*lines, "```", ""]))

@@ -35,6 +35,20 @@ def _count(_type, tokens) -> int:
 
 Count = Annotated[int, Parameter(converter=_count)]
 
+#: largest number of members of an ensemble; most cells across a projectile
+MOST_MEMBERS, FINEST = 1000, 1000.0
+
+
+def whole(least: int, most: int) -> Parameter:
+    """A converter to a whole number within bounds."""
+    def convert(_type, tokens) -> int:
+        text = tokens[0].value
+        if not text.isdecimal() or not least <= int(text) <= most:
+            raise UsageError(f"{tokens[0].keyword} {text}: must be a whole number from {least} to {most}")
+        return int(text)
+
+    return Parameter(converter=convert)
+
 
 def refuse_old_names(arguments: list[str]) -> None:
     """Raises UsageError for the name that --out had in some commands."""

@@ -8,29 +8,15 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from hydro2d.cli.base import Out, Overrides, UsageError
+from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say
 
-#: largest number of members of an ensemble
-MOST = 1000
-#: most cells across a projectile, and most meshes
-FINEST, MOST_MESHES = 1000.0, 20
+#: most meshes of a sequence
+MOST_MESHES = 20
 
-
-def whole(least: int, most: int):
-    """A converter to a whole number within bounds."""
-    def convert(_type, tokens) -> int:
-        text = tokens[0].value
-        if not text.isdecimal() or not least <= int(text) <= most:
-            raise UsageError(f"{tokens[0].keyword} {text}: must be a whole number from {least} to {most}")
-        return int(text)
-
-    return Parameter(converter=convert)
-
-
-Repeats = Annotated[int, whole(2, MOST)]
-Member = Annotated[int, whole(0, MOST - 1)]
+Repeats = Annotated[int, whole(2, MOST_MEMBERS)]
+Member = Annotated[int, whole(0, MOST_MEMBERS - 1)]
 Seed = Annotated[int, whole(0, 2**32)]
 By = Annotated[list[str] | None, Parameter(negative="")]
 

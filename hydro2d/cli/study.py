@@ -10,8 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from hydro2d.cli.base import Out, Overrides, UsageError
-from hydro2d.cli.ensemble import FINEST, MOST, whole
+from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say, wrapped
 
@@ -26,7 +25,7 @@ def sweep(
     set_: Overrides = None,
     workers: Workers = DEFAULT,
     only: list[str] | None = None,
-    members: Annotated[int | None, whole(1, MOST)] = None,
+    members: Annotated[int | None, whole(1, MOST_MEMBERS)] = None,
     cells: float | None = None,
     check: bool = False,
     status: bool = False,

@@ -4,7 +4,8 @@ import pytest
 
 from hydro2d.analytic.model_transition import experiments
 from hydro2d.deck import deck
-from hydro2d.study import cases
+from hydro2d.study import cases, parts
+from hydro2d.study.scaling import AS_IT_IS
 from tests.rules import source
 
 PROBLEMS = source.PROBLEMS
@@ -39,9 +40,12 @@ def test_resolved_deck_is_the_same_deck(file):
 
 @pytest.mark.parametrize("file", STUDIES, ids=name_of)
 def test_study_has_a_title_and_no_wrong_deck(file):
-    plan = cases.plan(file)
-    assert plan.title
-    assert [case.message for case in plan.cases if case.message] == []
+    if parts.is_of_parts(file):
+        plans = [each.plan for each in parts.plans(file, (), AS_IT_IS, quiet=True)]
+    else:
+        plans = [cases.plan(file, quiet=True)]
+    assert all(plan.title for plan in plans)
+    assert [case.message for plan in plans for case in plan.cases if case.message] == []
 
 
 @pytest.mark.parametrize("folder", sorted({file.parent for file in FILES}), ids=lambda folder: folder.name)

@@ -12,8 +12,8 @@ from tests.rules import source
 #: from the bottom to the top; a name stands for itself and for all modules inside it, and a * for what it likes
 LAYERS = (
     ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.checksums", "hydro2d.strange", "hydro2d.parameters",
-     "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.parsing", "hydro2d.terminal",
-     "hydro2d.moving", "hydro2d.compilation"),
+     "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.method", "hydro2d.parsing",
+     "hydro2d.terminal", "hydro2d.moving", "hydro2d.compilation"),
     ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration", "hydro2d.problems"),
     ("hydro2d.materials",),
     ("hydro2d.physics", "hydro2d.deck", "hydro2d.sources"),
