@@ -18,7 +18,8 @@ from hydro2d.toml import is_study, problems_folder
 #: columns of kept results that are no axes begin with the first of these
 FIRST = ("slenderness", "cells_across", "status", "member", "nose")
 #: columns of what a run gave, and what the axis of the chart says
-VALUES = {"depth_m": "depth [m]", "depth_cm": "depth [cm]", "depth_over_length": "depth / length", "value": "number of the shot / its median",
+VALUES = {"depth_m": "depth [m]", "depth_cm": "depth [cm]",
+          "depth_over_length": "depth / length", "value": "number of the shot / its median",
           "force_GPa": "force over the section [GPa]"}
 #: most labels of a chart
 TICKS = 16
