@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels import contact_geometry, contact_velocities, momentum
-from hydro2d.kernels.contact_geometry import REACH
+from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, REACH
 from hydro2d.kernels.contact_velocities import settle, warm_contact
 from hydro2d.kernels.contact_volumes import EVENING, even_out, warm_evened
-from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
@@ -367,16 +367,23 @@ def test_void_parts_the_groups_without_a_jump(void, whole):
 # ------------------------------------------------------------------------------- what evens out along the surface
 
 
-def evened(pressure, kind=INTERFACE, viscosity=0.0):
-    """(volumes through faces along r and along z, heat of the two bodies of every cell (J)) of 6 x 6 cells of the surface."""
+def evened(pressure, kind=INTERFACE, viscosity=0.0, solid=1.0, stress=(0.0, 0.0, 0.0), normal=(1.0, 0.0)):
+    """(volumes through faces along r and along z, heat of the two bodies of every cell (J)) of 6 x 6 cells of the surface.
+
+    stress : rr, zz, rz of all cells, in Pa;  normal : of the surface;  rho c is 5, and a step 0.1 s
+    """
     shape, vertices, columns = (6, 6), (7, 7), np.tile([0, 6], (6, 1))
     volume, bulk, vof = 2.0 + np.add.outer(np.arange(6.0), np.arange(6.0)), np.full(shape, 5.0), np.full((2, *shape), 0.5)
     qr, q, skin, r, z = np.full(shape, viscosity), np.zeros((INTERNAL, 2, *shape)), np.zeros((3, *shape)), *np.full(
         (2, *vertices), np.nan)
     q[RHO] = np.array([2.0, 6.0])[:, None, None]
     skin[KIND] = kind
+    rr, zz, rz = (np.full(shape, each) for each in stress)
+    line, grid = np.zeros((10, *shape)), Grid(np.linspace(0.0, 6.0, 7), np.linspace(0.0, 6.0, 7), "planar")
+    line[HARD_R], line[HARD_Z] = normal[0], normal[1]
     even_out(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, skin=skin, bulk=bulk, ph=pressure,
-             qr=qr, even_r=r, even_z=z))
+             qr=qr, even_r=r, even_z=z, dt=0.1, dz=np.ones(6), metrics=grid.metrics[:, grid.g:], line=line, sig_rr=rr,
+             sig_zz=zz, sig_rz=rz, rhobar=np.full(shape, 5.0), solid=np.broadcast_to(np.asarray(solid, float), shape).copy()))
     warm_evened(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, ph=pressure, qr=qr, even_r=r,
                 even_z=z, vof=vof, q=q))
     return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
@@ -416,6 +423,57 @@ def test_nothing_evens_out_off_the_surface():
     assert (z[:, 3] == 0.0).all()
     assert (heat[:, :, 3] == 0.0).all()
     assert (r[:, [1, 2, 5]] != 0.0).all()
+
+
+def hole(void, kind=INTERFACE):
+    """(filled shares, kinds) of cells of which one, (2, 3), has void between the groups; its neighbours are of this kind."""
+    solid, kinds = np.ones((6, 6)), np.full((6, 6), kind)
+    solid[2, 3], kinds[2, 3] = 1.0 - void, INTERFACE
+    return solid, kinds
+
+
+def around():
+    """Pressure of 3 Pa everywhere but in that cell."""
+    pressure = np.full((6, 6), 3.0)
+    pressure[2, 3] = 0.0
+    return pressure
+
+
+def test_cells_of_the_surface_close_void_between_the_groups():
+    """By p / (rho c) through each whole face, beside what evens out."""
+    solid, kinds = hole(0.1)
+    r, z, volume, heat = evened(around(), kinds, solid=solid)
+    none = evened(around(), kinds)
+    closing = 0.1 * 3.0 / 5.0
+    for found, before, at, sign in ((r, none[0], (2, 3), 1), (r, none[0], (2, 4), -1), (z, none[1], (2, 3), 1),
+                                    (z, none[1], (3, 3), -1)):  # fmt: skip
+        assert found[at] - before[at] == pytest.approx(sign * closing), at
+    change = np.diff(r, axis=1) + np.diff(z, axis=0)
+    assert heat.sum() == pytest.approx(np.sum(change * around()), rel=1e-12)
+    assert volume.shape == change.shape
+
+
+def test_closing_comes_in_with_the_void():
+    found = [evened(around(), kinds, solid=solid)[0][2, 3] for solid, kinds in map(hole, (0.0, 1e-4, 0.5 * GAP, GAP, 0.5))]
+    assert found[0] < found[1] < found[2] < found[3] == pytest.approx(found[4])
+    assert found[1] - found[0] < 1e-3 * (found[3] - found[0])
+
+
+def test_bodies_beside_it_close_void_with_the_stress_across_the_surface():
+    """A bar under axial load has none across its own surface, whatever its pressure."""
+    solid, kinds = hole(0.1, WHOLE)
+    load = {"stress": (0.0, -9.0, 0.0), "normal": (1.0, 0.0)}
+    r, z, *_ = evened(around(), kinds, solid=solid, **load)
+    assert (r == 0.0).all()
+    assert (z == 0.0).all()
+    r, z, *_ = evened(around(), kinds, solid=solid, stress=(-9.0, 0.0, 0.0), normal=(1.0, 1.0))
+    assert (r[2, 3], z[2, 3]) == pytest.approx((0.1 * 4.5 / 5.0 / np.sqrt(2.0),) * 2)
+
+
+def test_void_beside_void_and_tension_close_nothing():
+    solid, kinds = hole(0.1, WHOLE)
+    assert (evened(around(), kinds, solid=np.full((6, 6), 0.9), stress=(-9.0, -9.0, 0.0))[0] == 0.0).all()
+    assert (evened(around(), kinds, solid=solid, stress=(9.0, 9.0, 0.0))[0] == 0.0).all()
 
 
 # ------------------------------------------------------------------------------ slopes beside vertices without mass

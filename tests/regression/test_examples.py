@@ -49,6 +49,7 @@ NOT_RUN = {
     "hydro2d plot runs/ball -o debris.png": "nothing flies behind a plate yet; tests/results/test_lines.py draws debris",
     "python -m problems.verification.table runs": "five minutes; tests/verification/test_accuracy.py has the cheap runs",
     "dask ": "needs a cluster",
+    "hydro2d sweep problems/cth_nose_shape/study.toml --background": "its process would outlive the test",
 }
 #: what a reader fills in, the longest first, and a window in which a short run has something to see
 FILLED = {
