@@ -195,11 +195,12 @@ def check(deck) -> Check:
              if m == 0 and deck.mesh.follow is None]
     dark = _sources(deck, grid, table, start)
     cycles = _cycles(deck, grid, table, start)
+    pace = IN_CONTACT if deck.sliding.method == "contact" else NANOSECONDS
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start, deck.boundaries.r_min),
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
         memory=memory.needed(deck), cycles=cycles,
-        seconds=cycles * grid.cells * 1e-9 * (IN_CONTACT if deck.sliding.method == "contact" else NANOSECONDS), warnings=empty + decks.warnings(deck) + dark,
+        seconds=cycles * grid.cells * pace * 1e-9, warnings=empty + decks.warnings(deck) + dark,
     )  # fmt: skip
 
 
