@@ -18,7 +18,7 @@ from hydro2d.toml import is_study, problems_folder
 #: columns of kept results that are no axes begin with the first of these
 FIRST = ("slenderness", "cells_across", "status", "member", "nose")
 #: columns of what a run gave, and what the axis of the chart says
-VALUES = {"depth_m": "depth [m]", "depth_cm": "depth [cm]",
+VALUES = {"depth_m": "depth [cm]", "depth_cm": "depth [cm]",
           "depth_over_length": "depth / length", "value": "number of the shot / its median",
           "force_GPa": "force over the section [GPa]"}
 #: most labels of a chart
@@ -98,8 +98,10 @@ def _measured(study: Study) -> dict[str, float]:
 
 
 def _value(row: dict[str, str], scale: dict[str, float]) -> float | None:
-    text = next(row[name] for name in VALUES if name in row)
-    return float(text) / scale.get(row.get("shot", ""), 1.0) if text else None
+    name = next(name for name in VALUES if name in row)
+    if not row[name]:
+        return None
+    return float(row[name]) * (100.0 if name == "depth_m" else 1.0) / scale.get(row.get("shot", ""), 1.0)
 
 
 def chart(study: Study):
@@ -119,8 +121,7 @@ def chart(study: Study):
         place.plot([x for x, _ in points], [y for _, y in points], "os^vDP*X"[number % 8], markersize=4,
                    label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")  # fmt: skip
     keys = [(row[across], row.get("case", row.get("shot"))) for row in study.results]
-    scaled = 0.01 if value == "depth_m" else 1.0
-    shots = {(labels.index(label), scaled * measured[key]) for label, key in keys if key in measured}
+    shots = {(labels.index(label), measured[key]) for label, key in keys if key in measured}
     if shots:
         place.plot([x for x, _ in shots], [y for _, y in shots], "D", markersize=9, markerfacecolor="none", color="black",
                    label="measured")  # fmt: skip
