@@ -87,9 +87,10 @@ def sweep(
         from hydro2d.study.choice import Choice
 
         choice = Choice(plan, only or (), again=workers.overwrite)
+        status = estimate.show(replace(plan, cases=choice.selected), workers.number) if choice.selected else 0
         if choice.kept():
             say(wrapped(choice.kept()))
-        return estimate.show(replace(plan, cases=choice.selected), workers.number) if choice.selected else 0
+        return status
     return run_study(plan, out or plan.out, workers, only=only or (), quiet=quiet)
 
 

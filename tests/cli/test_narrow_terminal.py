@@ -13,7 +13,7 @@ COLUMNS = 80
 DECKS = ["cth_nose_shape/hemi_5083_1086", "sliding/impact_head_on", "perforation/sphere", "classic/flyer_spall",
          "cth_nose_shape/hemi_5083_1296_strain_failure"]  # fmt: skip
 STUDIES = [("sweep", "cth_nose_shape/rigid_rod_failure"), ("sweep", "classic/methods"), ("sweep", "validation/eroding_rods"),
-           ("transition", "cth_nose_shape/transition_members")]  # fmt: skip
+           ("transition", "cth_nose_shape/transition_hemi_5083")]  # fmt: skip
 
 
 def shipped(name):
@@ -69,7 +69,7 @@ def test_every_case_of_a_study_has_one_line(command, name, capsys, monkeypatch):
 
 def test_the_deck_of_all_cases_is_told_once(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
-    told = printed(capsys, "transition", shipped("cth_nose_shape/transition_members"), "--check")
+    told = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), "--check")
     assert [line for line in told if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]
     told = printed(capsys, "sweep", shipped("validation/eroding_rods"), "--check")
     assert told[2].split() == ["case", "deck", "cells", "cycles", "time"]
