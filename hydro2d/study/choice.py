@@ -20,7 +20,7 @@ def _matching(plan: Plan, only: Sequence[str], skip: Sequence[str]) -> list[Plan
     ``*`` and ``?`` are wildcards. Raises StudyError for a pattern that no name matches.
     """
     names = [case.name for case in plan.cases]
-    for option, patterns in (("only", only), ("skip", skip)):
+    for option, patterns in (("--only", only), ("skip", skip)):
         for pattern in patterns:
             if not any(fnmatchcase(name, pattern) for name in names):
                 raise StudyError(f"{option} {pattern}: matches no case; {unknown('case', pattern, names)}")

@@ -10,6 +10,7 @@ import rich.console
 import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.files import write_json
+from hydro2d.method import METHOD
 from hydro2d.study import cases, layout, monitor, sweep
 from hydro2d.study.definition import StudyError
 from hydro2d.study.velocities import Velocities
@@ -40,8 +41,9 @@ def pretend(directory, plan, name, status, **extra):
     planned = next(case for case in plan.cases if case.name == name)
     (place / "deck.toml").write_text(planned.text)
     if status is not None:
-        write_json(place / "summary.json", {"status": status, "stop_reason": "a reason", "deck_sha256": planned.sha256,
-                                            "wall_s": 100.0, "penetration_depth_m": 0.123} | extra)  # fmt: skip
+        write_json(place / "summary.json", {
+            "status": status, "stop_reason": "a reason", "deck_sha256": planned.sha256, "method": METHOD, "wall_s": 100.0,
+            "penetration_depth_m": 0.123} | extra)  # fmt: skip
     return place
 
 
