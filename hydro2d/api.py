@@ -160,8 +160,8 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
         import pandas  # noqa: F401  (a table that cannot be made is refused before the runs, not after them)
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
-    choice = Choice(plan, only, again=overwrite)
-    if choice.complete():
+    choice = Choice(plan, only, again=overwrite and not resume)
+    if choice.complete:
         raise StudyError(f"nothing to run: {choice.kept()}; overwrite=True runs them again")
     connect = cluster.local(cluster.needed(workers, threads, len(choice.selected)), threads)
     status = sweeps.sweep(choice, place, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)

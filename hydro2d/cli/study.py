@@ -73,8 +73,8 @@ def sweep(
         if status:
             return _status_of_parts(study, out)
         if background:
-            return _in_background(_place_of_parts(study, out))
-        return _parts(study, out, set_ or [], size, workers, only or (), check=check, quiet=quiet)
+            return _in_background(out or _directory(study))
+        return _parts(study, out or _directory(study), set_ or [], size, workers, only or (), check=check, quiet=quiet)
     if status:
         return _status(study, out)
     from hydro2d.study import cases
@@ -86,11 +86,11 @@ def sweep(
         from hydro2d.study import estimate
         from hydro2d.study.choice import Choice
 
-        choice = Choice(plan, only or (), again=workers.overwrite)
-        status = estimate.show(replace(plan, cases=choice.selected), workers.number) if choice.selected else 0
+        choice = Choice(plan, only or (), again=workers.anew)
+        ended = estimate.show(replace(plan, cases=choice.selected), workers.number) if choice.selected else 0
         if choice.kept():
             say(wrapped(choice.kept()))
-        return status
+        return ended
     return run_study(plan, out or plan.out, workers, only=only or (), quiet=quiet)
 
 
@@ -100,7 +100,7 @@ def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), sk
     from hydro2d.study import sweep as sweeps
     from hydro2d.study.choice import Choice
 
-    choice = Choice(plan, only, skip, again=workers.overwrite and not workers.resume)
+    choice = Choice(plan, only, skip, again=workers.anew)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
                           overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
     if plan.ensemble and not quiet and (out / layout.STUDY).is_file():
@@ -115,22 +115,16 @@ def _is_of_parts(study: Path) -> bool:
     return study.is_file() and parts.is_of_parts(study)
 
 
-def _place_of_parts(study: Path, out: Path | None) -> Path:
-    from hydro2d.study import parts
-
-    return out or parts.out(study)
-
-
-def _parts(study: Path, out: Path | None, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
+def _parts(study: Path, place: Path, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
            quiet: bool) -> int:  # fmt: skip
     """Runs the parts of a study in turn. A failed case does not keep the next part from running; an interrupt does."""
     from hydro2d.study import layout, parts
     from hydro2d.study.sweep import SOME_FAILED
 
-    found = parts.plans(study, overrides, size, only, again=workers.overwrite and not workers.resume, quiet=quiet)
+    found = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
     if check:
         return parts.show(found, workers.number)
-    place, worst = _place_of_parts(study, out), 0
+    worst = 0
     place.mkdir(parents=True, exist_ok=True)
     for number, each in enumerate(found, 1):
         if not quiet:
@@ -153,7 +147,7 @@ def _status_of_parts(study: Path, out: Path | None) -> int:
     """Prints how far each part of a study is."""
     from hydro2d.study import layout, monitor
 
-    for directory in sorted(file.parent for file in _place_of_parts(study, out).glob(f"*/{layout.STUDY}")):
+    for directory in sorted(file.parent for file in (out or _directory(study)).glob(f"*/{layout.STUDY}")):
         say(wrapped(f"{directory.name}: {monitor.counts(list(layout.read(directory).cases))}"))
     return 0
 

@@ -46,6 +46,11 @@ class Workers:
             raise UsageError("--workers starts workers and --scheduler joins running ones: give one of them")
 
     @property
+    def anew(self) -> bool:
+        """Whether all cases start again, also those whose rows are kept."""
+        return self.overwrite and not self.resume
+
+    @property
     def number(self) -> int:
         """The number of workers on this machine."""
         from hydro2d.study import cluster

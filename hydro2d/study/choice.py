@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from fnmatch import fnmatchcase
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 
@@ -59,12 +60,13 @@ class Choice:
         some = f"{len(self.selected)} of " if self.left_out else ""
         return f"{study.name}: {some}{len(study.cases)} cases in {study.directory}"
 
+    @cached_property
     def complete(self) -> bool:
-        """Whether the rows that the study keeps have all that it is run for."""
+        """Whether the rows that the study keeps have all that it is run for, as it begins."""
         return not self.selected
 
     def kept(self) -> str:
-        """What the rows that the study keeps say of its cases; empty if it keeps none."""
+        """How many of its cases are up to date in the rows that the study keeps; empty if it keeps none."""
         return "" if self.keeper is None else self.keeper.told([*self.fresh, *(case.name for case in self.selected)])
 
     def keep(self, cases: Iterable[Case]) -> None:

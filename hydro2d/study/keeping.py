@@ -26,6 +26,7 @@ from hydro2d.study.cases import Plan, Planned
 from hydro2d.study.definition import StudyError
 from hydro2d.study.layout import DONE, UNPHYSICAL, Case
 from hydro2d.study.members import cells_across, projectile
+from hydro2d.study.table import ratio
 from hydro2d.terminal import cell, several
 
 #: statuses of runs that have a row
@@ -95,17 +96,13 @@ def _results(told: Mapping) -> dict[str, object]:
         "status": told["status"], "stop_reason": told.get("stop_reason"), "trustworthy": told.get("trustworthy"),
         "depth_m": told.get("penetration_depth_m"), "tail_velocity_m_s": told.get("rod_tail_velocity_m_s"),
         "residual_velocity_m_s": told.get("rod_residual_velocity_m_s"), "regime": told.get("regime"),
-        "hole_m3": (told.get("crater") or {}).get("volume_m3"), "energy_dropped": _ratio(dropped, audit.get("start_energy_J")),
+        "hole_m3": (told.get("crater") or {}).get("volume_m3"), "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
         "time_s": told.get("time_s"), "cycles": told.get("cycles"), "wall_s": told.get("wall_s"),
-        "length_ratio": _ratio(told.get("rod_length_m"), told.get("rod_initial_length_m")),
-        "radius_ratio": _ratio(told.get("rod_max_radius_m"), told.get("rod_initial_radius_m")),
-        "mass_ratio": _ratio(told.get("rod_mass_kg"), told.get("rod_initial_mass_kg")),
+        "length_ratio": ratio(told.get("rod_length_m"), told.get("rod_initial_length_m")),
+        "radius_ratio": ratio(told.get("rod_max_radius_m"), told.get("rod_initial_radius_m")),
+        "mass_ratio": ratio(told.get("rod_mass_kg"), told.get("rod_initial_mass_kg")),
     }  # fmt: skip
     return {name: found[name] for name in RESULTS}
-
-
-def _ratio(value, reference) -> float | None:
-    return None if value is None or not reference else value / reference
 
 
 def _text(value) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from functools import cached_property
 from pathlib import Path
 
@@ -17,8 +18,7 @@ from hydro2d.study.choice import Choice
 from hydro2d.study.definition import Definition, Overrides, Part, StudyError, read
 from hydro2d.study.monitor import lines
 from hydro2d.study.scaling import Size
-from hydro2d.study.shots import Shots
-from hydro2d.study.transition import Bisection
+from hydro2d.study.transition import choice_of
 from hydro2d.terminal import say, wrapped
 
 HEADS = ("part", "runs", "up to date", "stale", "to run", "core hours", "MB")
@@ -36,7 +36,7 @@ class Chosen:
     @cached_property
     def choice(self) -> Choice:
         if self.plan.search:
-            return Shots(self.plan) if self.plan.search.budget else Bisection(self.plan)
+            return choice_of(self.plan, self.again)
         return Choice(self.plan, self.part.only, self.part.skip, self.again)
 
     @cached_property
@@ -45,9 +45,9 @@ class Chosen:
         choice = self.choice
         if self.plan.search:
             budget = self.plan.search.budget
-            runs = len(choice.groups) * budget.runs if budget else len(self.plan.cases)
-            fresh = sum(min(len(choice.kept_of(group)), budget.runs) for group in choice.groups) if budget else 0
-            return runs, fresh, 0
+            if budget is None:
+                return len(self.plan.cases), 0, 0
+            return len(choice.groups) * budget.runs, sum(min(len(shots), budget.runs) for shots in choice.fresh_shots), 0
         names = [*choice.fresh, *(case.name for case in choice.selected)]
         keeper = choice.keeper
         return len(names), len(choice.fresh), keeper.stale(names) if keeper else 0
@@ -70,7 +70,7 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
     path = Path(path)
     definition, *_ = read(path, overrides)
     chosen = [(part, name) for part, name in zip(definition.part, _names(definition), strict=True)
-              if not only or any(Path(name).match(pattern) for pattern in only)]  # fmt: skip
+              if not only or any(fnmatchcase(name, pattern) for pattern in only)]  # fmt: skip
     if not chosen:
         raise StudyError(f"only {' '.join(only)}: matches no part; parts: {', '.join(_names(definition))}")
     found = []
@@ -79,11 +79,6 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
         plan = cases.plan(path.parent / part.study, definition.set, quiet=quiet, size=of_part)
         found.append(Chosen(part, name, plan, again))
     return found
-
-
-def out(path: Path) -> Path:
-    """The directory of a study of parts. Raises StudyError."""
-    return Path(read(Path(path), ())[0].out or f"runs/{Path(path).stem}")
 
 
 def _names(definition: Definition) -> list[str]:

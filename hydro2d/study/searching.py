@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Sequence
+from functools import cached_property
 
 from hydro2d.study import record, regimes
 from hydro2d.study.cases import Plan
@@ -14,13 +15,18 @@ from hydro2d.study.layout import DONE, Case
 class Searching(Choice, ABC):
     """A choice of cases that looks at what has become of earlier ones."""
 
-    def __init__(self, plan: Plan):
-        super().__init__(plan, again=True)  # a search needs the runs themselves
+    def __init__(self, plan: Plan, again: bool = False):
+        super().__init__(plan, again=True)  # a search needs the runs themselves, also those that have their rows
+        self.anew = again
         self.records: dict[str, record.Record] = {}
 
+    @cached_property
     def complete(self) -> bool:
-        """Whether the rows that the study keeps have all runs of the search, which a bisection does not know beforehand."""
+        """A bisection does not know beforehand how many runs it needs."""
         return False
+
+    def kept(self) -> str:
+        return ""
 
     def record(self, case: Case) -> record.Record:
         """The record of a case; a finished case is read only once."""

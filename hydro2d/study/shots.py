@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 from hydro2d import toml
@@ -48,8 +49,8 @@ def _without_speed(values: dict[str, str]) -> str:
 class Shots(Searching):
     """The cases of a search with a budget."""
 
-    def __init__(self, plan: Plan):
-        super().__init__(plan)
+    def __init__(self, plan: Plan, again: bool = False):
+        super().__init__(plan, again)
         self.search = plan.search
         pairs = list(zip(plan.cases[::2], plan.cases[1::2], strict=True))
         names = distinct([_without_speed(low.values) for low, _ in pairs])
@@ -100,11 +101,23 @@ class Shots(Searching):
             overrides=[*end.overrides, *given], text=decks.loads(end.text, given).to_toml(), message="", member=number,
         )  # fmt: skip
 
+    @cached_property
     def complete(self) -> bool:
         """Whether every combination has the rows of all its shots."""
-        return all(len(self.kept_of(group)) >= self.search.budget.runs for group in self.groups)
+        return not self.anew and min(map(len, self.fresh_shots)) >= self.search.budget.runs
 
-    def kept_of(self, group: Combination) -> set[str]:
+    def kept(self) -> str:
+        if self.keeper is None:
+            return ""
+        runs = [min(len(shots), self.search.budget.runs) for shots in self.fresh_shots]
+        return f"{self.keeper.path}: {sum(runs)} of {len(runs) * self.search.budget.runs} runs up to date"
+
+    @cached_property
+    def fresh_shots(self) -> list[set[str]]:
+        """The shots of every combination that are up to date as the search begins."""
+        return [self._kept_of(group) for group in self.groups]
+
+    def _kept_of(self, group: Combination) -> set[str]:
         """The names of those shots of a combination whose rows are up to date."""
         if self.keeper is None:
             return set()

@@ -99,7 +99,7 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
 
     Raises StudyError, LockError (another sweep uses the directory).
     """
-    if choice.complete():
+    if choice.complete:
         if not quiet:
             say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
         return ALL_DONE

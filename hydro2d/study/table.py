@@ -67,9 +67,9 @@ def _results(record: Record) -> Row:
         "depth_is": "at least" if record.at_least else "computed",
         "rod_length_m": length,
         "rod_initial_length_m": first["length"],
-        LENGTH_RATIO: _ratio(length, first["length"]),
+        LENGTH_RATIO: ratio(length, first["length"]),
         "rod_max_radius_m": radius,
-        RADIUS_RATIO: _ratio(radius, first["radius"]),
+        RADIUS_RATIO: ratio(radius, first["radius"]),
         "rod_tail_velocity_m_s": record.value("rod_tail_velocity_m_s"),
         "rod_mass_kg": record.value("rod_mass_kg"),
         RESIDUAL: raw(record, RESIDUAL),
@@ -78,7 +78,7 @@ def _results(record: Record) -> Row:
     }
 
 
-def _ratio(value, reference) -> float | None:
+def ratio(value, reference) -> float | None:
     return None if value is None or not reference else value / reference
 
 
@@ -109,7 +109,7 @@ def _audit(summary: dict) -> Row:
     }
     start = audit.get("start_energy_J")
     for name, amounts in (audit.get("sinks") or {}).items():
-        row[f"sink_{name}_share"] = _ratio(amounts.get("energy_J"), start)
+        row[f"sink_{name}_share"] = ratio(amounts.get("energy_J"), start)
     return row
 
 

@@ -22,8 +22,8 @@ class Bisection(Searching):
     A combination is a sequence of neighbouring cases of the plan that differ only in velocity, the slowest first.
     """
 
-    def __init__(self, plan: Plan):
-        super().__init__(plan)
+    def __init__(self, plan: Plan, again: bool = False):
+        super().__init__(plan, again)
         count = len(plan.search.labels)
         self.groups = [plan.cases[first : first + count] for first in range(0, len(plan.cases), count)]
         self.chosen: set[str] = set()
@@ -104,6 +104,11 @@ class Bisection(Searching):
         return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(found, self.plan.search.of))
 
 
+def choice_of(plan: Plan, again: bool = False) -> Shots | Bisection:
+    """The search of a plan; again : it is made anew even if all its rows are kept."""
+    return Shots(plan, again) if plan.search.budget else Bisection(plan, again)
+
+
 def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
          overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
     """Searches, writes transition.json and prints the transitions. Returns the exit status. Arguments as for sweep.sweep.
@@ -112,10 +117,9 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
 
     Raises StudyError, LockError (another sweep uses the directory).
     """
-    choice = Shots(plan) if plan.search.budget else Bisection(plan)
-    complete = choice.complete()
+    choice = choice_of(plan, again=overwrite and not resume)
     status = sweep.sweep(choice, directory, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
-    if complete:
+    if choice.complete:
         return status
     study = layout.read(directory)
     found = regimes.of_study(study, [choice.record(case) for case in study.cases])

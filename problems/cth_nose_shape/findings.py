@@ -120,23 +120,12 @@ def draw(found: Runs):
     figure = Figure(figsize=(9.0, 2.9 * len(ways)), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplots(len(ways), 2, sharex="col", sharey=True, squeeze=False)
-    measured, nose = rigid_rod.experiments(), rigid_rod.NOSES["hemi"]
     for way, row in zip(ways, panels, strict=True):
-        for alloy, axes in zip(("5083", "7039"), row, strict=True):
-            for number, scheme in enumerate(SCHEMES):
-                here = {shot.velocity + 8.0 * (number - 1): runs for shot, runs in found.get((*way, scheme), {}).items()
-                        if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
-                members.dots(axes, scheme, rigid_rod.COLOURS[number], here)
-            shots = [(shot.velocity, 1e2 * told.depth) for shot, told in measured.items()
-                     if (shot.nose, shot.alloy) == (nose, alloy)]  # fmt: skip
-            axes.plot(*zip(*shots, strict=True), "s", color="black", markersize=8, markerfacecolor="none", label="experiment")
+        schemes_of = {scheme: found.get((*way, scheme), {}) for scheme in SCHEMES}
+        for alloy, axes in zip(rigid_rod.ALLOYS, row, strict=True):
+            members.panel(axes, rigid_rod.NOSES["hemi"], alloy, schemes_of, 8.0)
             axes.set_title(f"{', '.join(way)}: {alloy}", fontsize="medium")
-            axes.grid(alpha=0.3)
-        row[0].set_ylabel("depth [cm]")
-    for axes in panels[-1]:
-        axes.set_xlabel("impact velocity [m/s]")
-    panels[0][0].set_ylim(0.0, 60.0)
-    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=4)
+    members.finish(figure, panels, 5)
     return figure
 
 

@@ -107,31 +107,40 @@ def draw(found: dict[str, dict[Shot, list[Result]]]):
     figure = Figure(figsize=(9.6, 7.8), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplots(2, 2, sharey=True, squeeze=False)
-    measured = rigid_rod.experiments()
     for nose, row in zip(rigid_rod.NOSES.values(), panels, strict=True):
-        for alloy, axes in zip(("5083", "7039"), row, strict=True):
-            for number, (column, cases) in enumerate(found.items()):
-                shift = 6.0 * (number - 0.5 * (len(found) - 1))  # beside one another, m/s
-                here = {shot.velocity + shift: members for shot, members in cases.items()
-                        if (shot.nose, shot.alloy) == (nose, alloy)}  # fmt: skip
-                dots(axes, column, COLOURS[number % len(COLOURS)], here)
-            for marker, is_measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
-                shots = [(shot.velocity, 1e2 * told.depth) for shot, told in measured.items()
-                         if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, is_measured)]  # fmt: skip
-                axes.plot(*zip(*shots, strict=True) if shots else ([], []), marker, color="black", markersize=8,
-                          markerfacecolor="none", label=label)  # fmt: skip
-            axes.axhline(PLATE, color="black", linewidth=0.5, linestyle=":")
+        for alloy, axes in zip(rigid_rod.ALLOYS, row, strict=True):
+            panel(axes, nose, alloy, found, 6.0)
             axes.set_title(f"{nose} nose, {alloy} aluminium", fontsize="medium")
-            axes.grid(alpha=0.3)
+    finish(figure, panels, 3)
+    return figure
+
+
+def panel(axes, nose: str, alloy: str, found: dict[str, dict[Shot, list[Result]]], apart: float) -> None:
+    """Depth against velocity of the rods with a nose in a plate, and their experiments; columns stand ``apart`` m/s."""
+    for number, (column, cases) in enumerate(found.items()):
+        shift = apart * (number - 0.5 * (len(found) - 1))
+        here = {shot.velocity + shift: members for shot, members in cases.items() if (shot.nose, shot.alloy) == (nose, alloy)}
+        _dots(axes, column, COLOURS[number % len(COLOURS)], here)
+    for marker, is_measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
+        shots = [(shot.velocity, 1e2 * told.depth) for shot, told in rigid_rod.experiments().items()
+                 if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, is_measured)]  # fmt: skip
+        axes.plot(*zip(*shots, strict=True) if shots else ([], []), marker, color="black", markersize=8,
+                  markerfacecolor="none", label=label)  # fmt: skip
+    axes.axhline(PLATE, color="black", linewidth=0.5, linestyle=":")
+    axes.grid(alpha=0.3)
+
+
+def finish(figure, panels, columns: int) -> None:
+    """What the axes of panels with depths say, and one legend for all of them in so many columns."""
+    for row in panels:
         row[0].set_ylabel("depth [cm]")
     for axes in panels[-1]:
         axes.set_xlabel("impact velocity [m/s]")
     panels[0][0].set_ylim(0.0, 60.0)
-    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=3)
-    return figure
+    figure.legend(*panels[0][0].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=columns)
 
 
-def dots(axes, column: str, colour: str, members: dict[float, list[Result]]) -> None:
+def _dots(axes, column: str, colour: str, members: dict[float, list[Result]]) -> None:
     """The members of one law in one panel, by velocity, with a line through their medians."""
     places = sorted(members)
     axes.plot(places, [median(result.reach for result in members[at]) for at in places], color=colour, linewidth=0.8)

@@ -33,8 +33,9 @@ SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
 #: the axis of the shots; those that make a shot in a search for a transition
 SHOTS, SEARCHED, NOSE, CELLS = "shot", ("plate", "velocity"), "nose", keeping.CELLS
-#: rods and plates of the shots
-RODS = tuple(itertools.product(NOSES.values(), ("5083", "7039")))
+#: plates of the shots; rods and plates
+ALLOYS = ("5083", "7039")
+RODS = tuple(itertools.product(NOSES.values(), ALLOYS))
 #: thickness of the plates, cm; mass of the rods, kg
 PLATE, MASS = 53.34, 0.063
 #: what rods lose of their length, by the largest loss in per cent
@@ -104,7 +105,7 @@ class Result:
             return Shot.named(self.labels[SHOTS])
         plate, velocity = (self.labels.get(axis, "") for axis in SEARCHED)
         nose = self.labels.get(NOSE, NOSES["hemi"])
-        return Shot(nose, plate, speed(velocity)) if plate in ("5083", "7039") and velocity else None
+        return Shot(nose, plate, speed(velocity)) if plate in ALLOYS and velocity else None
 
     @property
     def column(self) -> str:

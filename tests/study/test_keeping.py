@@ -7,7 +7,7 @@ import pytest
 
 from hydro2d.deck import deck as decks
 from hydro2d.files import write_json
-from hydro2d.study import cases, keeping, layout
+from hydro2d.study import cases, keeping, layout, transition
 from hydro2d.study.choice import Choice
 from hydro2d.study.definition import StudyError
 from hydro2d.study.scaling import AS_IT_IS, Size
@@ -52,7 +52,7 @@ def rows(found):
 def test_rows_of_runs_that_ended(study, tmp_path):
     choice = Choice(study)
     assert len(choice.selected) == 4
-    assert not choice.complete()
+    assert not choice.complete
     choice.keep(ended(study, tmp_path / "out"))
     kept = rows(study)
     assert [(row["speed"], row["member"]) for row in kept] == [
@@ -63,9 +63,9 @@ def test_rows_of_runs_that_ended(study, tmp_path):
     assert float(kept[0]["depth_m"]) == 0.31
     assert float(kept[0]["length_ratio"]) == pytest.approx(0.98)
     again = Choice(study)
-    assert again.complete()
+    assert again.complete
     assert again.kept().endswith("4 runs up to date, 0 stale, 0 not made")
-    assert not Choice(study, again=True).complete()
+    assert not Choice(study, again=True).complete
 
 
 def test_a_running_case_has_no_row(study, tmp_path):
@@ -86,7 +86,7 @@ def test_another_deck_or_method_makes_rows_stale(study, tmp_path):
     choice = Choice(study)
     choice.keep(layout.read(tmp_path / "out").cases)
     assert len(rows(study)) == 4, "new rows take the places of stale ones"
-    assert Choice(study).complete()
+    assert Choice(study).complete
 
 
 def test_runs_of_another_method_are_not_kept(study, tmp_path):
@@ -98,14 +98,14 @@ def test_members_and_cells_of_another_size(study, tmp_path):
     Choice(study).keep(ended(study, tmp_path / "out"))
     one = plan(tmp_path, size=Size(members=1))
     assert [case.member for case in one.cases] == [0, 0]
-    assert Choice(one).complete()
+    assert Choice(one).complete
     fine = plan(tmp_path, size=Size(cells=8.5))
     choice = Choice(fine)
     assert choice.kept().endswith("0 runs up to date, 0 stale, 4 not made")
     choice.keep(ended(fine, tmp_path / "fine"))
     assert [row["cells_across"] for row in rows(study)] == ["5.5"] * 4 + ["8.5"] * 4
-    assert Choice(study).complete()
-    assert Choice(fine).complete()
+    assert Choice(study).complete
+    assert Choice(fine).complete
 
 
 def test_a_default_does_not_count_in_a_setup():
@@ -130,6 +130,41 @@ def test_rows_of_another_study_are_refused(study, tmp_path):
     study.keep.write_text(study.keep.read_text().replace("speed,", "velocity,", 1))
     with pytest.raises(StudyError, match="is of another study: it has no column speed"):
         Choice(study)
+
+
+def test_a_search_with_all_its_rows_is_complete(tmp_path):
+    """Four shots of each of two alloys; a larger budget wants more of them, and --overwrite all of them again."""
+    file = tmp_path / "search.toml"
+
+    def search(budget):
+        file.write_text(f"""deck = "{(tubes.ROOT / fake.BASE).as_posix()}"
+keep = "rows.csv"
+[transition]
+from = "1000 m/s"
+to = "1300 m/s"
+of = "length"
+budget = {budget}
+[[axis]]
+name = "plate"
+key = "body.plate.material"
+values = ["Al5083", "Al7039"]
+""")
+        return cases.plan(file, quiet=True)
+
+    choice = transition.choice_of(search(4))
+    assert not choice.complete
+    assert choice.kept().endswith("0 of 8 runs up to date")
+    for group in choice.groups:
+        for speed in (1000.0, 1300.0, 1150.0, 1100.0):
+            choice._add(group, speed)
+    choice.keep(ended(choice._planned(), tmp_path / "out"))
+    again = transition.choice_of(search(4))
+    assert again.complete
+    assert again.kept().endswith("8 of 8 runs up to date")
+    assert not transition.choice_of(search(4), again=True).complete
+    assert not transition.choice_of(search(5)).complete
+    file.with_name("rows.csv").write_text(choice.plan.keep.read_text().replace(keeping.METHOD, "2020-01-01"))
+    assert not transition.choice_of(search(4)).complete
 
 
 def test_a_table_says_that_it_mixes_versions():
