@@ -211,8 +211,8 @@ def in_this_process(workers, threads):
 def folder(short, tmp_path, monkeypatch):
     """Makes a reader's folder ready for a page; what it takes for granted has run once."""
     monkeypatch.setattr(cluster, "local", in_this_process)
-    monkeypatch.setattr(templates, "problems_folder", lambda: short / "problems")
-    (tmp_path / "problems").symlink_to(short / "problems")
+    shutil.copytree(short / "problems", tmp_path / "problems")  # a page keeps no rows for the next one
+    monkeypatch.setattr(templates, "problems_folder", lambda: tmp_path / "problems")
     monkeypatch.chdir(tmp_path)
     threads = jit.threads()
 
