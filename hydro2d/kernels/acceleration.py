@@ -7,9 +7,11 @@ from hydro2d.kernels.boundaries import left_by_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, union
 from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, holds, pull_of_ties, skin_deviator, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
-from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, HOOP, MID_R, VOL_R
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
+from hydro2d.physics.corner import axial_force, hourglass_force, radial_force
 from hydro2d.physics.kinematics import divergence
+from hydro2d.physics.momentum import corner_sum
 from hydro2d.physics.stress import stress_scale
 
 #: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/speed)
@@ -116,7 +118,7 @@ def vertex_masses(j, w):
         m_j = w.mass[b, j]
         for x in range(n):
             i = lo + x
-            m_j[i] = w.metrics[CM_OUT, i - 1] * (below[i - 1] + above[i - 1]) + w.metrics[CM_IN, i] * (below[i] + above[i])
+            m_j[i] = corner_sum(w.metrics[CM_IN, i], w.metrics[CM_OUT, i - 1], below[i - 1], above[i - 1], below[i], above[i])
 
 
 @point
@@ -177,9 +179,8 @@ def limit_speed(j, w):
 def accelerate_row(b, j, w):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
-    f_r = -[sig_rr (c_r - A/4) + sig_tt A/4 + sig_rz c_z],  f_z = -[sig_zz c_z + sig_rz g] per corner, and the filter of the
-    hourglass mode (explanation/lagrangian-step, equations 4 and 6). The same corner forces do the work in `deform`. Contact
-    nodes are left to the contact (explanation/sliding).
+    `deform` gives the work of the same corner forces (`hydro2d.physics.corner`) to the cells (explanation/lagrangian-step,
+    equations 4 to 6). Contact nodes are left to the contact (explanation/sliding).
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
     Writes   u, v [b, j, i] for whole rows
@@ -210,27 +211,12 @@ def accelerate_row(b, j, w):
     vn = w.v[b, j]
     for x in range(n):
         i = lo + x
-        k = i - 1
-        half_r, hoop_k, hoop_i = 0.5 * w.metrics[FACE_R, i], w.metrics[HOOP, k], w.metrics[HOOP, i]
-        # (cell left below + cell left above) + (cell right below + cell right above): mirror pairs in z
-        normal_r = (half_r - hoop_k) * (hb * rr_b[k] + ht * rr_t[k]) - (half_r + hoop_i) * (hb * rr_b[i] + ht * rr_t[i])
-        hoop_r = hoop_k * (hb * tt_b[k] + ht * tt_t[k]) + hoop_i * (hb * tt_b[i] + ht * tt_t[i])
-        shear_r = w.metrics[AZ_OUT, k] * (rz_b[k] - rz_t[k]) + w.metrics[AZ_IN, i] * (rz_b[i] - rz_t[i])
-        force_r = -(normal_r + hoop_r + shear_r)
-        normal_z = w.metrics[AZ_OUT, k] * (zz_b[k] - zz_t[k]) + w.metrics[AZ_IN, i] * (zz_b[i] - zz_t[i])
-        shear_z = w.metrics[MID_R, k] * (hb * rz_b[k] + ht * rz_t[k]) - w.metrics[MID_R, i] * (hb * rz_b[i] + ht * rz_t[i])
-        force_z = -(normal_z + shear_z)
-        # hourglass mode of the four cells, + - + - from the inner bottom vertex
-        h_kb = (u_b[k] - u_b[i]) + (u_c[i] - u_c[k])
-        h_kt = (u_c[k] - u_c[i]) + (u_t[i] - u_t[k])
-        h_ib = (u_b[i] - u_b[i + 1]) + (u_c[i + 1] - u_c[i])
-        h_it = (u_c[i] - u_c[i + 1]) + (u_t[i + 1] - u_t[i])
-        force_r += ((w_t[k] * h_kt - w_b[k] * h_kb) + (w_b[i] * h_ib - w_t[i] * h_it))
-        h_kb = (v_b[k] - v_b[i]) + (v_c[i] - v_c[k])
-        h_kt = (v_c[k] - v_c[i]) + (v_t[i] - v_t[k])
-        h_ib = (v_b[i] - v_b[i + 1]) + (v_c[i + 1] - v_c[i])
-        h_it = (v_c[i] - v_c[i + 1]) + (v_t[i + 1] - v_t[i])
-        force_z += ((w_t[k] * h_kt - w_b[k] * h_kb) + (w_b[i] * h_ib - w_t[i] * h_it))
+        # Step 1: forces of the stresses of the four cells around the vertex, and of their hourglass filters (4 and 6)
+        force_r = radial_force(i, rr_b, rr_t, tt_b, tt_t, rz_b, rz_t, w.metrics, hb, ht)
+        force_z = axial_force(i, zz_b, zz_t, rz_b, rz_t, w.metrics, hb, ht)
+        force_r += hourglass_force(i, w_b, w_t, u_b, u_c, u_t)
+        force_z += hourglass_force(i, w_b, w_t, v_b, v_c, v_t)
+        # Step 2: the velocity (5); a vertex without mass has none
         keep = 1.0 if m_j[i] > 0.0 else 0.0
         scale = keep * w.dt / max(m_j[i], TINY)
         radial = keep * u_c[i] + scale * force_r

@@ -17,9 +17,10 @@ from hydro2d.kernels.cut_cells import (
     ties,
 )
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
-from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R, VOL_R
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
 from hydro2d.physics.contact import meeting, volume_rate
+from hydro2d.physics.corner import corner, corner_force
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale
 from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
@@ -142,24 +143,17 @@ def group_stress(g, j, i, w):
 
 
 @point
-def corner_force(g, j, i, at_j, at_i, w):
+def group_force(g, j, i, at_j, at_i, w):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
     if w.cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
     rr, zz, tt, rz = group_stress(g, at_j, at_i, w)
-    h = w.dz[at_j]
-    left = at_i < i  # the cell lies left of the vertex, and below it
-    low = at_j < j
-    area = w.metrics[AZ_OUT, at_i] if left else w.metrics[AZ_IN, at_i]
-    upward = area if low else -area
-    outward = w.metrics[MID_R, at_i] * h if left else -w.metrics[MID_R, at_i] * h
-    half = 0.5 * w.metrics[FACE_R, i]
-    normal = h * (half - w.metrics[HOOP, at_i]) if left else -h * (half + w.metrics[HOOP, at_i])
-    force_r = -(normal * rr + w.metrics[HOOP, at_i] * h * tt + upward * rz)
-    force_z = -(upward * zz + outward * rz)
+    outer, upper = at_i < i, at_j < j  # the vertex is on the outer side of a cell to the left of it
+    across, hoop, c_z, along = corner(at_i, outer, upper, w.metrics, w.dz[at_j])
+    force_r, force_z = corner_force(rr, zz, tt, rz, across, hoop, c_z, along)
     own, other = w.cell_mass[g, at_j, at_i], w.cell_mass[1 - g, at_j, at_i]
     filter_share = w.hg_coefficient[at_j, at_i] * own / (own + other)
-    sign = filter_share if left == low else -filter_share
+    sign = filter_share if outer == upper else -filter_share
     force_r -= sign * hourglass_mode(at_i, w.u0[g, at_j], w.u0[g, at_j + 1])
     force_z -= sign * hourglass_mode(at_i, w.v0[g, at_j], w.v0[g, at_j + 1])
     return force_r, force_z
@@ -196,7 +190,7 @@ def contact_node_forces(j, w):
                         pull_r, pull_z = pull_of_ties(g, j, i, row, column, by_r, by_z, w)
                         tied_r += pull_r
                         tied_z += pull_z
-                    more_r, more_z = corner_force(g, j, i, row, column, w)
+                    more_r, more_z = group_force(g, j, i, row, column, w)
                     force_r += more_r
                     force_z += more_z
             w.u[g, j, i] = w.u0[g, j, i] + (w.dt * force_r + tied_r) / w.mass[g, j, i]

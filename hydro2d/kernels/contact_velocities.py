@@ -347,6 +347,7 @@ def settle(w):
     Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; what list_ties writes
     Scratch  what assemble writes; impulses [t, 8], search [t, c]
     """
+    # Step 1: no impulse has been passed on yet
     j0, j1 = outer_rows(w.parts)
     for x in range(w.first_slot[j1 + 1]):
         for c in range(2):
@@ -354,9 +355,11 @@ def settle(w):
                 w.taken[c, x, g] = 0.0
         for c in range(3):
             w.rubbing[c, x] = 0.0
+    # Step 2: impulses that tie slaves to their masters
     tied = list_ties(w)
     assemble(tied, w)
     meet_ties(tied, w)
+    # Step 3: friction at the nodes that touch, and the ties once more, in turn
     for _ in range(ROUNDS if w.friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(w.contact_node_count[j]):

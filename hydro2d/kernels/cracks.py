@@ -5,8 +5,9 @@ from eos.cracked import GROWTH, opened, solid_share
 from hydro2d.jit import cell_rows, point
 from hydro2d.kernels.column_ranges import columns
 from hydro2d.materials.rows import CRACKS, DAMAGE, DAMAGE_AT, EOS_AT, MEMORY, TENSILE
-from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, RHO, SRR, SRZ, SZZ, E
-from hydro2d.physics.fracture import crack_opening
+from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, RHO, E
+from hydro2d.physics.fracture import crack_opening, open_void
+from hydro2d.physics.plasticity import release
 from strength.dispatch import OPENS_CRACKS, full_opening, tension_left
 
 #: cracks within so many full openings on either side of a cell are of the same crack, and those in so many cells at the least,
@@ -17,26 +18,13 @@ JOINED = 0.5
 
 
 @point
-def release(m, j, i, q):
-    """Sets the deviator of body m in cell (j, i) to zero.
-
-    Updates  q (deviators) [k, m, j, i]
-    """
-    q[SRR, m, j, i] = 0.0
-    q[SZZ, m, j, i] = 0.0
-    q[SRZ, m, j, i] = 0.0
-
-
-@point
 def part_cell(m, j, i, w):
     """Makes void of the cracks of body m in cell (j, i), which bears no stress any more.
 
     Updates  vof [m, j, i]; q (density, deviators, crack volume and growth) [k, m, j, i]
     """
     row = w.models[m, MEMORY]
-    share = solid_share(w.q[RHO, m, j, i], w.q[row + WIDTH, m, j, i])
-    w.vof[m, j, i] *= share
-    w.q[RHO, m, j, i] /= share
+    open_void(m, j, i, solid_share(w.q[RHO, m, j, i], w.q[row + WIDTH, m, j, i]), w.vof, w.q)
     w.q[row + WIDTH, m, j, i] = 0.0
     w.q[row + GROWTH, m, j, i] = 0.0
     release(m, j, i, w.q)

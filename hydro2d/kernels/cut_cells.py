@@ -303,6 +303,7 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
     Reads    mix [j, GROWTH, m]; mix [j, NORMAL, m], its normal deviator before the step; mix [j, HEAT, m], the deviators' work
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
+    # Step 1: the work of each body on its own change of volume, and the work that is left for all
     after = volume + change
     mass, left, filled = 0.0, work, 0.0
     for m in range(w.vof.shape[0]):
@@ -315,6 +316,7 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         done = 0.5 * (w.pm[m, j, i] - w.mix[j, NORMAL, m] + target) * grown
         w.mix[j, HEAT, m] -= done
         left += done
+    # Step 2: the volumes fill the cell; under tension what is missing stays void
     squeeze = after / filled if target > 0.0 else min(1.0, after / filled)
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]

@@ -7,7 +7,8 @@ from hydro2d.kernels.plastic_return import flow, return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, LANES, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+from hydro2d.physics.corner import hourglass_square, stress_power
+from hydro2d.physics.kinematics import velocity_gradient
 from hydro2d.physics.plasticity import forget, is_fluid, keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
 from strength.dispatch import WEAKENS, WITH_INTERNAL, end_at_melt, modulus_row, turn, yield_floor
@@ -52,15 +53,12 @@ def strain_row(m, j, b, w):
         i = first + x
         pure = f_j[i] == 1.0
         volume = w.metrics[VOL_R, i] * h
-        a_rr, a_tt, a_zz, a_rbz, a_zbr = velocity_gradient(i, ub0, ut0, vb0, vt0, w.metrics, h)
-        rr, tt, zz, rbz, zbr = velocity_gradient(i, ub, ut, vb, vt, w.metrics, h)
-        hg = hg_j[i]
-        h_u0, h_v0 = hourglass_mode(i, ub0, ut0), hourglass_mode(i, vb0, vt0)
-        h_u, h_v = hourglass_mode(i, ub, ut), hourglass_mode(i, vb, vt)
+        before = velocity_gradient(i, ub0, ut0, vb0, vt0, w.metrics, h)
+        after = velocity_gradient(i, ub, ut, vb, vt, w.metrics, h)
+        rr, tt, zz, rbz, zbr = after
         work = 0.5 * w.dt * (
-            (rr_j[i] * (a_rr + rr) + tt_j[i] * (a_tt + tt))
-            + (zz_j[i] * (a_zz + zz) + rz_j[i] * ((a_rbz + rbz) + (a_zbr + zbr)))
-            + hg * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)))
+            stress_power(rr_j[i], tt_j[i], zz_j[i], rz_j[i], before, after)
+            + hg_j[i] * hourglass_square(i, ub0, ut0, vb0, vt0, ub, ut, vb, vt))
         rho = rho_j[i]
         gain = work / (rho * volume)
         e_j[i] += gain if pure else 0.0

@@ -43,11 +43,13 @@ from hydro2d.kernels.mixed_strength import (
 )
 from hydro2d.kernels.thermodynamics import compression_viscosity_row, pressures_row, viscosity_row
 from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
-from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.fields import DMG, RHO, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
-from hydro2d.physics.fracture import share_that_stays, tension_limit
-from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+from hydro2d.physics.corner import hourglass_square
+from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
+from hydro2d.physics.kinematics import velocity_gradient
+from hydro2d.physics.plasticity import release
 
 #: mixed-cell closure by name
 CLOSURES = ("uniform", "tipton")
@@ -91,15 +93,11 @@ def insert_void_mixed_row(j, w):
                 internal = w.q[w.models[m, MEMORY]:, m, j, i]
                 share = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), w.max_opening)
                 w.opened[j] += f * (1.0 - share) * w.metrics[VOL_R, i] * w.dz[j]
-                f *= share
-                w.vof[m, j, i] = f
-                w.q[RHO, m, j, i] = rho / share
+                open_void(m, j, i, share, w.vof, w.q)
                 w.pm[m, j, i] = evaluate(model, rho / share, e, internal, par)[0]
-            w.q[SRR, m, j, i] = 0.0
-            w.q[SZZ, m, j, i] = 0.0
-            w.q[SRZ, m, j, i] = 0.0
-            total += f
-            pressure += f * w.pm[m, j, i]
+            release(m, j, i, w.q)
+            total += w.vof[m, j, i]
+            pressure += w.vof[m, j, i] * w.pm[m, j, i]
         w.p[j, i] = pressure
         w.solid[j, i] = total
         if total < 1.0 - NO_VOID:
@@ -145,8 +143,6 @@ def cell_motion(j, i, g, w):
         i, w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.metrics, w.dz[j])
     rr, tt, zz, rbz, zbr = velocity_gradient(
         i, w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1], w.metrics, w.dz[j])
-    h_u0, h_v0 = hourglass_mode(i, w.u0[g, j], w.u0[g, j + 1]), hourglass_mode(i, w.v0[g, j], w.v0[g, j + 1])
-    h_u, h_v = hourglass_mode(i, w.u[g, j], w.u[g, j + 1]), hourglass_mode(i, w.v[g, j], w.v[g, j + 1])
     w.motion[j, g, RR] = rr
     w.motion[j, g, TT] = tt
     w.motion[j, g, ZZ] = zz
@@ -156,7 +152,8 @@ def cell_motion(j, i, g, w):
     w.motion[j, g, MEAN_TT] = 0.5 * (a_tt + tt)
     w.motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
     w.motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-    w.motion[j, g, HOURGLASS] = 0.5 * w.dt * w.hg_coefficient[j, i] * (h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v))
+    w.motion[j, g, HOURGLASS] = 0.5 * w.dt * w.hg_coefficient[j, i] * hourglass_square(
+        i, w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1])
 
 
 @point

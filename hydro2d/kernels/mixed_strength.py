@@ -29,7 +29,15 @@ from hydro2d.kernels.plastic_return import return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.plasticity import carries_no_stress, deviator_power, forget, is_fluid, keep_internal, take_internal
+from hydro2d.physics.plasticity import (
+    carries_no_stress,
+    deviator_power,
+    forget,
+    is_fluid,
+    keep_internal,
+    release,
+    take_internal,
+)
 from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
 from strength.dispatch import flow_stress, shear_modulus, turn, weakened
@@ -171,9 +179,7 @@ def return_deviators(j, i, own, cell_yield, dominant, w):
             continue
         if is_fluid(w.mix[j, MODULUS, m]):
             forget(m, j, i, w.models[m, STRENGTH], w.q, w.internal[j])
-            w.q[SRR, m, j, i] = 0.0
-            w.q[SZZ, m, j, i] = 0.0
-            w.q[SRZ, m, j, i] = 0.0
+            release(m, j, i, w.q)
             continue
         rr, zz, rz, dep, final = return_to_surface(
             m, j, i, w.mix[j, TRIAL_RR, m], w.mix[j, TRIAL_ZZ, m], w.mix[j, TRIAL_RZ, m], w.mix[j, MODULUS, m], own, cell_yield,

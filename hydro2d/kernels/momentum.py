@@ -1,20 +1,23 @@
 """The remap of momentum on dual cells, and what the three advection choices make of the kinetic energy."""
 
-from math import sqrt
-
 from hydro2d.jit import apart, cell_rows, kernel, plus, point, rowwise
 from hydro2d.kernels.boundaries import held_at
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
-from hydro2d.physics.advection import TINY, upwind
-from hydro2d.physics.traction import smoothstep
+from hydro2d.physics.advection import TINY
+from hydro2d.physics.momentum import (
+    carried,
+    corner_sum,
+    energy_missing,
+    slope_weight,
+    velocity_of_energy,
+    velocity_of_momentum,
+)
 
 #: advection by name, in the order of the integer that the kernels take
 ADVECTIONS = ("momentum", "ke", "both")
 MOMENTUM, KE, BOTH = range(3)
-#: mass of a vertex, over the largest beside it, below which its velocity shapes no slope
-SLIGHT = 1e-4
 
 
 @point
@@ -48,37 +51,28 @@ def dual_row(g, j, slot, w):
         if di == 1:
             below = w.flux_mass[g, j - 1, lo:hi + 1]
             for x in range(n):
-                flow[x] = outer[x] * (below[x] + here[x + 1]) + inner[x] * (below[x + 1] + here[x + 2])
+                flow[x] = corner_sum(inner[x], outer[x], below[x], here[x + 1], below[x + 1], here[x + 2])
         else:
             above = w.flux_mass[g, j + 1, lo - 1:hi]
             for x in range(n):
-                flow[x] = inner[x] * (here[x + 1] + above[x + 1]) + outer[x] * (here[x] + above[x])
+                flow[x] = corner_sum(inner[x], outer[x], here[x], above[x], here[x + 1], above[x + 1])
         m_ll = w.mass[g, j - dj, lo - di:hi - di]
         m_l = w.mass[g, j, lo:hi]
         m_r = w.mass[g, j + dj, lo + di:hi + di]
         m_rr = w.mass[g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
         for x in range(n):
-            up = flow[x] > 0.0
-            left, l, r, right = m_ll[x], m_l[x], m_r[x], m_rr[x]  # read before the choice, which else would be a gather
-            whole = max(l if up else r, TINY)
-            behind = left if up else right
-            least, most = min(behind, min(m_l[x], m_r[x])), max(behind, max(m_l[x], m_r[x]))
-            there = smoothstep(least / (SLIGHT * max(most, TINY)))
-            half[x] = 0.5 * there * (1.0 - min(abs(flow[x]) / whole, 1.0))
+            half[x] = slope_weight(flow[x], m_ll[x], m_l[x], m_r[x], m_rr[x])
         for c in range(2):
             a_ll = w.velocity0[c, g, j - dj, lo - di:hi - di]
             a_l = w.velocity0[c, g, j, lo:hi]
             a_r = w.velocity0[c, g, j + dj, lo + di:hi + di]
             a_rr = w.velocity0[c, g, j + 2 * dj, lo + 2 * di:hi + 2 * di]
-            carried = w.dual[1 + c, slot, lo:hi]
-            kinetic = w.dual[3 + c, slot, lo:hi]
+            carried_p = w.dual[1 + c, slot, lo:hi]
+            carried_k = w.dual[3 + c, slot, lo:hi]
             for x in range(n):
-                up = flow[x] > 0.0
-                donor, slope = upwind(up, a_ll[x], a_l[x], a_r[x], a_rr[x], w.steepness)
-                carried[x] = flow[x] * (donor + half[x] * slope)
-                donor, slope = upwind(up, 0.5 * a_ll[x] * a_ll[x], 0.5 * a_l[x] * a_l[x], 0.5 * a_r[x] * a_r[x],
-                                      0.5 * a_rr[x] * a_rr[x], w.steepness)
-                kinetic[x] = flow[x] * (donor + half[x] * slope)
+                carried_p[x] = carried(flow[x], half[x], a_ll[x], a_l[x], a_r[x], a_rr[x], w.steepness)
+                carried_k[x] = carried(flow[x], half[x], 0.5 * a_ll[x] * a_ll[x], 0.5 * a_l[x] * a_l[x],
+                                       0.5 * a_r[x] * a_r[x], 0.5 * a_rr[x] * a_rr[x], w.steepness)
 
 
 @apart
@@ -135,9 +129,10 @@ def vertex_row(g, j, below, above, w):
         f_in = w.dual[0, below, lo - di:hi - di]
         f_out = w.dual[0, above, lo:hi]
         new_j = w.dual[5, below, lo:hi]  # the weights that stood there have done their work
+        # Step 1: masses after the sweep, corner sums of the cells (explanation/remap, equation 6)
         for x in range(n):
             left[x] = 0.0
-            new_j[x] = outer[x] * (low[x] + high[x]) + inner[x] * (low[x + 1] + high[x + 1])
+            new_j[x] = corner_sum(inner[x], outer[x], low[x], high[x], low[x + 1], high[x + 1])
         for c in range(2):
             p_in = w.dual[1 + c, below, lo - di:hi - di]
             p_out = w.dual[1 + c, above, lo:hi]
@@ -153,6 +148,7 @@ def vertex_row(g, j, below, above, w):
             given = w.edge_velocity[2 * c] if low_edge else w.edge_velocity[3]
             given_outside = w.edge_velocity[1]
             axis, outside = (w.constrained[0], w.constrained[1]) if c == 0 else (-1, -1)
+            # Step 2: momentum and kinetic energy of this component, and the velocity by the kind of advection (7 to 9)
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
@@ -162,26 +158,24 @@ def vertex_row(g, j, below, above, w):
                 fixed = given_outside if lo + x == outside else given
                 over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
-                mean = min(max(momentum * over, min(a, min(a_low[x], a_high[x]))), max(a, max(a_low[x], a_high[x])))
+                mean = velocity_of_momentum(momentum, over, a, a_low[x], a_high[x])
                 mean = fixed if wall else mean
                 kinetic = max(0.5 * old * a * a + (k_in[x] - k_out[x]), 0.0)
-                speed = min(sqrt(2.0 * kinetic * over), w.ke_bound * abs(mean))
-                speed = speed if mean > 0.0 else -speed
-                after = speed if w.advection == KE else mean
+                after = velocity_of_energy(kinetic, over, w.ke_bound, mean) if w.advection == KE else mean
                 after = fixed if wall else after
                 after = a if resting else after
                 after = after if new > 0.0 else 0.0
                 out[x] = after
+                # Step 3: sums for the conservation audit
                 k_before = plus(k_before, 0.5 * old * a * a)
                 k_after = plus(k_after, 0.5 * new * after * after)
                 if w.advection == KE:
                     moves = not resting and new > 0.0
-                    most = w.ke_bound * mean
-                    k_cut = plus(k_cut, max(kinetic - 0.5 * new * most * most, 0.0) if moves else 0.0)
+                    k_cut = plus(k_cut, max(energy_missing(kinetic, new, w.ke_bound * mean), 0.0) if moves else 0.0)
                 gained = new * (after - momentum * over) if new > 0.0 else -momentum
                 p_gained = plus(p_gained, 0.0 if resting or wall else gained)
                 if w.advection == BOTH:
-                    left[x] += 0.0 if resting else (kinetic - 0.5 * new * mean * mean) * over
+                    left[x] += 0.0 if resting else energy_missing(kinetic, new, mean) * over
                 p_wall = plus(p_wall, momentum - new * fixed if wall and not resting else 0.0)
             w.momentum_sums[0, j] += k_before
             w.momentum_sums[1, j] += k_after
@@ -189,6 +183,7 @@ def vertex_row(g, j, below, above, w):
             if c == 1:
                 w.momentum_sums[2, j] += p_gained
                 w.momentum_sums[4, j] += p_wall
+        # Step 4: vertices at rest on edges that only push
         for edge in range(4):
             if w.pushing[edge] >= 0:
                 rest_on_anvil(edge, g, j, lo, hi, new_j, left, w)

@@ -107,6 +107,7 @@ def update_row(dj, j, m, below, above, b, w):
         old_m = w.scratch[1, b, lo:hi]
         new_v = w.scratch[2, b, lo:hi]
         new_m = w.scratch[3, b, lo:hi]
+        # Step 1: volume and mass of the body before the sweep and after it (explanation/remap, equation 1)
         for x in range(n):
             f, rho, into, out = f_j[x], r_j[x], v_in[x], v_out[x]
             swept = s_out[x] - s_in[x]
@@ -116,7 +117,7 @@ def update_row(dj, j, m, below, above, b, w):
             mass_after = mass + (m_in[x] - m_out[x])
             same = into == 0.0 and out == 0.0
             unchanged = same and s_in[x] == 0.0 and s_out[x] == 0.0
-            # divisions first, of what has an inverse: one inside of a choice keeps the loop from being vectorised
+            # divisions come before choices: a division inside of a choice would keep the loop from being vectorised
             divisor, mass_divisor = after if after > TINY else TINY, mass_after if mass_after > TINY else TINY
             density, over_v, over_m = mass_after / divisor, 1.0 / divisor, 1.0 / mass_divisor
             fraction = max(after / (pre_j[x] - swept), 0.0)
@@ -124,11 +125,12 @@ def update_row(dj, j, m, below, above, b, w):
             over_v, over_m = over_v if after > TINY else 0.0, over_m if mass_after > TINY else 0.0
             r_j[x] = rho if unchanged else density
             f_j[x] = f if unchanged else fraction
-            # what a cell without flux is multiplied and divided by is one
+            # a cell without flux is multiplied and divided by one
             old_v[x] = 1.0 if same else volume
             old_m[x] = 1.0 if same else mass
             new_v[x] = 1.0 if same else over_v
             new_m[x] = 1.0 if same else over_m
+        # Step 2: every field that the body carries, by volume or by mass, within its bounds
         for place in range(1, w.carried[m, 0] + 1):
             k = w.carried[m, place]
             a_j = w.q[k, m, j, lo:hi]
@@ -144,6 +146,7 @@ def update_row(dj, j, m, below, above, b, w):
                 full = FULL * most
                 for x in range(n):
                     a_j[x] = most if a_j[x] > full else max(a_j[x], least)
+            # Step 3: failed material has no deviator
             if k == DMG:
                 for component in range(SRR, SRZ + 1):
                     s_j = w.q[component, m, j, lo:hi]

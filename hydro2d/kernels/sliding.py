@@ -6,6 +6,7 @@ from hydro2d.jit import cell_rows, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.physics.interfaces import line_centre, youngs_difference
+from hydro2d.physics.plasticity import release
 
 #: zones of a cell
 OUTSIDE, HARD, BOUNDARY_LAYER, SLIP_LAYER = range(4)
@@ -137,9 +138,7 @@ def cut_shear(j, w):
             if w.hard_bodies[m] or w.vof[m, j, i] == 0.0:
                 continue
             if w.shear == FLUID:
-                w.q[SRR, m, j, i] = 0.0
-                w.q[SZZ, m, j, i] = 0.0
-                w.q[SRZ, m, j, i] = 0.0
+                release(m, j, i, w.q)
                 continue
             rr = w.q[SRR, m, j, i]
             zz = w.q[SZZ, m, j, i]

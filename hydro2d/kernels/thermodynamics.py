@@ -30,8 +30,9 @@ from hydro2d.materials.rows import (
 )
 from hydro2d.mesh.fields import DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.fracture import share_that_stays, tension_limit
+from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
+from hydro2d.physics.plasticity import release
 from hydro2d.physics.stress import largest_principal, von_mises
 from hydro2d.physics.viscosity import (
     directional_viscosity,
@@ -66,13 +67,10 @@ def insert_void_row(m, j, w):
         internal = w.q[memory:, m, j, i]
         p = evaluate(model, rho, e, internal, par)[0]
         if w.vof[m, j, i] == 1.0 and p < -tension_limit(tensile, fades, w.q[DMG, m, j, i]):
-            f = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), w.max_opening)
-            opened += (1.0 - f) * w.metrics[VOL_R, i] * w.dz[j]
-            w.vof[m, j, i] = f
-            w.q[RHO, m, j, i] = rho / f
-            w.q[SRR, m, j, i] = 0.0
-            w.q[SZZ, m, j, i] = 0.0
-            w.q[SRZ, m, j, i] = 0.0
+            share = share_that_stays(rho, zero_pressure_density(model, rho, e, internal, par), w.max_opening)
+            opened += (1.0 - share) * w.metrics[VOL_R, i] * w.dz[j]
+            open_void(m, j, i, share, w.vof, w.q)
+            release(m, j, i, w.q)
     return opened
 
 
@@ -93,9 +91,7 @@ def fail_row(m, j, w):
         stress = largest_principal(w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i]) - w.pm[m, j, i]
         if stress > most_stress:
             w.q[DMG, m, j, i] = FAILED
-            w.q[SRR, m, j, i] = 0.0
-            w.q[SZZ, m, j, i] = 0.0
-            w.q[SRZ, m, j, i] = 0.0
+            release(m, j, i, w.q)
 
 
 @apart
@@ -194,8 +190,9 @@ def pressures_row(j, b, w):
         pm_j = w.pm[m, j]
         km_j = w.km[m, j]
         tm_j = w.tm[m, j]
+        # Step 1: pressure and bulk modulus of the body, and fracture; once more where a cell has fractured
         first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
-        for attempt in range(2):  # once more where a cell has fractured
+        for attempt in range(2):
             if model in WITH_MEMORY:
                 pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, w.vof, w.q, w.pm, w.km)
             else:
@@ -206,7 +203,7 @@ def pressures_row(j, b, w):
             wrong = 0
             for x in range(number):
                 i = first + x
-                fractures = f_j[i] == 1.0 and (pm_j[i] < -tensile * (1.0 - fades * d_j[i]) or d_j[i] >= 1.0)
+                fractures = f_j[i] == 1.0 and (pm_j[i] < -tension_limit(tensile, fades, d_j[i]) or d_j[i] >= 1.0)
                 good = r_j[i] > 0.0 and abs(pm_j[i]) < 1e300 and abs(ep_j[i]) < 1e300
                 fractured += 1 if fractures else 0
                 wrong += 0 if good or f_j[i] == 0.0 else 1
@@ -215,6 +212,7 @@ def pressures_row(j, b, w):
             new_void += insert_void_row(m, j, w)
         if wrong > 0:
             report_row(m, j, w)
+        # Step 2: temperature, and the shear modulus that it leaves
         line = w.materials[m, MELTING_AT:EOS_AT]
         if feels_temperature(w.models[m, STRENGTH], w.models[m, DAMAGE], line):
             if model in WITH_MEMORY:
@@ -223,7 +221,9 @@ def pressures_row(j, b, w):
                 temperature_row(model, par, first, number, f_j, r_j, e_j, tm_j)
         modulus_row(w.models[m, STRENGTH], w.materials[m, STRENGTH_AT:DAMAGE_AT], first, number, pm_j, r_j, tm_j, shear_j)
         end_at_melt(line, first, number, r_j, tm_j, shear_j)
+        # Step 3: the share of the body in the sums over a cell
         add_row(m, j, b, w)
+    # Step 4: bulk modulus of full cells, 0 where there is void, and the longitudinal wave speed
     for x in range(n):
         i = lo + x
         full = solid_j[i] > 1.0 - 1e-12

@@ -1,7 +1,7 @@
 """Where material fractures, and how much void is inserted (explanation/fracture)."""
 
 from hydro2d.jit import point
-from hydro2d.mesh.fields import CRUSHED, FAILED
+from hydro2d.mesh.fields import CRUSHED, FAILED, RHO
 
 
 @point
@@ -25,6 +25,16 @@ def tension_limit(fracture_pressure, fades, damage):
     fades : 1 where it falls with the damage, as in brittle material that is crushed; else 0
     """
     return fracture_pressure * (1.0 - fades * damage) if damage < 1.0 else 0.0
+
+
+@point
+def open_void(m, j, i, share, vof, q):
+    """Leaves body m this share of its volume in cell (j, i); the rest is void.
+
+    Updates  vof [m, j, i]; q (density) [k, m, j, i]
+    """
+    vof[m, j, i] *= share
+    q[RHO, m, j, i] /= share
 
 
 @point

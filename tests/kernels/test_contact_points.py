@@ -12,6 +12,7 @@ from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact import GAP
+from hydro2d.physics.momentum import SLIGHT
 from hydro2d.solver import contact
 from tests.kernels.cells import handle
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
@@ -498,5 +499,5 @@ def test_a_vertex_is_not_changed_as_its_neighbour_loses_its_last_mass():
     """Its velocity is 0 then: a slope to that would be another one than to what it was."""
     np.testing.assert_allclose(carried(0.0), carried(1e-20), rtol=1e-14)
     assert carried(0.0) != pytest.approx(carried(1.0), rel=1e-3)
-    for mass in (0.0, momentum.SLIGHT):
+    for mass in (0.0, SLIGHT):
         changes_in_proportion(carried, mass, 1e5, sides=(1.0,) if mass == 0.0 else (-1.0, 1.0))

@@ -1,0 +1,100 @@
+"""The force of a cell on its four corners, and the work of these forces (explanation/lagrangian-step, equations 1 and 4 to 6).
+
+A cell has the stress sigma and the volume V. One set of vectors, the gradients of its volume and of its strain rates with
+respect to the velocities of its vertices, gives both the forces and the rates, so that the forces do exactly the work of the
+stress: sum f . u = -V sigma : D.
+
+    vertices of cell i            the cells around vertex (j, i), which belong to rows j-1 (b, below) and j (t, above)
+
+        3 ------- 2                        :           :
+        |         |                        :  t[i-1]   :   t[i]
+        |    i    |                ........:...........o............   z
+        |         |                        :  b[i-1]   :   b[i]        ^
+        0 ------- 1                        :           :               '--> r
+
+The force on a vertex is a sum of terms: of the normal stress, of the hoop stress, of the shear stress, and of the filter of the
+hourglass mode. `corner` is one corner of one cell, for cells whose stress differs by group; `radial_force`, `axial_force` and
+`hourglass_force` are the sums over the four cells around a vertex, in an order that a mirror image leaves alone.
+"""
+
+from hydro2d.jit import point
+from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP, MID_R
+from hydro2d.physics.kinematics import hourglass_mode
+
+
+@point
+def corner(i, outer, upper, metrics, h):
+    """Vectors of a corner of a cell in column i: (c_r - A/4, A/4, c_z, g), m^2 per radian (equation 1).
+
+    outer, upper : which of the four corners;  h : height of the cell, m
+    """
+    hoop = metrics[HOOP, i] * h
+    area = metrics[AZ_OUT, i] if outer else metrics[AZ_IN, i]
+    along = metrics[MID_R, i] * h
+    half = 0.5 * (metrics[FACE_R, i + 1] if outer else metrics[FACE_R, i])
+    across = h * (half - metrics[HOOP, i]) if outer else -h * (half + metrics[HOOP, i])
+    return across, hoop, area if upper else -area, along if outer else -along
+
+
+@point
+def corner_force(rr, zz, tt, rz, c_rr, c_tt, c_z, g):
+    """(f_r, f_z) on a corner with the vectors of `corner`, N per radian: of a stress in Pa (equation 4)."""
+    return -(c_rr * rr + c_tt * tt + c_z * rz), -(c_z * zz + g * rz)
+
+
+@point
+def radial_force(i, rr_b, rr_t, tt_b, tt_t, rz_b, rz_t, metrics, h_b, h_t):
+    """Radial force of the stresses of the four cells around a vertex in column i, N per radian (equation 4).
+
+    rr_b to rz_t : sigma_rr, sigma_tt and sigma_rz of the rows below and above;  h_b, h_t : heights of these rows, m
+    """
+    k = i - 1
+    half, hoop_k, hoop_i = 0.5 * metrics[FACE_R, i], metrics[HOOP, k], metrics[HOOP, i]
+    normal = (half - hoop_k) * (h_b * rr_b[k] + h_t * rr_t[k]) - (half + hoop_i) * (h_b * rr_b[i] + h_t * rr_t[i])
+    hoop = hoop_k * (h_b * tt_b[k] + h_t * tt_t[k]) + hoop_i * (h_b * tt_b[i] + h_t * tt_t[i])
+    shear = metrics[AZ_OUT, k] * (rz_b[k] - rz_t[k]) + metrics[AZ_IN, i] * (rz_b[i] - rz_t[i])
+    return -(normal + hoop + shear)
+
+
+@point
+def axial_force(i, zz_b, zz_t, rz_b, rz_t, metrics, h_b, h_t):
+    """Axial force of the stresses of the four cells around a vertex in column i, N per radian (equation 4)."""
+    k = i - 1
+    normal = metrics[AZ_OUT, k] * (zz_b[k] - zz_t[k]) + metrics[AZ_IN, i] * (zz_b[i] - zz_t[i])
+    shear = metrics[MID_R, k] * (h_b * rz_b[k] + h_t * rz_t[k]) - metrics[MID_R, i] * (h_b * rz_b[i] + h_t * rz_t[i])
+    return -(normal + shear)
+
+
+@point
+def hourglass_force(i, kappa_b, kappa_t, u_b, u_c, u_t):
+    """Force of the hourglass filters of the four cells around a vertex in column i, N per radian (equation 6).
+
+    kappa_b, kappa_t : coefficients of the filter below and above, kg/s per radian
+    u_b, u_c, u_t : one component of the velocity in the vertex rows below, of the vertex, and above
+    """
+    k = i - 1
+    inner = kappa_t[k] * hourglass_mode(k, u_c, u_t) - kappa_b[k] * hourglass_mode(k, u_b, u_c)
+    outer = kappa_b[i] * hourglass_mode(i, u_b, u_c) - kappa_t[i] * hourglass_mode(i, u_c, u_t)
+    return inner + outer
+
+
+@point
+def stress_power(rr, tt, zz, rz, before, after):
+    """V sigma : (D + D') of a cell, W per radian: of a stress in Pa, twice what its corner forces take from the motion.
+
+    before, after : `velocity_gradient` of the cell with the velocities at the start and at the end of a step
+    """
+    b_rr, b_tt, b_zz, b_rbz, b_zbr = before
+    a_rr, a_tt, a_zz, a_rbz, a_zbr = after
+    return (rr * (b_rr + a_rr) + tt * (b_tt + a_tt)) + (zz * (b_zz + a_zz) + rz * ((b_rbz + a_rbz) + (b_zbr + a_zbr)))
+
+
+@point
+def hourglass_square(i, u0_b, u0_t, v0_b, v0_t, u_b, u_t, v_b, v_t):
+    """h . (h + h') of cell i, m^2/s^2, with its hourglass modes at the start and at the end of a step.
+
+    Times the coefficient of the filter: twice the power that its forces, made of h, take from the motion.
+    """
+    h_u0, h_v0 = hourglass_mode(i, u0_b, u0_t), hourglass_mode(i, v0_b, v0_t)
+    h_u, h_v = hourglass_mode(i, u_b, u_t), hourglass_mode(i, v_b, v_t)
+    return h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)

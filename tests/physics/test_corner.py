@@ -1,0 +1,111 @@
+"""Forces of cells on their corners do the work of the stress, to round-off, and their sums by vertex are those by cell."""
+
+import numpy as np
+import pytest
+
+from hydro2d.mesh.grid import Grid
+from hydro2d.physics import corner as corners
+from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+
+R, Z = [0.0, 0.3, 0.5, 0.9, 1.0], [-0.2, 0.1, 0.5, 0.6]
+#: corners of a cell by (outer, upper), in the order of the vertices 0 to 3
+CORNERS = ((False, False), (True, False), (True, True), (False, True))
+GEOMETRIES = pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
+
+
+def scene(geometry, seed):
+    """A mesh with random velocities u, v [j, i], stresses rr, zz, tt, rz [k, j, i] and filters kappa [j, i]."""
+    grid, random = Grid(R, Z, geometry), np.random.default_rng(seed)
+    nodes, cells = (len(grid.z), len(grid.r)), grid.volume.shape
+    u, v = random.normal(size=(2, *nodes))
+    return grid, u, v, random.normal(size=(4, *cells)), random.uniform(1.0, 2.0, cells)
+
+
+def heights(grid):
+    return np.diff(grid.z)
+
+
+@GEOMETRIES
+@pytest.mark.parametrize("seed", range(3))
+def test_the_work_of_the_forces_is_minus_that_of_the_stress(geometry, seed):
+    grid, u, v, (rr, zz, tt, rz), _ = scene(geometry, seed)
+    for j in range(2, 5):
+        for i in range(2, 6):
+            h, given = heights(grid)[j], (rr[j, i], zz[j, i], tt[j, i], rz[j, i])
+            rates = velocity_gradient(i, u[j], u[j + 1], v[j], v[j + 1], grid.metrics, h)
+            power = given[0] * rates[0] + given[2] * rates[1] + given[1] * rates[2] + given[3] * (rates[3] + rates[4])
+            done, size = 0.0, 0.0
+            for outer, upper in CORNERS:
+                f_r, f_z = corners.corner_force(*given, *corners.corner(i, outer, upper, grid.metrics, h))
+                at = j + upper, i + outer
+                done += f_r * u[at] + f_z * v[at]
+                size += abs(f_r * u[at]) + abs(f_z * v[at])
+            assert done == pytest.approx(-power, abs=1e-14 * size)
+            assert corners.stress_power(*(given[k] for k in (0, 2, 1, 3)), rates, rates) == pytest.approx(
+                2.0 * power, abs=1e-13 * size)
+
+
+@GEOMETRIES
+def test_the_vectors_of_a_cell_are_those_of_its_page(geometry):
+    """c_r, c_z and g of equation 1 at all four vertices, and the area of the hoop stress."""
+    r1, r2, h = 0.3, 0.5, 0.4
+    across = r2 - r1
+    if geometry == "cylindrical":
+        c_r, hoop = 0.5 * h * np.array([-r1, r2, r2, -r1]), 0.25 * h * across
+        a, b, g = across * (2 * r1 + r2) / 6, across * (r1 + 2 * r2) / 6, 0.25 * (r1 + r2) * h
+    else:
+        c_r, hoop, a, b, g = 0.5 * h * np.array([-1, 1, 1, -1]), 0.0, 0.5 * across, 0.5 * across, 0.5 * h
+    expected = zip(c_r - hoop, [hoop] * 4, [-a, -b, b, a], [-g, g, g, -g], strict=True)
+    for (outer, upper), vectors in zip(CORNERS, expected, strict=True):
+        assert corners.corner(3, outer, upper, Grid(R, Z, geometry).metrics, h) == pytest.approx(vectors, rel=1e-14)
+
+
+@GEOMETRIES
+@pytest.mark.parametrize("seed", range(3))
+def test_sums_over_the_cells_around_a_vertex_are_those_of_their_corners(geometry, seed):
+    grid, u, v, (rr, zz, tt, rz), kappa = scene(geometry, seed)
+    for j in range(3, 5):
+        for i in range(3, 6):
+            h_b, h_t = heights(grid)[j - 1], heights(grid)[j]
+            radial = corners.radial_force(i, rr[j - 1], rr[j], tt[j - 1], tt[j], rz[j - 1], rz[j], grid.metrics, h_b, h_t)
+            axial = corners.axial_force(i, zz[j - 1], zz[j], rz[j - 1], rz[j], grid.metrics, h_b, h_t)
+            filtered = corners.hourglass_force(i, kappa[j - 1], kappa[j], u[j - 1], u[j], u[j + 1])
+            force, hourglass = np.zeros(2), 0.0
+            for row, column in ((j - 1, i - 1), (j - 1, i), (j, i - 1), (j, i)):
+                outer, upper = column < i, row < j
+                vectors = corners.corner(column, outer, upper, grid.metrics, heights(grid)[row])
+                at = row, column
+                force += corners.corner_force(rr[at], zz[at], tt[at], rz[at], *vectors)
+                sign = 1.0 if outer == upper else -1.0
+                hourglass -= sign * kappa[at] * hourglass_mode(column, u[row], u[row + 1])
+            assert (radial, axial) == pytest.approx(tuple(force), rel=1e-13)
+            assert filtered == pytest.approx(hourglass, rel=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_mirror_image_has_the_same_forces_to_the_last_bit(seed):
+    grid, u, v, (rr, zz, tt, rz), kappa = scene("cylindrical", seed)
+    for i in range(3, 6):
+        there = corners.radial_force(i, rr[3], rr[4], tt[3], tt[4], rz[3], rz[4], grid.metrics, 0.3, 0.4)
+        back = corners.radial_force(i, rr[4], rr[3], tt[4], tt[3], -rz[4], -rz[3], grid.metrics, 0.4, 0.3)
+        assert there == back
+        there = corners.axial_force(i, zz[3], zz[4], rz[3], rz[4], grid.metrics, 0.3, 0.4)
+        back = corners.axial_force(i, zz[4], zz[3], -rz[4], -rz[3], grid.metrics, 0.4, 0.3)
+        assert there == -back
+        there = corners.hourglass_force(i, kappa[3], kappa[4], u[3], u[4], u[5])
+        assert there == corners.hourglass_force(i, kappa[4], kappa[3], u[5], u[4], u[3])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_filter_takes_the_square_of_the_mode(seed):
+    """Its forces on the four corners of a cell, made of the mode at the start of a step, over its mean velocities."""
+    grid, u, v, _, kappa = scene("cylindrical", seed)
+    after_u, after_v, *_ = scene("cylindrical", seed + 10)[1:]
+    j, i = 3, 4
+    h_u, h_v = hourglass_mode(i, u[j], u[j + 1]), hourglass_mode(i, v[j], v[j + 1])
+    taken = 0.0
+    for (outer, upper), sign in zip(CORNERS, (1.0, -1.0, 1.0, -1.0), strict=True):
+        at = j + upper, i + outer
+        taken += kappa[j, i] * sign * (h_u * 0.5 * (u[at] + after_u[at]) + h_v * 0.5 * (v[at] + after_v[at]))
+    square = corners.hourglass_square(i, u[j], u[j + 1], v[j], v[j + 1], after_u[j], after_u[j + 1], after_v[j], after_v[j + 1])
+    assert 0.5 * kappa[j, i] * square == pytest.approx(taken, rel=1e-13)
