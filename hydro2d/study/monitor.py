@@ -13,7 +13,7 @@ from pathlib import Path
 from hydro2d.running.progress import number
 from hydro2d.strange import opened
 from hydro2d.study.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
-from hydro2d.terminal import duration, one_line, say, shown, width
+from hydro2d.terminal import duration, one_line, say, several, shown, width
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0
@@ -159,6 +159,16 @@ class Board:
     def show(self, text: str) -> None:
         say(text, flush=True)
 
+    @property
+    def chosen(self) -> list[Case]:
+        """The cases that this sweep runs."""
+        return [case for case in self.cases if case.name not in self.left_out]
+
+    def counts(self) -> str:
+        """'3 of 24 done, 2 running, 19 waiting', and how many cases of the study this sweep leaves out."""
+        more = len(self.cases) - len(self.chosen)
+        return counts(self.chosen) + (f" ({several(more, 'other')} not run)" if more else "")
+
     def look(self, name: str) -> Case:
         """Reads a case again."""
         number = self.numbers[name]
@@ -168,10 +178,10 @@ class Board:
     def summary(self) -> str:
         for name in self.moving:
             self.look(name)
-        seconds = left([case for case in self.cases if case.name not in self.left_out], self.workers(), self.further)
+        seconds = left(self.chosen, self.workers(), self.further)
         coming = f", about {self.further} to come" if self.further else ""
         compiling = f"; {told}" if (told := self.compiling()) else ""
-        return counts(self.cases) + coming + ("" if seconds is None else f"; {duration(seconds)} left") + compiling
+        return self.counts() + coming + ("" if seconds is None else f"; {duration(seconds)} left") + compiling
 
     def update(self) -> None:
         """Called twice a second; prints when output is due."""
@@ -211,7 +221,7 @@ class Live(Board):
 
         total = self.summary()
         order = {RUNNING: 0, WAITING: 2}
-        cases = sorted(self.cases, key=lambda case: order.get(case.status, 1))
+        cases = sorted(self.chosen, key=lambda case: order.get(case.status, 1))
         shown = cases[: max(self._live.console.height - FRAME, 1)]
         hidden = [f"... and {len(cases) - len(shown)} more"] if len(shown) < len(cases) else []
         return Group(grid([row(case) for case in shown]), *hidden, total)

@@ -295,21 +295,20 @@ def _outcome(future) -> Outcome:
 def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: float, again: str) -> int:
     """Prints the final lines and returns the exit status. again : the option that continues the study"""
     cases = [board.look(case.name) for case in board.cases]
-    chosen = [case for case in cases if case.name not in board.left_out]
-    for case in chosen:
+    for case in board.chosen:
         if case.status in (FAILED_STATUS, UNPHYSICAL, INVALID):
             for text in case.message.splitlines():
                 board.line(f"{case.name}: {case.status}: {text}")
     of_workers = duration(spent, tenths=True)
-    board.line(f"{monitor.counts(cases)}, in {duration(seconds)}; the cases took {of_workers} in their workers")
+    board.line(f"{board.counts()}, in {duration(seconds)}; the cases took {of_workers} in their workers")
     if interrupt.reason:
         board.line(f"interrupted ({interrupt.reason}); {again} continues")
         return status(interrupt.reason)
     if any(case.status in (WAITING, INTERRUPTED) for case in cases):
         board.line(f"{again} continues")
-    if any(case.status == DONE for case in chosen):
+    if any(case.status == DONE for case in board.chosen):
         board.line(f"a page of all cases: hydro2d report {shlex.quote(str(board.study.directory))}")
-    return ALL_DONE if all(case.status == DONE for case in chosen) else SOME_FAILED
+    return ALL_DONE if all(case.status == DONE for case in board.chosen) else SOME_FAILED
 
 
 class _ToLog(logging.Handler):

@@ -2,9 +2,9 @@
 
     python -m problems.cth_nose_shape.findings [FILE] [--figure PATH]
 
-FILE is what `advection.toml` keeps. Three tables are printed in Markdown: depth and loss of length of every shot in every way
-to compute it; how many rods end as in the experiments; and by how much the depth differs between two schemes of advection. The
-figure has depth against velocity, as Figures 2 and 3 of the study have it, with a dot for every run.
+FILE is what `advection.toml` keeps. The tables are printed in Markdown: depth and loss of length of every shot in every way to
+compute it; how many rods end as in the experiments; and by how much the depth differs between the choices of advection, failure
+and sliding. The figure has depth against velocity, as Figures 2 and 3 of the study have it, with a dot for every run.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from problems.cth_nose_shape.rigid_rod import Result, Shot
 
 HERE = Path(__file__).parent
 FILE = HERE / "results" / "advection.csv"
-#: axes of the study besides the shots, and the schemes that are compared with the first
+#: axes of the study other than the shots, and its schemes of advection
 AXES = ("sliding", "failure", "advection")
 SCHEMES = ("ke", "momentum", "both")
 
@@ -49,16 +49,17 @@ def shots_of(found: Runs, nose: str) -> list[Shot]:
 
 
 def _cell(runs: Sequence[Result]) -> str:
-    """Median depth, the least and the largest, and median loss of length."""
+    """Median depth, the least and the largest, and median loss of length; runs that are not to be trusted are marked."""
     through = sum(run.depth is None for run in runs)
+    mark = "" if all(run.trusted for run in runs) else rigid_rod.DOUBTFUL
     lost = median(run.loss for run in runs)
     loss = f"{lost:.1f} %" if lost < 10.0 else f"{lost:.0f} %"
     if through == len(runs):
-        return f"perforated, {loss}"
+        return f"perforated{mark}, {loss}"
     depths = sorted(run.reach for run in runs)
     spread = f" ({depths[0]:.1f} to {depths[-1]:.1f})" if len(depths) > 1 else ""
     some = f", {through} of {len(runs)} perforated" if through else ""
-    return f"{median(depths):.1f}{spread}{some}, {loss}"
+    return f"{median(depths):.1f}{mark}{spread}{some}, {loss}"
 
 
 def depths(found: Runs, nose: str) -> list[str]:
@@ -89,21 +90,23 @@ def difference(one: Sequence[Result], other: Sequence[Result]) -> tuple[float, f
     return 100.0 * (means[0] / means[1] - 1.0), error
 
 
-def schemes(found: Runs, nose: str) -> list[str]:
-    """Lines of Markdown: by how much the depths of a scheme exceed those of `ke`, shot by shot and in the mean."""
-    shots = shots_of(found, nose)
-    lines = [f"| sliding, failure | scheme | {' | '.join(f'{shot.alloy}, {shot.velocity:g} m/s' for shot in shots)} | mean |",
+def compared(found: Runs, nose: str, axis: str) -> list[str]:
+    """Lines of Markdown: by how much each choice on an axis deepens the holes of the first choice, by shot and in the mean."""
+    shots, place = shots_of(found, nose), AXES.index(axis)
+    others = ", ".join(name for name in AXES if name != axis)
+    lines = [f"| {others} | {axis} | {' | '.join(f'{shot.alloy}, {shot.velocity:g} m/s' for shot in shots)} | mean |",
              "|---" * (len(shots) + 3) + "|"]
-    ways = dict.fromkeys(way[:2] for way in found)
-    for way, scheme in itertools.product(ways, SCHEMES[1:]):
-        first, second = found.get((*way, SCHEMES[0]), {}), found.get((*way, scheme), {})
-        told = {shot: difference(second[shot], first[shot]) for shot in shots if shot in first and shot in second}
-        if told:
-            cells = [_difference(*told[shot]) if shot in told else "" for shot in shots]
-            errors = [error for _, error in told.values()]
+    first, *choices = dict.fromkeys(way[place] for way in found)
+    rests = dict.fromkeys((*way[:place], *way[place + 1 :]) for way in found)
+    for rest, choice in itertools.product(rests, choices):
+        those, these = (found.get((*rest[:place], value, *rest[place:]), {}) for value in (first, choice))
+        differences = {shot: difference(these[shot], those[shot]) for shot in shots if shot in these and shot in those}
+        if differences:
+            cells = [_difference(*differences[shot]) if shot in differences else "" for shot in shots]
+            errors = [error for _, error in differences.values()]
             of_mean = None if None in errors else math.sqrt(sum(error**2 for error in errors)) / len(errors)
-            mean = _difference(fmean(value for value, _ in told.values()), of_mean)
-            lines.append(f"| {', '.join(way)} | {scheme} | {' | '.join(cells)} | {mean} |")
+            mean = _difference(fmean(value for value, _ in differences.values()), of_mean)
+            lines.append(f"| {', '.join(rest)} | {choice} | {' | '.join(cells)} | {mean} |")
     return lines
 
 
@@ -142,7 +145,10 @@ def main(arguments: list[str] | None = None) -> int:
             return 2
         for nose in rigid_rod.NOSES.values():
             print("\n".join([*depths(found, nose), ""]))
-        print("\n".join([*scores(found), "", *schemes(found, rigid_rod.NOSES["hemi"]), *rigid_rod.mixed(results)]))
+        print("\n".join([*scores(found), ""]))
+        for axis in reversed(AXES):
+            print("\n".join([*compared(found, rigid_rod.NOSES["hemi"], axis), ""]))
+        print("\n".join(rigid_rod.mixed(results)))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError, KeyError) as error:

@@ -78,7 +78,9 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "hemispherical": _of_advection(lambda found: findings.depths(found, HEMISPHERICAL)),
     "ogival": _of_advection(lambda found: findings.depths(found, OGIVAL)),
     "ways": _of_advection(findings.scores),
-    "schemes": _of_advection(lambda found: findings.schemes(found, HEMISPHERICAL)),
+    "schemes": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "advection")),
+    "failures": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "failure")),
+    "slidings": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "sliding")),
 }  # fmt: skip
 
 

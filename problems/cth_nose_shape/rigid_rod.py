@@ -26,6 +26,7 @@ from hydro2d.study import bisection, keeping, layout
 from hydro2d.study.layout import StudyError
 from hydro2d.study.regimes import DEPTHS, KEPT, NOT_DEEPER, USED_UP, by_depth
 from hydro2d.study.velocities import speed
+from hydro2d.terminal import several
 
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
@@ -38,7 +39,9 @@ ALLOYS = ("5083", "7039")
 RODS = tuple(itertools.product(NOSES.values(), ALLOYS))
 #: thickness of the plates, cm; mass of the rods, kg
 PLATE, MASS = 53.34, 0.063
-#: what rods lose of their length, by the largest loss in per cent
+#: marks runs that are not trustworthy
+DOUBTFUL = "†"
+#: words for the loss of length of rods, by the largest loss in per cent
 LOSSES = {10.0: "up to a tenth of the length lost", 100.0 / 3.0: "up to a third", 100.0: "more"}
 COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
 
@@ -81,7 +84,7 @@ class Result:
     labels : its label on every axis, and the cells across the rod;  member : its number in an ensemble
     depth, residual : depth in cm if it came to rest, velocity in m/s if it left the plate; the other is None
     loss : of length, per cent;  regime : of the summary;  hole : volume of the hole in cm3, None where it was not kept
-    method : version of the method
+    method : version of the method;  trusted : whether the audit of the run found nothing wrong
     """
 
     labels: dict[str, str]
@@ -92,6 +95,7 @@ class Result:
     regime: str
     hole: float | None
     method: str
+    trusted: bool = True
 
     @property
     def identity(self) -> tuple:
@@ -153,7 +157,7 @@ def _of(row: keeping.Row) -> Result:
     depth, residual = (None, number("residual_velocity_m_s")) if through else (number("depth_m", 1e2), None)
     loss = round(100.0 * (1.0 - float(row["length_ratio"])), 9)
     return Result(keeping.labels(row), int(row[keeping.MEMBER]), depth, loss, residual, row["regime"],
-                  number("hole_m3", 1e6), row[keeping.OF_METHOD])
+                  number("hole_m3", 1e6), row[keeping.OF_METHOD], row["trustworthy"] == "True")
 
 
 def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:
@@ -212,9 +216,11 @@ def _deeper(depths: dict[float, float], limit: float) -> str:
 
 
 def mixed(results: list[Result]) -> list[str]:
-    """What the tables must say of runs that are not all of the present version of the method."""
-    told = keeping.methods(result.method for result in results)
-    return ["", told] if told else []
+    """Lines below the tables: how many runs are not to be trusted, and not of the present version of the method."""
+    doubtful = sum(not result.trusted for result in results)
+    faults = f"{DOUBTFUL} {several(doubtful, 'run')} with a fault in the audit, such as too much energy lost."
+    of_methods = keeping.methods(result.method for result in results)
+    return [line for each in (faults if doubtful else "", of_methods) if each for line in ("", each)]
 
 
 def holes(results: list[Result]) -> list[str]:

@@ -1,5 +1,7 @@
 """The tables of the nose-shape study from kept rows, and the pages that have them."""
 
+from dataclasses import replace
+
 import pytest
 
 from hydro2d.method import METHOD
@@ -30,6 +32,9 @@ def test_depths_of_every_way_to_compute(found):
         "| contact, P, momentum | 40.5 (40.0 to 41.0), 2.0 % | 30.0, 12 % |",
     ]  # fmt: skip
     assert findings.depths(found, "ogival")[-1] == "| contact, P, ke | perforated, 2.0 % |"
+    doubtful = replace(made(SHOTS[0], 44.0), trusted=False)
+    assert findings.depths(findings.grouped([doubtful]), "hemispherical")[-1] == "| contact, P, ke | 44.0†, 2.0 % |"
+    assert rigid_rod.mixed([doubtful]) == ["", "† 1 run with a fault in the audit, such as too much energy lost."]
     assert findings.depths({}, "ogival") == ["No ogival rod has been run yet."]
 
 
@@ -37,7 +42,9 @@ def test_schemes_are_compared_shot_by_shot(found):
     """40.5 +- 0.5 against 45 +- 1 cm; a shot with one run has no error, and neither has the mean then."""
     assert findings.difference(found["contact", "P", "momentum"][rigid_rod.Shot.named(SHOTS[0])],
                                found["contact", "P", "ke"][rigid_rod.Shot.named(SHOTS[0])]) == pytest.approx((-10.0, 2.48452))
-    assert findings.schemes(found, "hemispherical")[2:] == ["| contact, P | momentum | -10.0 ± 2.5 % | +50.0 % | +20.0 % |"]
+    assert findings.compared(found, "hemispherical", "advection")[2:] == [
+        "| contact, P | momentum | -10.0 ± 2.5 % | +50.0 % | +20.0 % |"]
+    assert findings.compared(found, "hemispherical", "sliding")[2:] == [], "all rows are of one choice"
 
 
 def test_what_each_way_has_right(found):
