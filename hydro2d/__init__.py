@@ -82,8 +82,8 @@ def _own_packages() -> None:
     """Raises ImportError where Python would find another package, or a user's file, for `eos` or `strength`."""
     beside = Path(__file__).resolve().parent.parent
     for name in ("eos", "strength"):
-        found = sys.modules[name].__spec__ if name in sys.modules else importlib.util.find_spec(name)
-        file = found.origin if found is not None else None
+        spec = sys.modules[name].__spec__ if name in sys.modules else importlib.util.find_spec(name)
+        file = spec.origin if spec is not None else None
         if file is None or Path(file).resolve().parent != beside / name:
             raise ImportError(f"hydro2d has a package {name} of its own, and Python finds another one at {file or 'no place'}: "
                               "rename that file, or install hydro2d in an environment of its own")

@@ -112,9 +112,9 @@ class Study(layout.Study):
         with from_extra("data", "the table of a study"):
             import pandas
 
-        found = contents.collect(self)
+        collected = contents.collect(self)
         repeated = self.ensembles and not members
-        return pandas.DataFrame(found.rows_of_ensembles() if repeated else found.rows).set_index("case")
+        return pandas.DataFrame(collected.rows_of_ensembles() if repeated else collected.rows).set_index("case")
 
 
 def open_study(directory: str | Path) -> Study:

@@ -125,13 +125,13 @@ class Compilation(events.Listener):
 
     def settled(self) -> list[str]:
         """Lines for the log after the first cycle, when the kernels of a run are compiled. Ends the second process."""
-        found = []
+        lines = []
         if self.happened and self.seconds > self._told:
             done, _ = self.state
-            found.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
+            lines.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
             self._told = self.seconds
         status = self._second.stop() if self._second else None
-        return found + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status
+        return lines + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status
                         else [])
 
     def listen(self) -> None:

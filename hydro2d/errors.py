@@ -72,10 +72,10 @@ def nearest(name: str, allowed: Iterable[str]) -> str | None:
         return None
     names = [str(entry) for entry in allowed]
     lower = {entry.lower(): entry for entry in reversed(names)}
-    found = difflib.get_close_matches(name, list(lower), n=1, cutoff=NEAR)
-    if not found and len(name) >= BEGINNING:
-        found = sorted((entry for entry in lower if entry.startswith(name)), key=len)
-    return lower[found[0]] if found else None
+    matches = difflib.get_close_matches(name, list(lower), n=1, cutoff=NEAR)
+    if not matches and len(name) >= BEGINNING:
+        matches = sorted((entry for entry in lower if entry.startswith(name)), key=len)
+    return lower[matches[0]] if matches else None
 
 
 #: largest number of names that a message lists, and of characters of a name that is compared with others
@@ -129,10 +129,10 @@ class _Scanner:
         return self.text[self.at : self.at + length]
 
     def _take(self, length: int = 1) -> str:
-        taken = self._next(length)
+        text = self._next(length)
         self.at += length
-        self.line += taken.count("\n")
-        return taken
+        self.line += text.count("\n")
+        return text
 
     def _skip(self, newlines: bool) -> bool:
         """Skips blanks and comments; False at the end of the text."""

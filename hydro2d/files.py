@@ -117,14 +117,14 @@ def holder(path: Path) -> Holder | None:
     """Who holds a lock; None if it does not exist, or was left behind by a process on this machine."""
     try:
         with opened(path) as file:
-            found = _said(file.read(MOST_SAID))
-            left = found is not None and found.is_here and _taken(file)
+            owner = _said(file.read(MOST_SAID))
+            left = owner is not None and owner.is_here and _take_lock(file)
     except (FileNotFoundError, NotADirectoryError):
         return None
-    return None if left else found
+    return None if left else owner
 
 
-def _taken(file: TextIO) -> bool:
+def _take_lock(file: TextIO) -> bool:
     """Takes the lock of an open file, for as long as it is open, unless a process on this machine has it."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -147,7 +147,7 @@ def locked(path: Path) -> Iterator[None]:
     path, tries = Path(path), 5
     while True:
         with opened(path, "a+") as file:
-            free = _taken(file)
+            free = _take_lock(file)
             if free and not _is_at(file, path):
                 continue  # its former holder has removed it in the meantime
             if not free and tries:  # this may be a process that only checks whether the lock is held
@@ -163,18 +163,18 @@ def locked(path: Path) -> Iterator[None]:
             file.write(f"{socket.gethostname()} {os.getpid()}\n")
             file.flush()
             place = Path(os.path.abspath(path.parent))
-            _held.setdefault(place, []).append((file, path))
+            _own_locks.setdefault(place, []).append((file, path))
             try:
                 yield
             finally:
-                _held[place].remove((file, path))
+                _own_locks[place].remove((file, path))
                 if _is_at(file, path):
                     path.unlink(missing_ok=True)
             return
 
 
 #: the locks that this process holds, by the absolute path of their directory
-_held: dict[Path, list[tuple[TextIO, Path]]] = {}
+_own_locks: dict[Path, list[tuple[TextIO, Path]]] = {}
 
 
 def check_place(path: Path) -> None:
@@ -183,7 +183,7 @@ def check_place(path: Path) -> None:
     The directory is then another one: it was removed or renamed, and may be another process's by now.
     """
     for place in Path(os.path.abspath(path)).parents:
-        for file, lock in _held.get(place, ()):
+        for file, lock in _own_locks.get(place, ()):
             if not _is_at(file, lock):
                 raise LostPlaceError(f"{place} was removed, renamed or taken by another process since this one began to write "
                                      "there; nothing more is written")  # fmt: skip
@@ -233,13 +233,13 @@ def read_json(path: Path, error: type[Error]) -> dict:
     """The table in a JSON file whose checksum fits. Raises `error` with one line."""
     text = verified_text(path, error)
     try:
-        found = json.loads(text)
+        table = json.loads(text)
     except (ValueError, RecursionError) as problem:
         raise error(f"{path} cannot be read: {problem}") from None
-    if not isinstance(found, dict):
+    if not isinstance(table, dict):
         raise error(f"{path} cannot be read: it holds no table")
-    found.pop(KEY, None)
-    return found
+    table.pop(KEY, None)
+    return table
 
 
 def write_json(path: Path, value) -> None:

@@ -89,13 +89,13 @@ def raise_between_imports() -> None:
             raise KeyboardInterrupt
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
 
-    told = sys.unraisablehook
+    previous_hook = sys.unraisablehook
 
     def lost(unraisable):
         if unraisable.exc_type is KeyboardInterrupt and _came:
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
         else:
-            told(unraisable)
+            previous_hook(unraisable)
 
     sys.unraisablehook = lost
     signal.signal(signal.SIGALRM, handle)

@@ -110,8 +110,8 @@ class Notebook:
 
 def is_notebook() -> bool:
     """Whether this process is the kernel of a notebook, which shows HTML."""
-    found = sys.modules.get("IPython")
-    shell = found.get_ipython() if found is not None else None
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
     return shell is not None and hasattr(shell, "kernel")
 
 

@@ -59,8 +59,8 @@ def parse(text: str, name: str) -> dict:
         raise DeckError(f"{name}: {_TOO_DEEP}") from None
     except tomllib.TOMLDecodeError as problem:
         message = str(problem)
-        found = re.search(r"\(at line (\d+), column (\d+)\)", message)
-        line = found.group(1) if found else str(text.count("\n") + 1)
+        position = re.search(r"\(at line (\d+), column (\d+)\)", message)
+        line = position.group(1) if position else str(text.count("\n") + 1)
         raise DeckError(f"{name}:{line}: not valid TOML: {message.split(' (at ')[0].lower()}") from None
     except ValueError:
         raise DeckError(f"{name}: {_TOO_LONG}") from None

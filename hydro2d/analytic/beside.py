@@ -16,11 +16,11 @@ def case(name: str, shot: model_deck.Shot) -> models.Case:
 
     Raises InputError where the deck and its materials lack an input; the model's example never replaces it.
     """
-    found = models.resolve(models.named(name), models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
-    borrowed = sorted(key for key, given in found.inputs.items() if models.EXAMPLE in given.source)
+    resolved = models.resolve(models.named(name), models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
+    borrowed = sorted(key for key, given in resolved.inputs.items() if models.EXAMPLE in given.source)
     if borrowed:
         raise InputError(f"the deck and its materials do not give {', '.join(borrowed)}")
-    return found
+    return resolved
 
 
 def depths(deck: Deck) -> dict[str, float]:
@@ -32,13 +32,13 @@ def depths(deck: Deck) -> dict[str, float]:
         shot = model_deck.shot(deck)
     except DeckError:
         return {}
-    found = {}
+    by_model = {}
     for name, shown in SHOWN.items() if len(deck.body) == 2 else ():
         try:
-            found[shown] = float(case(name, shot).rows([shot.velocity])[0]["depth"])
+            by_model[shown] = float(case(name, shot).rows([shot.velocity])[0]["depth"])
         except InputError:
             continue
-    return found
+    return by_model
 
 
 def lines(deck: Deck, summary: dict) -> list[str]:
@@ -48,5 +48,5 @@ def lines(deck: Deck, summary: dict) -> list[str]:
     """
     if any(target.get("exit_time_s") is not None for target in (summary.get("targets") or {}).values()):
         return []
-    found = ", ".join(f"{name} {depth * 1e2:.2f} cm" for name, depth in depths(deck).items())
-    return [f"{'analytic, at rest':<21} {found}"] if found else []
+    text = ", ".join(f"{name} {depth * 1e2:.2f} cm" for name, depth in depths(deck).items())
+    return [f"{'analytic, at rest':<21} {text}"] if text else []

@@ -56,19 +56,19 @@ def _rod(rod, material: Material) -> dict[str, float | str]:
     R, nose = rod.rod_radius, rod.resolved_nose_length
     volume = _volume(rod)
     density = rod.density if rod.density is not None else material.reference_density
-    found = {
+    values = {
         "rod.diameter": 2.0 * R,
         "rod.mass": density * volume,
         "rod.length": volume / (math.pi * R**2),
         "nose.shape": NOSES.get(rod.nose, rod.nose),
     }
     if rod.density is not None:
-        found["rod.density"] = density
+        values["rod.density"] = density
     if rod.nose == "ogive":
-        found["nose.crh"] = (nose**2 + R**2) / (4.0 * R**2)
+        values["nose.crh"] = (nose**2 + R**2) / (4.0 * R**2)
     if rod.nose == "conical":
-        found["nose.half_angle"] = math.atan2(R, nose)
-    return found
+        values["nose.half_angle"] = math.atan2(R, nose)
+    return values
 
 
 def _volume(rod) -> float:

@@ -54,11 +54,11 @@ def draw(case: Case, rows: Sequence[dict]):
 def _lines(axes, velocity: np.ndarray, values: np.ndarray, rows: Sequence[dict]) -> None:
     words = [str(row.get("regime", "")) for row in rows]
     colours = {word: COLOURS[n % len(COLOURS)] for n, word in enumerate(dict.fromkeys(words))}
-    told = set()
+    seen = set()
     for first, last in _stretches(words):
         word = words[first]
         few = {"marker": "."} if last - first == 1 else {}
-        axes.plot(velocity[first:last], values[first:last], color=colours[word], label=None if word in told else word, **few)
-        told.add(word)
+        axes.plot(velocity[first:last], values[first:last], color=colours[word], label=None if word in seen else word, **few)
+        seen.add(word)
     if len(colours) > 1 or "" not in colours:
         axes.legend(fontsize=8)

@@ -28,8 +28,8 @@ def quantities(material: library.Material, strain: float = 0.0) -> dict[str, Giv
     """
     if not (math.isfinite(strain) and strain >= 0.0):
         raise InputError(f"strain = {strain:g}: must be non-negative")
-    if told := material.strength.unread("strength"):
-        raise InputError(f"{material.name}: {told}")
+    if problem := material.strength.unread("strength"):
+        raise InputError(f"{material.name}: {problem}")
     return {**_equation_of_state(material), **_elastic(material), **_strength(material, strain)}
 
 
@@ -52,17 +52,17 @@ def _elastic(material: library.Material) -> dict[str, Given]:
         return {}
     model, row, state = curves.at_rest(material)
     G = float(model.shear_modulus(*state, row))
-    found = {"shear_modulus": Given(G, f"{material.name}: shear modulus of {material.strength.name} at rest")}
+    values = {"shear_modulus": Given(G, f"{material.name}: shear modulus of {material.strength.name} at rest")}
     own = material.strength.numbers
     if "youngs_modulus" in own and "poisson_ratio" in own:
         for key in ("youngs_modulus", "poisson_ratio"):
-            found[key] = Given(own[key].value, _printed(material, "strength", key))
+            values[key] = Given(own[key].value, _printed(material, "strength", key))
     elif "sound_speed" in material.eos.numbers:
         K = material.reference_density * material.eos.numbers["sound_speed"].value ** 2
         from_both = f"{material.name}: from the shear modulus and the bulk modulus rho0 c0^2 = {K / 1e9:.4g} GPa"
-        found["youngs_modulus"] = Given(9.0 * K * G / (3.0 * K + G), from_both)
-        found["poisson_ratio"] = Given((3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G)), from_both)
-    return found
+        values["youngs_modulus"] = Given(9.0 * K * G / (3.0 * K + G), from_both)
+        values["poisson_ratio"] = Given((3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G)), from_both)
+    return values
 
 
 def _strength(material: library.Material, strain: float) -> dict[str, Given]:

@@ -125,16 +125,16 @@ def between(name: str, rigid: Iterable[float], others: Iterable[float], source: 
 def brackets(rod: str, target: str, nose: str) -> list[Bracket]:
     """The brackets of the study for a rod, target and nose, by their names in the library; empty if there are none."""
     shots = [shot for shot in experiments() if (shot.rod, shot.target, shot.nose) == (rod, target, nose)]
-    found = []
+    known = []
     if shots:
         rigid, others = ([shot.velocity for shot in shots if shot.stayed_rigid is word] for word in (True, False))
         numbers = ", ".join(shot.number for shot in shots)
-        found.append(between("experiment", rigid, others, f"shots {numbers}; {RULE}"))
+        known.append(between("experiment", rigid, others, f"shots {numbers}; {RULE}"))
     for row in _rows("cth_predictions.csv"):
         if (row["rod"], row["target"], row["nose"]) == (rod, target, nose):
             low, high = (float(row[key]) if row[key] else None for key in ("low_m_s", "high_m_s"))
-            found.append(Bracket(KINDS[row["kind"]], low, high, row["source"]))
-    return found
+            known.append(Bracket(KINDS[row["kind"]], low, high, row["source"]))
+    return known
 
 
 def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple[str, ...]]]:
@@ -169,13 +169,13 @@ def geometry(rod: str, nose: str) -> dict[str, Given]:
     if not shots:
         return {}
     source = "the study's shots"
-    found = {
+    values = {
         "rod.diameter": Given(shots[0].diameter, source),
         "rod.mass": Given(sum(shot.mass for shot in shots) / len(shots), f"{source}, mean"),
     }
     if nose == "ogival":
-        found["nose.crh"] = Given(OGIVE_CRH, "assumed: tangent ogive of the study's mass and length")
-    return found
+        values["nose.crh"] = Given(OGIVE_CRH, "assumed: tangent ogive of the study's mass and length")
+    return values
 
 
 def predict(model: Model, request: models.Request) -> Prediction:
@@ -215,13 +215,13 @@ class Comparison:
 
     def _inputs(self) -> list[tuple[str, ...]]:
         """Every input of any model; where models differ, each value with its models."""
-        found: dict[tuple[str, str, str], list[str]] = {}
+        users_of: dict[tuple[str, str, str], list[str]] = {}
         for entry in self.predictions:
             units_of = {each.name: each.unit for each in entry.model.inputs}
             for name, given in entry.case.inputs.items():
-                found.setdefault((name, shown(given.value, units_of[name]), given.source), []).append(entry.model.name)
-        names = [name for name, _, _ in found]
-        return [(*key, ", ".join(users) if names.count(key[0]) > 1 else "") for key, users in sorted(found.items())]
+                users_of.setdefault((name, shown(given.value, units_of[name]), given.source), []).append(entry.model.name)
+        names = [name for name, _, _ in users_of]
+        return [(*key, ", ".join(users) if names.count(key[0]) > 1 else "") for key, users in sorted(users_of.items())]
 
     def data(self) -> dict:
         """The same for programs."""
@@ -260,9 +260,9 @@ def compare(request: models.Request, nose: str, runs: Sequence[Path] = ()) -> Co
     if not request.geometry:
         request = replace(request, geometry=geometry(rod, nose))
     request = replace(request, settings={**request.settings, "nose.shape": nose})
-    found, lines = brackets(rod, target, nose), []
+    known, lines = brackets(rod, target, nose), []
     if runs:
         bracket, lines = of_runs(runs, nose)
-        found.append(bracket)
+        known.append(bracket)
     title = f"rod no longer rigid: {rod} into {target}, {nose} nose"
-    return Comparison(title, [predict(model, request) for model in with_transition()], found, lines)
+    return Comparison(title, [predict(model, request) for model in with_transition()], known, lines)

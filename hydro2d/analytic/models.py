@@ -82,15 +82,15 @@ def settings(texts: Sequence[str], models: Sequence[Model]) -> dict[str, Value]:
     known = {entry.name: entry for model in models for entry in model.inputs}
     if set(CYLINDER) & set(known):
         known |= {entry.name: entry for entry in (ROD_DIAMETER, ROD_LENGTH, ROD_MASS)}
-    found = {}
+    values = {}
     for text in texts:
         key, equals, value = (part.strip() for part in text.partition("="))
         if not equals:
             raise InputError(f'--set "{text}": expected key=value')
         if key not in known:
             raise InputError(f"--set {text}: {unknown('input', key, known)}")
-        found[key] = known[key].check(_si(known[key], value))
-    return found
+        values[key] = known[key].check(_si(known[key], value))
+    return values
 
 
 def _si(entry: Input, text: str) -> Value:
@@ -110,9 +110,9 @@ def resolve(model: Model, request: Request) -> Case:
     given.update(_cylinder(model, request, chosen, given.get("rod.density")))
     inputs = {}
     for entry in model.inputs:
-        found = given.get(entry.name) or _fallback(model, request, entry)
-        if found is not None:
-            inputs[entry.name] = found
+        value = given.get(entry.name) or _fallback(model, request, entry)
+        if value is not None:
+            inputs[entry.name] = value
     case = Case(model, inputs)
     model.collect(case.values)
     return case
@@ -120,20 +120,20 @@ def resolve(model: Model, request: Request) -> Case:
 
 def _library(model: Model, request: Request) -> dict[str, Given]:
     """Inputs from the materials by name; without a chosen material, those of the example."""
-    found = {}
+    values = {}
     for side in ("rod", "target"):
         wanted = {entry.name for entry in model.inputs if entry.name in LIBRARY[side]} | {f"{side}.density"}
         material, about = getattr(request, side), ""
         if material is None:
-            found.update((name, value) for name in wanted if (value := _example(model, name)) is not None)
-            wanted -= set(found)
+            values.update((name, value) for name in wanted if (value := _example(model, name)) is not None)
+            wanted -= set(values)
             name, about = getattr(model.example, side), f"; {EXAMPLE}"
             material = library.load(name) if name else None
         if material is not None:
             for last, given in model_materials.quantities(material, request.strain).items():
                 if f"{side}.{last}" in wanted:
-                    found[f"{side}.{last}"] = Given(given.value, given.source + about)
-    return found
+                    values[f"{side}.{last}"] = Given(given.value, given.source + about)
+    return values
 
 
 def _example(model: Model, name: str) -> Given | None:

@@ -100,6 +100,6 @@ def _model(file: Path, part: str | None):
 
     if not file.exists():
         for each in [part] if part else outside.KINDS:
-            if found := outside.from_package(each, str(file)):
-                return found
+            if model := outside.from_package(each, str(file)):
+                return model
     return outside.read(file, part)

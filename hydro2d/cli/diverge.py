@@ -47,16 +47,16 @@ def diverge(
     from hydro2d.results.reading import Results
     from hydro2d.study import divergence
 
-    found = divergence.compare(Results(first), Results(second), field or ())
-    for line in found.lines(size):
+    comparison = divergence.compare(Results(first), Results(second), field or ())
+    for line in comparison.lines(size):
         say(line)
     if csv is not None:
-        divergence.write_csv(found, csv)
+        divergence.write_csv(comparison, csv)
         say(f"wrote {csv}")
     if out is not None:
         import_matplotlib()
         from hydro2d.results import figures
 
-        figures.save(divergence.figure(found, size), out)
+        figures.save(divergence.figure(comparison, size), out)
         say(f"wrote {out}")
     return 0

@@ -52,8 +52,8 @@ class Chosen:
         from hydro2d.study import definition, members
 
         tables = {"deck": str(deck), "ensemble": self.table(2)}
-        found, *_ = definition.of_tables(tables, f"--member {self.member}", ())
-        changed = members.amounts(found.ensemble, self.member)
+        study, *_ = definition.of_tables(tables, f"--member {self.member}", ())
+        changed = members.amounts(study.ensemble, self.member)
         return [*overrides, *members.overrides(decks.load(deck, overrides), changed)]
 
 
@@ -75,14 +75,14 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
 def _meshes(text: str) -> list[float]:
     """Numbers of cells of --cells, from the coarsest to the finest."""
     try:
-        found = [float(part) for part in text.split(",")]
+        numbers = [float(part) for part in text.split(",")]
     except ValueError:
         raise UsageError(f"--cells {text}: expected numbers with commas between them, such as 5.5,8.5,12.5") from None
-    if not all(0.5 <= cells <= FINEST for cells in found):
+    if not all(0.5 <= cells <= FINEST for cells in numbers):
         raise UsageError(f"--cells {text}: each must be from 0.5 to {FINEST:g} cells across the radius of the projectile")
-    if not 2 <= len({f"{cells:g}" for cells in found}) == len(found) <= MOST_MESHES:
+    if not 2 <= len({f"{cells:g}" for cells in numbers}) == len(numbers) <= MOST_MESHES:
         raise UsageError(f"--cells {text}: give 2 to {MOST_MESHES} different numbers; three or more can show an order")
-    return sorted(found)
+    return sorted(numbers)
 
 
 def converge(
@@ -151,7 +151,7 @@ def _conclude(directory: Path, y, quiet: bool) -> None:
     """Writes and prints what the meshes say."""
     from hydro2d.study import contents, convergence, layout
 
-    found = convergence.sequences(contents.collect(layout.read(directory)), y)
-    convergence.write(directory, found)
-    for line in [line for each in found for line in ("", *each.lines())] if not quiet else []:
+    sequences = convergence.sequences(contents.collect(layout.read(directory)), y)
+    convergence.write(directory, sequences)
+    for line in [line for each in sequences for line in ("", *each.lines())] if not quiet else []:
         say(line)

@@ -70,16 +70,16 @@ def fit_strength(
     given = fitting.from_material(law, base) | {name: quantity(text, law.unit(name), f"--fix {name}")
                                                 for name, text in map(_assignment, fix or [])}
     heating = fitting.heating_of(base, quantity(heated_from, "1/s", "--heated-from")) if heated_from else None
-    found = fitting.fit(law, data, given, share or [], heating)
-    for line in fit_text.lines(found):
+    fit = fitting.fit(law, data, given, share or [], heating)
+    for line in fit_text.lines(fit):
         say(line)
     if csv is not None:
-        fit_text.write_csv(found, csv)
+        fit_text.write_csv(fit, csv)
     if figure is not None:
         import_matplotlib()
         from hydro2d.results import figures
 
-        figures.save(fit_text.draw(found), figure)
+        figures.save(fit_text.draw(fit), figure)
     for path in filter(None, (csv, figure)):
         say(f"wrote {path}")
     return 0

@@ -173,10 +173,10 @@ def run(
         from hydro2d.running import run as runs
 
         resolved = _load(deck, set_ if member is None else chosen.overrides(deck, set_ or []))
-        found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt, theory=_theory)
-    status = runs.exit_status(found)
+        ended = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt, theory=_theory)
+    status = runs.exit_status(ended)
     if quiet and status == runs.UNPHYSICAL:
-        return _told(f"{out or resolved.output.directory}: unphysical: {found['stop_reason']}", status)
+        return _report(f"{out or resolved.output.directory}: unphysical: {ended['stop_reason']}", status)
     return status
 
 
@@ -201,14 +201,14 @@ def check(
     """
     from hydro2d.running import check as checks
 
-    found = checks.check(_load(deck, set_))
-    for line in found.lines(threads or os.cpu_count() or 1):
+    checked = checks.check(_load(deck, set_))
+    for line in checked.lines(threads or os.cpu_count() or 1):
         say(wrapped(line))
     if picture is not None:
         import_matplotlib()
         from hydro2d.results import figures, start_figure
 
-        figures.save(start_figure.draw(found.dump, found.deck), picture)
+        figures.save(start_figure.draw(checked.dump, checked.deck), picture)
         say(f"wrote     {picture}")
     return 0
 
@@ -318,23 +318,23 @@ def call(arguments: list[str]) -> int:
         flush()
         return status if isinstance(status, int) else 0
     except cyclopts.CycloptsError as error:
-        return _told(error, WRONG_INPUT)
+        return _report(error, WRONG_INPUT)
     except KeyboardInterrupt:
         return STATUS[ended_by()]
     except BrokenPipeError:
         lose_output()
         return STATUS["SIGPIPE"]
     except _loaded(REFUSALS) as error:
-        return _told(error, REFUSED)
+        return _report(error, REFUSED)
     except (UsageError, *_loaded(USER_ERRORS)) as error:
-        return _told(error, WRONG_INPUT)
+        return _report(error, WRONG_INPUT)
     except MemoryError as error:
-        return _told(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
+        return _report(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
     except (NotADirectoryError, FileExistsError) as error:
-        return _told(_no_directory(error), WRONG_INPUT)
+        return _report(_no_directory(error), WRONG_INPUT)
     except OSError as error:
         where = f": {error.filename}" if error.filename is not None else ""
-        return _told(f"{error.strerror or error}{where}", REFUSED)
+        return _report(f"{error.strerror or error}{where}", REFUSED)
 
 
 def _no_directory(error: OSError) -> str:
@@ -345,6 +345,6 @@ def _no_directory(error: OSError) -> str:
     return f"{file} is a file, not a directory{within}" if file else f"{error.strerror}: {path}"
 
 
-def _told(error: object, status: int) -> int:
+def _report(error: object, status: int) -> int:
     say(f"hydro2d: {error}", file=sys.stderr)
     return status

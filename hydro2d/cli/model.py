@@ -125,11 +125,11 @@ def _velocities(text: str) -> list[float]:
     return [low + (high - low) * n / (count - 1) for n in range(count)]
 
 
-def _show(found) -> None:
+def _show(output) -> None:
     """Text as it is, data as JSON."""
     import json
 
-    say(found if isinstance(found, str) else json.dumps(found, indent=2, allow_nan=False))
+    say(output if isinstance(output, str) else json.dumps(output, indent=2, allow_nan=False))
 
 
 def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
@@ -191,6 +191,6 @@ def transition(
     request, _ = _request(model_transition.with_transition(), rod, target, set_, deck, strain)
     shape = nose or request.settings.get("nose.shape") or getattr(request.geometry.get("nose.shape"), "value", "hemispherical")
     shape = NOSE_SHAPE.check(model_deck.NOSES.get(shape, shape))
-    found = model_transition.compare(request, shape, runs or ())
-    _show(found.data() if json else "\n".join(found.lines()))
+    comparison = model_transition.compare(request, shape, runs or ())
+    _show(comparison.data() if json else "\n".join(comparison.lines()))
     return 0

@@ -48,17 +48,17 @@ def status(
 
     terminal = sys.stdout.isatty()
     drawn = bool(quantity) or (terminal and terminal_charts.available()) if plot is None else plot
-    found, state = _look(run, quantity, drawn)
+    output, state = _look(run, quantity, drawn)
     if state != RUNNING or not (terminal if watch is None else watch):
-        _show(found)
+        _show(output)
     elif terminal:
         _live(run, quantity, drawn)
     else:
         while state == RUNNING:
-            _show(found)
+            _show(output)
             time.sleep(SECONDS)
-            found, state = _look(run, quantity, drawn)
-        _show(found)
+            output, state = _look(run, quantity, drawn)
+        _show(output)
     if terminal and not drawn and plot is None:
         say(terminal_charts.MISSING)
     return 0
@@ -80,9 +80,9 @@ def _look(run: Path, quantity: list[str] | None, drawn: bool) -> tuple[tuple[lis
     return (lines, charts), case.status
 
 
-def _show(found: tuple[list[str], list[str]]) -> None:
+def _show(output: tuple[list[str], list[str]]) -> None:
     """Prints lines and charts."""
-    for line in (*found[0], *found[1]):
+    for line in (*output[0], *output[1]):
         say(line, flush=True)
 
 

@@ -121,14 +121,14 @@ def _parts(study: Path, place: Path, overrides: list[str], size, workers: Worker
     from hydro2d.study import layout, parts
     from hydro2d.study.sweep import SOME_FAILED
 
-    found = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
+    plans = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
     if check:
-        return parts.show(found, workers.number)
+        return parts.show(plans, workers.number)
     worst = 0
     place.mkdir(parents=True, exist_ok=True)
-    for number, each in enumerate(found, 1):
+    for number, each in enumerate(plans, 1):
         if not quiet:
-            say(f"part {number} of {len(found)}: {each.name}")
+            say(f"part {number} of {len(plans)}: {each.name}")
         directory = place / each.name
         of_part = replace(workers, resume=workers.resume and (directory / layout.STUDY).is_file())
         if each.plan.search:
@@ -138,8 +138,8 @@ def _parts(study: Path, place: Path, overrides: list[str], size, workers: Worker
         if status > SOME_FAILED:
             return status
         worst = max(worst, status)
-    for told in parts.mixed(found):
-        say(wrapped(told))
+    for line in parts.mixed(plans):
+        say(wrapped(line))
     return worst
 
 
@@ -227,25 +227,25 @@ def _show_ensembles(directory: Path) -> None:
     """Prints what the members of each case of a study say together."""
     from hydro2d.study import contents, ensembles, layout, responses
 
-    found = contents.collect(layout.read(directory))
-    for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
+    results = contents.collect(layout.read(directory))
+    for line in ensembles.report(results.ensembles, responses.choose(results.study, results.records).y):
         say(wrapped(line))
 
 
 def _status(study: Path, out: Path | None) -> int:
     from hydro2d.study import layout, monitor
 
-    found = layout.read(out or (study if study.is_dir() else _directory(study)))
-    told = monitor.status(found)
-    if found.search is not None:
+    opened = layout.read(out or (study if study.is_dir() else _directory(study)))
+    lines = monitor.status(opened)
+    if opened.search is not None:
         from hydro2d.study import regimes
 
-        told += ["", *regimes.lines(found, regimes.of_study(found))]
-    for line in told:
+        lines += ["", *regimes.lines(opened, regimes.of_study(opened))]
+    for line in lines:
         say(wrapped(line))
-    if found.ensembles:
+    if opened.ensembles:
         say("")
-        _show_ensembles(found.directory)
+        _show_ensembles(opened.directory)
     return 0
 
 
@@ -253,5 +253,5 @@ def _directory(study: Path) -> Path:
     """Where a study file's results are."""
     from hydro2d.study import definition
 
-    found, *_ = definition.read(study, [])
-    return Path(found.out or f"runs/{study.stem}")
+    defined, *_ = definition.read(study, [])
+    return Path(defined.out or f"runs/{study.stem}")

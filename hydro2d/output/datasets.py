@@ -37,10 +37,10 @@ def _values(quantity: Quantity, dump: Dump) -> np.ndarray:
     """The values of a quantity, shape ([body,] nz, nr[, component]); NaN where a body, or the dump, has none."""
     names = _names(quantity, dump)
     like = next((dump.fields[name] for name in names if name in dump.fields), np.empty(dump.shape, np.float32))
-    found = [dump.fields[name] if name in dump.fields else np.full(like.shape, np.nan, np.float32) for name in names]
+    arrays = [dump.fields[name] if name in dump.fields else np.full(like.shape, np.nan, np.float32) for name in names]
     if quantity.per_body:
-        return np.stack(found)
-    return found[0][..., : len(COMPONENTS)] if like.ndim > 2 else found[0]
+        return np.stack(arrays)
+    return arrays[0][..., : len(COMPONENTS)] if like.ndim > 2 else arrays[0]
 
 
 def _dimensions(quantity: Quantity, values: np.ndarray) -> tuple[str, ...]:
@@ -68,8 +68,8 @@ def quantities_of(*dumps: Dump) -> list[Quantity]:
     table = [quantity for quantity in quantities.TABLE
              if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
     known = {name for dump in dumps for quantity in table for name in _names(quantity, dump)}
-    further = [found for dump in dumps for name in dump.fields if name not in known
-               for found in quantities.from_name(name, dump.bodies)]
+    further = [each for dump in dumps for name in dump.fields if name not in known
+               for each in quantities.from_name(name, dump.bodies)]
     keys = {quantity.key for quantity in table}
     return table + list({each.key: each for each in further if each.key not in keys}.values())
 

@@ -38,9 +38,9 @@ def check_xml(text: bytes) -> None:
 def check_vtk(path: Path, error: type[Error]) -> None:
     """Raises `error` if a VTK file declares entities, or describes more values than its size can hold."""
     with open(path, "rb") as file:
-        head, found, _ = file.read(HEAD).partition(b"<AppendedData")
+        head, marker, _ = file.read(HEAD).partition(b"<AppendedData")
     try:
-        if not found:
+        if not marker:
             raise ValueError("its values are not appended to its description")
         check_xml(head)
         extents = [[int(word) for word in text.split()] for text in _EXTENT.findall(head)]

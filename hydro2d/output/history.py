@@ -144,9 +144,9 @@ class History(Columns):
             time = _dataset(file, "time", self._columns.get("time", []))
             time.make_scale("time")
             kept = {kind: stations(self._columns, kind) for kind in KINDS}
-            apart = {column for kind, names in kept.items() for name in names for column in of_station(kind, name)}
+            of_stations = {column for kind, names in kept.items() for name in names for column in of_station(kind, name)}
             for name, values in self._columns.items():
-                if name != "time" and name not in apart:
+                if name != "time" and name not in of_stations:
                     _dataset(file, name, values).dims[0].attach_scale(time)
             for kind, names in kept.items():
                 if names:
@@ -157,8 +157,8 @@ class History(Columns):
                 z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, crater, strict=True))
                 z.make_scale(CRATER_COLUMNS[0])
                 radius.dims[0].attach_scale(z)
-            for number, (name, found) in enumerate(self.debris.items()):
-                _write_debris(file.create_group(f"{DEBRIS}_{name}"), name, number, found)
+            for number, (name, debris) in enumerate(self.debris.items()):
+                _write_debris(file.create_group(f"{DEBRIS}_{name}"), name, number, debris)
 
     def _write_stations(self, file, kind: str, names: list[str]) -> None:
         """Writes the columns of tracers or gauges as arrays over time and station."""
@@ -246,20 +246,20 @@ def _opened(path: Path):
 def read(path: Path) -> dict[str, np.ndarray]:
     """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
     with _opened(path) as file:
-        found = {file[name].attrs.get("long_name", name): file[name][...] for name in file.keys() - set(_groups(file, ""))}
+        datasets = {file[name].attrs.get("long_name", name): file[name][...] for name in file.keys() - set(_groups(file, ""))}
         for kind in KINDS:
-            if kind in found and found[kind].dtype == object:
-                found |= _taken_apart(found, kind)
-        columns = {name: found[name] for name in sorted(found, key=lambda name: (name != "time", name))}
+            if kind in datasets and datasets[kind].dtype == object:
+                datasets |= _pop_stations(datasets, kind)
+        columns = {name: datasets[name] for name in sorted(datasets, key=lambda name: (name != "time", name))}
         if any(column.shape != columns["time"].shape or column.dtype.kind not in "fi" for column in columns.values()):
             raise HistoryError(f"{path} is damaged: its columns differ in length")
         return columns
 
 
-def _taken_apart(found: dict[str, np.ndarray], kind: str) -> dict[str, np.ndarray]:
+def _pop_stations(datasets: dict[str, np.ndarray], kind: str) -> dict[str, np.ndarray]:
     """The columns of tracers or gauges, shapes (rows,), from their arrays, shapes (rows, stations), which are taken out."""
-    names = [name.decode() for name in found.pop(kind)]
-    arrays = {key: np.ascontiguousarray(found.pop(f"{kind}_{key}").T) for key in KEYS}
+    names = [name.decode() for name in datasets.pop(kind)]
+    arrays = {key: np.ascontiguousarray(datasets.pop(f"{kind}_{key}").T) for key in KEYS}
     return {f"{kind}_{name}_{key}": column for key, columns in arrays.items()
             for name, column in zip(names, columns, strict=True)}  # fmt: skip
 
@@ -290,12 +290,12 @@ def read_debris(path: Path) -> dict[str, dict[str, np.ndarray]]:
     fragment_body, the number of its body, (k,)
     """
     with _opened(path) as file:
-        found = {}
+        debris = {}
         for name in _groups(file, f"{DEBRIS}_"):
             arrays = {key: file[name][key][...] for key in file[name]}
             arrays["body"] = np.array([body.decode() for body in arrays["body"]], dtype=str)
-            found[str(file[name].attrs.get("target", name))] = arrays
-        return found
+            debris[str(file[name].attrs.get("target", name))] = arrays
+        return debris
 
 
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:

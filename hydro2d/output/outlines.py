@@ -118,12 +118,12 @@ class Filling:
         from scipy import ndimage
 
         labels, _ = ndimage.label(self.thin, np.ones((3, 3)))
-        found = []
+        lines = []
         for number, (rows, columns) in enumerate(ndimage.find_objects(labels), start=1):
             cells = np.argwhere(labels[rows, columns] == number) + (rows.start, columns.start)
             axis = int(columns.stop - columns.start >= rows.stop - rows.start)
-            found += [_around(chain)[:, ::1 if axis else -1] for chain in _chains(self._cuts(cells, axis))]
-        return found
+            lines += [_around(chain)[:, ::1 if axis else -1] for chain in _chains(self._cuts(cells, axis))]
+        return lines
 
     def _at_centres(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """r and z of the cell centres and of the edges of the mesh, and the fractions there, but for what is thin."""

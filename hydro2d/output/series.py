@@ -17,8 +17,8 @@ from hydro2d.strange import own_folder
 def numbered(directory: Path, kind: str) -> list[tuple[int, Path]]:
     """The dumps of a kind of vtk.SERIES in a run directory, with their numbers; other files in their folder are none."""
     name = re.compile(rf"{kind}_([0-9]{{6,}})\.vt[rp]")
-    found = ((name.fullmatch(file.name), file) for file in (directory / vtk.FOLDER).glob(f"{kind}_*"))
-    return [(int(match.group(1)), file) for match, file in found if match]
+    files = ((name.fullmatch(file.name), file) for file in (directory / vtk.FOLDER).glob(f"{kind}_*"))
+    return [(int(match.group(1)), file) for match, file in files if match]
 
 
 class Series:

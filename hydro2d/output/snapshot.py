@@ -98,9 +98,9 @@ def read(path: Path) -> Snapshot:
     try:
         with h5py.File(path, "r") as file:
             foreign.check_hdf5(file)
-            if (found := file.attrs.get("format")) != FORMAT:
-                raise SnapshotError(f'{path}: a restart file of another version ("{found}"; this one reads "{FORMAT}")'
-                                    if str(found).startswith(FORMAT[:-1]) else f"{path}: not a restart file of hydro2d")
+            if (version := file.attrs.get("format")) != FORMAT:
+                raise SnapshotError(f'{path}: a restart file of another version ("{version}"; this one reads "{FORMAT}")'
+                                    if str(version).startswith(FORMAT[:-1]) else f"{path}: not a restart file of hydro2d")
             if not file.attrs.get("complete", False):
                 raise SnapshotError(f"{path}: the restart file was never completed")
             arrays = {name: dataset[...] for name, dataset in file["arrays"].items()}

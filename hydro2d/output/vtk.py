@@ -194,9 +194,9 @@ def read_series(path: Path) -> list[tuple[float, str]]:
     data = checksums.verified(path, VtkError)
     try:
         foreign.check_xml(data)
-        found = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(data).iter("DataSet")]
-        foreign.check_names((file for _, file in found), FOLDER)
-        return found
+        entries = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(data).iter("DataSet")]
+        foreign.check_names((file for _, file in entries), FOLDER)
+        return entries
     except (ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
 
@@ -243,13 +243,13 @@ class Dump:
         """What a body, or all of them together, fill of the cells, and where. Raises VtkError."""
         if body is not None and body not in self.bodies:
             raise VtkError(unknown("body", body, self.bodies))
-        found = [self._filling(each) for each in (self.bodies if body is None else [body])]
-        if len(found) == 1:
-            return found[0]
-        fraction = sum(each.fraction for each in found)
-        if any(each.offsets is None for each in found):
+        fillings = [self._filling(each) for each in (self.bodies if body is None else [body])]
+        if len(fillings) == 1:
+            return fillings[0]
+        fraction = sum(each.fraction for each in fillings)
+        if any(each.offsets is None for each in fillings):
             return Filling(self.r_edges, self.z_edges, fraction)
-        moments = sum(each.fraction * each.offsets for each in found)
+        moments = sum(each.fraction * each.offsets for each in fillings)
         offsets = np.divide(moments, fraction, out=np.zeros_like(moments), where=fraction > 0.0)
         return Filling(self.r_edges, self.z_edges, fraction, offsets)
 

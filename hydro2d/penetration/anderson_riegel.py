@@ -64,8 +64,8 @@ def fit(x: Sequence[float], y: Sequence[float]) -> Curve:
     if x.size < 4 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
         raise InputError("a curve of four coefficients needs at least four points that differ")
     guess = [y.min(), np.ptp(y), 3.0 / np.ptp(x), 0.5 * (x.min() + x.max())]
-    found, _ = curve_fit(lambda x, *a: a[0] + a[1] / (1.0 + 10.0 ** (a[2] * (a[3] - x))), x, y, guess, maxfev=20000)
-    return Curve(*(float(a) for a in found))
+    coefficients, _ = curve_fit(lambda x, *a: a[0] + a[1] / (1.0 + 10.0 ** (a[2] * (a[3] - x))), x, y, guess, maxfev=20000)
+    return Curve(*(float(a) for a in coefficients))
 
 
 def effective_flow_stress(*, yield_stress: float, hardening: float, exponent: float, rate_coefficient: float,

@@ -203,8 +203,8 @@ def quasi_static(solid: Solid) -> float:
 def _curve(solid: Solid) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Velocities of fronts and walls, and the stresses, from a slow front to the fastest."""
     fronts = np.concatenate([np.geomspace(*SLOW), np.linspace(*FAST)]) * solid.bulk_speed
-    found = [expansion_at_front(float(front), solid) for front in fronts]
-    return fronts, np.array([each.velocity for each in found]), np.array([each.stress for each in found])
+    expansions = [expansion_at_front(float(front), solid) for front in fronts]
+    return fronts, np.array([each.velocity for each in expansions]), np.array([each.stress for each in expansions])
 
 
 def _flow_stress(solid: Solid, hoop: float) -> tuple[float, float]:
@@ -236,8 +236,8 @@ def given_or_fitted(
     if target_youngs_modulus is None or target_poisson_ratio is None:
         raise InputError("give cavity.a and cavity.b, or target.youngs_modulus and target.poisson_ratio to derive them")
     solid = Solid(target_density, target_youngs_modulus, target_poisson_ratio, target_strength, target_hardening_exponent)
-    found = coefficients(solid, cavity_velocity)
-    return found.a if cavity_a is None else cavity_a, found.b if cavity_b is None else cavity_b
+    fit = coefficients(solid, cavity_velocity)
+    return fit.a if cavity_a is None else cavity_a, fit.b if cavity_b is None else cavity_b
 
 
 def evaluate(
@@ -248,7 +248,7 @@ def evaluate(
     if cavity_solid == "compressible":
         solid = Solid(target_density, target_youngs_modulus, target_poisson_ratio, target_strength, target_hardening_exponent)
         fit = coefficients(solid, cavity_velocity)
-        found = expansion(velocity, solid) if velocity > 0.0 else Expansion(0.0, 0.0, fit.a * target_strength)
+        cavity = expansion(velocity, solid) if velocity > 0.0 else Expansion(0.0, 0.0, fit.a * target_strength)
     else:
         of_hardening = (target_hardening_exponent, incompressible_power_law)
         if cavity_solid == "incompressible-linear":
@@ -256,10 +256,10 @@ def evaluate(
         hardening, stress = of_hardening
         numbers = (target_density, target_youngs_modulus, target_strength, hardening)
         front = velocity * (2.0 * target_youngs_modulus / (3.0 * target_strength)) ** (1.0 / 3.0)
-        found = Expansion(velocity, front, stress(velocity, *numbers))
+        cavity = Expansion(velocity, front, stress(velocity, *numbers))
         fit = Coefficients(cavity_velocity, stress(0.0, *numbers) / target_strength, 1.5, 0.0, 1.5)
     return {
-        "cavity_stress": found.stress, "front_velocity": found.front,
+        "cavity_stress": cavity.stress, "front_velocity": cavity.front,
         "a": fit.a, "b": fit.b, "b_linear": fit.b_linear, "c": fit.c,
     }  # fmt: skip
 

@@ -240,11 +240,11 @@ class Centreline:
         scale = np.full(state.size, self.rod.length)
         scale[:2] = self.velocity
         longest = LONGEST * self.rod.length / self.velocity
-        found = solve_ivp(
+        phase = solve_ivp(
             counted, (time, time + longest), state, "DOP853", events=events, rtol=TOLERANCE, atol=TOLERANCE * scale)
-        if found.status != 1:
-            raise InputError(f"the Walker-Anderson equations do not come to an end for these values ({found.message})")
-        return found
+        if phase.status != 1:
+            raise InputError(f"the Walker-Anderson equations do not come to an end for these values ({phase.message})")
+        return phase
 
 
 def _end(phase) -> int:

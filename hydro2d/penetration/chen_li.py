@@ -58,14 +58,14 @@ def transition_velocity(strength: float, nose: Nose, target: Target) -> float | 
 def evaluate(velocity, *, rod_mass, rod_strength, **shot):
     """Depth of the rigid rod, and whether it stays rigid; keywords are those of ``MODEL.inputs``, in SI."""
     nose, target = of_inputs(**shot)
-    found = numbers(velocity, rod_mass, nose, target)
-    if not math.isfinite(found.geometry):
+    ratios = numbers(velocity, rod_mass, nose, target)
+    if not math.isfinite(ratios.geometry):
         raise InputError("cavity.b = 0: the geometry function needs a pressure that grows with velocity")
     limit = transition_velocity(rod_strength, nose, target)
     return {
-        "depth": found.depth * nose.diameter,
-        "impact_function": found.impact,
-        "geometry_function": found.geometry,
+        "depth": ratios.depth * nose.diameter,
+        "impact_function": ratios.impact,
+        "geometry_function": ratios.geometry,
         "regime": "rigid" if velocity <= limit else "semi-hydrodynamic",
         "transition_velocity": limit,
     }

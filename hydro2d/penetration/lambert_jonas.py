@@ -57,7 +57,7 @@ def fit(velocities: Sequence[float], residual_velocities: Sequence[float], *, p:
     if p is not None:
         positive(p=p)
     fits = [_fit_from(start, v, left, p) for start in (STARTS if p is None else (p,))]
-    return min(fits, key=lambda found: found.standard_error)
+    return min(fits, key=lambda each: each.standard_error)
 
 
 def _fit_from(start: float, v: np.ndarray, left: np.ndarray, p: float | None) -> Fit:
@@ -73,10 +73,10 @@ def _fit_from(start: float, v: np.ndarray, left: np.ndarray, p: float | None) ->
     low, high, first = [1e-6, 1e-6], [1.0, 1.0], [0.95, 0.9]
     if p is None:
         low, high, first = [*low, EXPONENTS[0]], [*high, EXPONENTS[1]], [*first, start]
-    found = least_squares(lambda x: (curve(x) - left) / slowest, first, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14)
-    error = slowest * math.sqrt(2.0 * float(found.cost) / max(1, v.size - len(first)))
-    exponent = float(found.x[2]) if p is None else p
-    return Fit(float(found.x[1]), exponent, float(found.x[0]) * slowest, error, int(v.size))
+    best = least_squares(lambda x: (curve(x) - left) / slowest, first, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    error = slowest * math.sqrt(2.0 * float(best.cost) / max(1, v.size - len(first)))
+    exponent = float(best.x[2]) if p is None else p
+    return Fit(float(best.x[1]), exponent, float(best.x[0]) * slowest, error, int(v.size))
 
 
 def _shots(velocities: Sequence[float], residuals: Sequence[float], constants: int) -> tuple[np.ndarray, np.ndarray]:

@@ -130,13 +130,13 @@ def transition(*, critical_velocity: float | None, **values: float | None) -> fl
 def evaluate(velocity: float, *, critical_velocity: float | None, **values: float | None) -> dict[str, float | str]:
     """All stages of a rod of impact ``velocity``; keywords are those of ``MODEL.inputs``, in SI."""
     rod, target = pair_of(**values)
-    found = penetrate(rod, target, velocity, critical_velocity)
+    shot = penetrate(rod, target, velocity, critical_velocity)
     return {
-        "depth": found.depth, "depth_over_length": found.depth / rod.length, "cavity_diameter": found.cavity_diameter,
-        "penetration_velocity": found.first.penetration, "ejecta_velocity": found.first.ejecta,
-        "primary_depth": found.primary, "rod_depth": found.rod, "ejecta_depth": found.ejecta, "growth_depth": found.growth,
-        "duration": found.duration, "residual_length": found.residual_length, "limit_velocity": fold(rod, target).rod,
-        "regime": found.regime,
+        "depth": shot.depth, "depth_over_length": shot.depth / rod.length, "cavity_diameter": shot.cavity_diameter,
+        "penetration_velocity": shot.first.penetration, "ejecta_velocity": shot.first.ejecta,
+        "primary_depth": shot.primary, "rod_depth": shot.rod, "ejecta_depth": shot.ejecta, "growth_depth": shot.growth,
+        "duration": shot.duration, "residual_length": shot.residual_length, "limit_velocity": fold(rod, target).rod,
+        "regime": shot.regime,
     }  # fmt: skip
 
 

@@ -147,28 +147,28 @@ class Model:
         for name in values:
             if name not in known:
                 raise InputError(f"{self.name}: no input is named {name!r}{_near(name, known)} (known: {', '.join(known)})")
-        found = {}
+        collected = {}
         for name, entry in known.items():
             value = values.get(name, entry.default)
             if isinstance(value, Required):
                 unit = "" if entry.unit in ("", "1") else f", {entry.unit}"
                 raise InputError(f"{self.name}: {name} is missing ({entry.description}{unit})")
             try:
-                found[entry.keyword] = entry.check(value)
+                collected[entry.keyword] = entry.check(value)
             except InputError as error:
                 raise InputError(f"{self.name}: {error}") from None
-        return found
+        return collected
 
     def __call__(self, velocity: float, values: Mapping[str, Value]) -> dict[str, float | str]:
         """The outputs at one impact velocity; InputError for what the model cannot take."""
         complain("velocity", velocity, NON_NEGATIVE)
         _within("velocity", velocity, "m/s")
         given = self.collect(values)
-        found = self._computed(lambda: dict(self.evaluate(velocity, **given)))
-        lost = [name for name, value in found.items() if isinstance(value, float) and math.isnan(value)]
+        outputs = self._computed(lambda: dict(self.evaluate(velocity, **given)))
+        lost = [name for name, value in outputs.items() if isinstance(value, float) and math.isnan(value)]
         if lost:
             raise InputError(f"{self.name}: {lost[0]} is not a number: {BEYOND}")
-        return found
+        return outputs
 
     def limit(self, values: Mapping[str, Value]) -> float | None:
         """``transition`` of these inputs by name; InputError for what the model cannot take."""

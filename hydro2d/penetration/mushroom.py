@@ -137,8 +137,8 @@ def _flow(rod: Rod, target: Target, spread: float, thinning):
     """Energy that the rod brings less what head and target take, Pa: Luk & Piekutowski (1991), eq. (7)."""
     slip, u = _velocities(rod, target, spread, thinning)
     v = u + slip
-    taken = rod.elastic_limit * np.log(1.0 + spread) + target.static + target.dynamic * u * u
-    return rod.density * (v * v - u * u) - u / v * (1.0 + spread) * taken
+    resistance = rod.elastic_limit * np.log(1.0 + spread) + target.static + target.dynamic * u * u
+    return rod.density * (v * v - u * u) - u / v * (1.0 + spread) * resistance
 
 
 @functools.lru_cache(maxsize=64)
@@ -160,8 +160,8 @@ def fold(rod: Rod, target: Target) -> Head:
     if not np.all(np.isfinite(speeds[slowest : slowest + 3])):
         raise InputError("this rod and target have no lowest velocity of erosion, so the model does not apply")
     around = SPREADS[slowest - 1], SPREADS[slowest + 1]
-    found = minimize_scalar(speed, bounds=around, method="bounded", options={"xatol": 1e-8})
-    return head(rod, target, float(found.x))
+    minimum = minimize_scalar(speed, bounds=around, method="bounded", options={"xatol": 1e-8})
+    return head(rod, target, float(minimum.x))
 
 
 def at_velocity(rod: Rod, target: Target, velocity: float) -> Head:
@@ -174,7 +174,7 @@ def at_velocity(rod: Rod, target: Target, velocity: float) -> Head:
         raise InputError(f"velocity = {velocity:g}: the model has no eroding solution below its critical {least.rod:.4g} m/s")
     if velocity == least.rod:
         return least
-    low, high = _climb(rod, target, lambda found: found.rod >= velocity)
+    low, high = _climb(rod, target, lambda candidate: candidate.rod >= velocity)
     return head(rod, target, brentq(lambda s: head(rod, target, s).rod - velocity, low, high, xtol=1e-12, rtol=1e-13))
 
 
@@ -199,7 +199,7 @@ def reversal_velocity(rod: Rod, target: Target) -> float:
 
     if fold(rod, target).ejecta >= 0.0:
         raise InputError("the ejecta never follow the head of this rod in this target")
-    bracket = _climb(rod, target, lambda found: found.ejecta >= 0.0)
+    bracket = _climb(rod, target, lambda candidate: candidate.ejecta >= 0.0)
     return head(rod, target, brentq(lambda s: head(rod, target, s).ejecta, *bracket, xtol=1e-12)).rod
 
 

@@ -113,10 +113,10 @@ def fit(velocities: Sequence[float], depths_over_length: Sequence[float], *, rod
         return [depth_over_length(one, rod_density=rod_density, a=found_a, b=found_b) for one in v] - measured
 
     start, low = ([0.0, 0.1], [-np.inf, 0.0]) if b is None else ([0.0], [-np.inf])
-    found = least_squares(residuals, start, bounds=(low, np.inf), xtol=1e-14, ftol=1e-14, gtol=1e-14, x_scale="jac")
+    solution = least_squares(residuals, start, bounds=(low, np.inf), xtol=1e-14, ftol=1e-14, gtol=1e-14, x_scale="jac")
     free = max(1, v.size - len(start))
-    best_a, best_b = constants(found.x)
-    return Fit(float(best_a), float(best_b), math.sqrt(2.0 * float(found.cost) / free), int(v.size))
+    best_a, best_b = constants(solution.x)
+    return Fit(float(best_a), float(best_b), math.sqrt(2.0 * float(solution.cost) / free), int(v.size))
 
 
 def _shots(velocities: Sequence[float], depths: Sequence[float], fewest: int) -> tuple[np.ndarray, np.ndarray]:

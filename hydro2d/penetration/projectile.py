@@ -138,7 +138,7 @@ def _total(facets: np.ndarray) -> float:
 
 def _mirrored(vectors: np.ndarray, sectors: int) -> np.ndarray:
     """[3, rings, sectors] of the facets' vectors (n, 3), the second half turn an exact image of the first."""
-    found = np.ascontiguousarray(vectors.T).reshape(3, -1, sectors)
+    arranged = np.ascontiguousarray(vectors.T).reshape(3, -1, sectors)
     half = sectors // 2
-    found[:2, :, half:] = -found[:2, :, :half]
-    return found
+    arranged[:2, :, half:] = -arranged[:2, :, :half]
+    return arranged

@@ -103,11 +103,11 @@ def evaluate(velocity: float, *, target_strength: float, target_youngs_modulus: 
         "strength": target_strength, "youngs_modulus": target_youngs_modulus,
         "poisson_ratio": target_poisson_ratio, "dynamic_factor": target_dynamic_factor,
     }  # fmt: skip
-    found = {}
+    resistances = {}
     for name, (form, extra) in FORMS.items():
         needed = ("strength", "youngs_modulus") + ((extra,) if extra else ())
-        found[name.replace("-", "_")] = form(**{key: given[key] for key in needed})
-    return found
+        resistances[name.replace("-", "_")] = form(**{key: given[key] for key in needed})
+    return resistances
 
 
 DYNAMIC_FACTOR_INPUT = Input(

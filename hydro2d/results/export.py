@@ -17,8 +17,8 @@ def names(dump: vtk.Dump, keys) -> list[str]:
     """Names in a dump of the quantities `keys` (or groups of quantities.GROUPS), and of those that are always written."""
     wanted = []
     for quantity in (quantities.BY_KEY[key] for key in quantities.expand(keys)):
-        found = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
-        wanted += [name for name in found if name in dump.fields]
+        candidates = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
+        wanted += [name for name in candidates if name in dump.fields]
     return wanted
 
 

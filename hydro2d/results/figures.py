@@ -140,11 +140,11 @@ def _path(filling: Filling, sign: int):
     """The areas of `Filling.regions` as a path in mm of z and r."""
     from matplotlib.path import Path as Outline
 
-    found = filling.regions()
-    if not found:
+    regions = filling.regions()
+    if not regions:
         return Outline(np.zeros((1, 2)))
-    points = np.concatenate([np.column_stack([each[:, 1], sign * each[:, 0]]) for each, _ in found]) * 1e3
-    return Outline(points, np.concatenate([codes for _, codes in found]))
+    points = np.concatenate([np.column_stack([each[:, 1], sign * each[:, 0]]) for each, _ in regions]) * 1e3
+    return Outline(points, np.concatenate([codes for _, codes in regions]))
 
 
 def _fill(axes, path, colour: str) -> None:

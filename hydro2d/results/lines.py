@@ -125,10 +125,10 @@ def space_time(runs: list, field: str, line: Line | None = None, *, limits: tupl
     The outlines of the bodies are lines. Raises FigureError if a run has fewer than two dumps.
     """
     panels = [_panel(run, field, line or axis_of(run)) for run in runs]
-    limits = limits or scale.limits([found for _, _, found, _, _ in panels])
+    limits = limits or scale.limits([values for _, _, values, _, _ in panels])
     figure, axes = figures.new_figure(7.0, 4.6 * len(runs), len(runs), 1)
-    for (place,), run, (along, times, found, bodies, label) in zip(axes, runs, panels, strict=True):
-        drawn = place.pcolormesh(along * 1e3, times * 1e6, np.ma.masked_invalid(found), shading="nearest", rasterized=True,
+    for (place,), run, (along, times, values, bodies, label) in zip(axes, runs, panels, strict=True):
+        drawn = place.pcolormesh(along * 1e3, times * 1e6, np.ma.masked_invalid(values), shading="nearest", rasterized=True,
                                  **scale.drawn(limits))  # fmt: skip
         for fraction in bodies:
             if fraction.min() < 0.5 < fraction.max():
@@ -165,11 +165,11 @@ def debris(runs: list):
 
     A row for each run (results.Results) and target. Raises ResultsError, and FigureError where nothing flies.
     """
-    found = [(run, name, each) for run in runs for name, each in run.debris.items() if len(each["body"])]
-    if not found:
+    clouds = [(run, name, each) for run in runs for name, each in run.debris.items() if len(each["body"])]
+    if not clouds:
         raise FigureError("nothing flies behind a target at the end of these runs")
-    figure, axes = figures.new_figure(13.0, 3.4 * len(found), len(found), 3)
-    for row, (run, name, each) in zip(axes, found, strict=True):
+    figure, axes = figures.new_figure(13.0, 3.4 * len(clouds), len(clouds), 3)
+    for row, (run, name, each) in zip(axes, clouds, strict=True):
         row[1].set_title(figures.verbatim(f"{run.label}: behind {name}"), fontsize=9)
         for place, what, edges, label in ((row[0], "speed", each["speed_edges_m_s"], "axial velocity [m/s]"),
                                           (row[1], "angle", np.degrees(each["angle_edges_rad"]), "angle to the axis [°]")):

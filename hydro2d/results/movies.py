@@ -140,7 +140,7 @@ def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) ->
         low, high = LINEAR.limits([figures.chosen(dump, word).values])
         before = ranges.get(word, (low, high))
         ranges[word] = (min(low, before[0]), max(high, before[1]))
-    return {word: balanced(*found) for word, found in ranges.items()}
+    return {word: balanced(*ends) for word, ends in ranges.items()}
 
 
 def _seen(runs: list, times: list[float], words: list[str], shown: _Window) -> Iterator[tuple[str, Dump]]:

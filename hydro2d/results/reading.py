@@ -114,10 +114,10 @@ class Results:
     @property
     def craters(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The holes in all targets by name, in the order in which the projectile reaches them. Raises what `crater` does."""
-        found = history.read_craters(self.directory / HISTORY)
-        if not found:
+        craters = history.read_craters(self.directory / HISTORY)
+        if not craters:
             raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no projectile and target")
-        return found
+        return craters
 
     @property
     def debris(self) -> dict[str, dict[str, np.ndarray]]:
@@ -125,10 +125,10 @@ class Results:
 
         Raises HistoryError, and ResultsError if the run has not ended or has no projectile and target.
         """
-        found = history.read_debris(self.directory / HISTORY)
-        if not found:
+        debris = history.read_debris(self.directory / HISTORY)
+        if not debris:
             raise ResultsError(f"{self.directory} has no debris: the run has not ended, or has no projectile and target")
-        return found
+        return debris
 
     def to_pandas(self) -> pandas.DataFrame:
         """The history as a pandas.DataFrame with the time in s as index and the regime in words.
@@ -271,8 +271,8 @@ class Results:
     @property
     def bodies(self) -> list[dict]:
         """The tables of those bodies of the deck that have a name."""
-        found = self.tables.get("body")
-        bodies = [body for body in found if isinstance(body, dict)] if isinstance(found, list) else []
+        entries = self.tables.get("body")
+        bodies = [body for body in entries if isinstance(body, dict)] if isinstance(entries, list) else []
         return [body for body in bodies if isinstance(body.get("name"), str)]
 
     @property
@@ -338,16 +338,16 @@ def mirrored(deck: dict) -> bool:
 
 
 def _table(tables: dict, name: str) -> dict:
-    found = tables.get(name)
-    return found if isinstance(found, dict) else {}
+    table = tables.get(name)
+    return table if isinstance(table, dict) else {}
 
 
 def _number(table: dict, key: str) -> float | None:
     """A number of a table that may hold anything; None if it is missing, or of another kind, or beyond all bounds."""
-    found = table.get(key)
-    if not isinstance(found, (int, float)) or isinstance(found, bool):
+    number = table.get(key)
+    if not isinstance(number, (int, float)) or isinstance(number, bool):
         return None
-    return found if abs(found) <= LARGEST else None
+    return number if abs(number) <= LARGEST else None
 
 
 def _millimetres(length: float | None) -> str:

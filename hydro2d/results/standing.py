@@ -51,8 +51,8 @@ def _last(columns: dict[str, np.ndarray]) -> dict:
         return {}
     row = {name: values[-1].item() for name, values in columns.items()}
     regime = row.pop("regime", -1)
-    found = {"time_s": row["time"], "cycles": row.get("cycle", 0), "regime": REGIMES[regime] if regime >= 0 else None}
-    return found | {name: row[name] for name in ("penetration_depth_m", "rod_length_m") if np.isfinite(row.get(name, np.nan))}
+    last = {"time_s": row["time"], "cycles": row.get("cycle", 0), "regime": REGIMES[regime] if regime >= 0 else None}
+    return last | {name: row[name] for name in ("penetration_depth_m", "rod_length_m") if np.isfinite(row.get(name, np.nan))}
 
 
 def _end(stop: dict, columns: dict[str, np.ndarray], now: dict, progress: dict, projectile: str) -> str:

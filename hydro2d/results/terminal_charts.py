@@ -32,9 +32,9 @@ def available() -> bool:
 
 def chosen(run) -> list[str]:
     """The columns that are drawn of a run (results.Results) if nothing else is asked for."""
-    found = [name for name in OF_PROJECTILE if np.isfinite(run.history.get(name, np.nan)).any()]
+    columns = [name for name in OF_PROJECTILE if np.isfinite(run.history.get(name, np.nan)).any()]
     bodies = [body["name"] for body in run.bodies if "join" not in body]
-    return found or [f"body_{bodies[0]}_{key}" for key in OF_BODY if bodies and f"body_{bodies[0]}_{key}" in run.history]
+    return columns or [f"body_{bodies[0]}_{key}" for key in OF_BODY if bodies and f"body_{bodies[0]}_{key}" in run.history]
 
 
 def charts(run, names: list[str], width: int) -> list[str]:

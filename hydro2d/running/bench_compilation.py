@@ -96,11 +96,11 @@ def in_an_empty_cache() -> dict[str, dict[str, float]]:
     return json.loads(done.stdout)
 
 
-def lines(found: dict[str, dict[str, float]]) -> list[str]:
+def lines(times: dict[str, dict[str, float]]) -> list[str]:
     """The printed table."""
-    whole = sum(found["kernels"].values())
-    shown = [f"compilation of the {len(found['kernels'])} kernels of {DECK}, one process: {whole:.1f} s of processor time"]
-    for title, seconds in (("by stage", found["stages"]), ("by kernel", found["kernels"])):
+    whole = sum(times["kernels"].values())
+    shown = [f"compilation of the {len(times['kernels'])} kernels of {DECK}, one process: {whole:.1f} s of processor time"]
+    for title, seconds in (("by stage", times["stages"]), ("by kernel", times["kernels"])):
         shown.append(f"  {title}")
         shown += [f"      {name[-WIDTH:]:{WIDTH}s} {spent:7.2f} s  {100 * spent / whole:5.1f} %"
                   for name, spent in sorted(seconds.items(), key=lambda item: -item[1])]

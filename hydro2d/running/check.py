@@ -60,25 +60,25 @@ class Check:
     def lines(self, threads: int) -> list[str]:
         """The report."""
         grid, deck = self.grid, self.deck
-        found = [f"{deck.name}: {one_line(deck.title)}" if deck.title else deck.name, ""]
-        found += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
+        lines = [f"{deck.name}: {one_line(deck.title)}" if deck.title else deck.name, ""]
+        lines += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
                   + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]  # fmt: skip
-        found += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
-        found += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
+        lines += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
+        lines += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
         for m, body in enumerate(self.table.names):
             entry, material = decks.body(deck, body), self.table.materials[m]
-            found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}")
-            found.append(f"          {self._across(entry)}")
-            found += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
-            found.append(f"          eos {material.eos.title}, strength {material.strength.name}")
-        found += self._follow() if deck.mesh.follow else self._crosses()
-        found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
-        found += [f"stop      {_stop(deck.stop)}"]
+            lines.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}")
+            lines.append(f"          {self._across(entry)}")
+            lines += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
+            lines.append(f"          eos {material.eos.title}, strength {material.strength.name}")
+        lines += self._follow() if deck.mesh.follow else self._crosses()
+        lines += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
+        lines += [f"stop      {_stop(deck.stop)}"]
         time = f"{duration(self.wall(threads))} on {several(threads, 'thread')} (a guess)"
-        found += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
+        lines += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
                   f"{self.memory / 2**20:.0f} MiB of memory, at most {self.disk / 2**20:.0f} MiB on disk with "
                   f"{several(self.dumps, 'dump')}"]  # fmt: skip
-        return found + [f"warning   {text}" for text in self.warnings]
+        return lines + [f"warning   {text}" for text in self.warnings]
 
     @property
     def dumps(self) -> int:
@@ -114,17 +114,17 @@ class Check:
         cure = "" if hard else '; sliding.method = "contact" lets them part'
         limits = np.minimum(self.table.fracture_pressure, self.table.fracture_stress)
         motions = [_motion(decks.body(deck, name)) for name in names]
-        found = []
+        lines = []
         for number, name in enumerate(names):
             others = [m for m, other in enumerate(names) if (name in hard) == (other in hard) and motions[m] != motions[number]
                       and (m > number or motions[m] == AT_REST)]  # fmt: skip
             if others and motions[number] != AT_REST:
                 bears = float(min(limits[m] for m in (number, *others)))
                 until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "for ever"
-                found.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
+                lines.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
         walls = [key for key in EDGES if getattr(deck.boundaries, key) == "wall" and key != "r_min"]
-        held = f'what touches a wall ({", ".join(walls)}) is held in tension as well; an "anvil" only pushes'
-        return found + [held] * bool(walls)
+        wall_line = f'what touches a wall ({", ".join(walls)}) is held in tension as well; an "anvil" only pushes'
+        return lines + [wall_line] * bool(walls)
 
     def _follow(self) -> list[str]:
         """How far a travelling mesh reaches, and which bodies will enter it."""
@@ -133,7 +133,7 @@ class Check:
         ahead, behind = decks.room(deck, z)
         radius = decks.extent(entry, deck, "r")[1]
         radii = f" ({ahead / radius:.3g} radii)" if np.isfinite(radius) else ""
-        found = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
+        lines = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
                      f"{behind * 1e3:.4g} mm behind"]  # fmt: skip
         edge = z[-1] if direction > 0 else z[0]
         for other in deck.body:
@@ -141,9 +141,9 @@ class Check:
             if ends[1] > 0:
                 first = max(ends[0], 0.0)
                 begin = first / abs(entry.velocity[1])
-                found.append(f"          {other.name} enters the mesh from {begin * 1e6:.4g} us on, over "
+                lines.append(f"          {other.name} enters the mesh from {begin * 1e6:.4g} us on, over "
                              f"{(ends[1] - first) * 1e3:.4g} mm of its travel")  # fmt: skip
-        return found
+        return lines
 
     def _crosses(self) -> list[str]:
         """How far the projectile flies through a mesh that stands still, and whether the mesh could follow it instead."""
@@ -158,15 +158,15 @@ class Check:
         low, high = decks.extent(entry, deck, "z")
         tip = high if speed > 0.0 else low
         cells = decks.cells_between(self.grid.z_edges, *sorted((tip, tip + way)))
-        told = f"up to {cells:.0f} cells of the mesh, which stands still"
+        crossed = f"up to {cells:.0f} cells of the mesh, which stands still"
         bars = decks.bars_to_follow(deck, entry.name)
         advice = (f"the mesh cannot follow it: {bars[0]}" if bars else
                   f'if it stays whole, its results scatter less with mesh.follow = "{entry.name}"')
-        return ["", f"crosses   {entry.name}: {told};", f"          {advice}"]
+        return ["", f"crosses   {entry.name}: {crossed};", f"          {advice}"]
 
     def _across(self, entry) -> str:
         """How many cells lie across a body: its radius and its length, or its thickness."""
-        found = []
+        parts = []
         for axis, edges in (("r", self.grid.r_edges), ("z", self.grid.z_edges)):
             low, high = decks.extent(entry, self.deck, axis)
             what = WORDS.get(entry.shape, "height")
@@ -179,8 +179,8 @@ class Check:
             cut = f", of which {inside * 1e3:.4g} mm lie in the mesh" if inside < (1.0 - ROUNDING) * (high - low) else ""
             size = f" of {(high - low) * 1e3:.4g} mm" if math.isfinite(high - low) else ""
             cells = f"{decks.cells_between(edges, low, high):.3g}"
-            found.append(f"{several(cells, 'cell')} across the {what}{size}{cut}")
-        return ", ".join(found)
+            parts.append(f"{several(cells, 'cell')} across the {what}{size}{cut}")
+        return ", ".join(parts)
 
 
 def check(deck) -> Check:

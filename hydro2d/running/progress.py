@@ -107,8 +107,8 @@ class Clock:
 
     def look(self, sim) -> Outlook:
         """The end of a simulation as it is likely now."""
-        found = self._columns.some(ending.needed(self._stop)) if self._columns is not None else {}
-        end, (by_time, by_cycle) = ending.first(self._stop, found), self._pace(sim)
+        columns = self._columns.some(ending.needed(self._stop)) if self._columns is not None else {}
+        end, (by_time, by_cycle) = ending.first(self._stop, columns), self._pace(sim)
         cycles = self._stop["cycles"]
         if cycles and (end is None or end.reason == ending.END_TIME):  # the history is too short to tell the time of it
             share = sim.cycle / cycles
@@ -132,36 +132,36 @@ class Clock:
         return ((sim.time - time) / (now - then), (sim.cycle - cycle) / (now - then)) if now > then else (0.0, 0.0)
 
 
-def how_far(sim, found: Outlook) -> str:
+def how_far(sim, outlook: Outlook) -> str:
     """'12.300 us of 200.000 us (6.2 %)', or '12.300 us of about 61.000 us (20.2 %; speed below 5 m/s)'."""
     said = moment(sim.time)
-    if found.share is None:
+    if outlook.share is None:
         return said
-    if found.end is None:
-        return f"{said} ({100 * found.share:.1f} % of the cycles)"
-    if found.end.reason == ending.END_TIME:
-        return f"{said} of {moment(found.end.time)} ({100 * found.share:.1f} %)"
-    reason = found.end.reason.removesuffix(f" {ending.AS_IT_SLOWS}")  # "about" says it
-    return f"{said} of about {moment(found.end.time)} ({100 * found.share:.1f} %; {reason})"
+    if outlook.end is None:
+        return f"{said} ({100 * outlook.share:.1f} % of the cycles)"
+    if outlook.end.reason == ending.END_TIME:
+        return f"{said} of {moment(outlook.end.time)} ({100 * outlook.share:.1f} %)"
+    reason = outlook.end.reason.removesuffix(f" {ending.AS_IT_SLOWS}")  # "about" says it
+    return f"{said} of about {moment(outlook.end.time)} ({100 * outlook.share:.1f} %; {reason})"
 
 
 def values(run, outlook: Outlook) -> dict[str, str]:
     """The values shown for a run, by name."""
     sim = run.sim
-    found, conserved = sim.diagnostics(), sim.conservation()
+    measured, conserved = sim.diagnostics(), sim.conservation()
     shown = {
         "time": how_far(sim, outlook),
         "left": "-" if outlook.left is None else duration(outlook.left),
         "cycle": str(sim.cycle),
         "dt": f"{sim.dt * 1e9:.4g} ns ({sim.dt_cause})",
     }
-    if found:  # a deck with a projectile and a target
+    if measured:  # a deck with a projectile and a target
         shown |= {
-            "depth": number(found["penetration_depth_m"], 1e3, ".2f", "mm"),
-            "tail speed": number(found["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
-            "mean speed": number(found["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
-            f"{sim.projectile} length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
-            "regime": found["regime"],
+            "depth": number(measured["penetration_depth_m"], 1e3, ".2f", "mm"),
+            "tail speed": number(measured["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
+            "mean speed": number(measured["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
+            f"{sim.projectile} length": number(measured["rod_length_m"], 1e3, ".2f", "mm"),
+            "regime": measured["regime"],
         }
     return shown | {
         "mass": f"{worst_mass(conserved):+.1e}",
@@ -399,11 +399,11 @@ def _derived(summary: dict) -> list[str]:
 
 def _peaks(summary: dict) -> list[str]:
     """The largest pressure and speed that tracers and gauges have had."""
-    found = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
-    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {found[name]['peak_pressure_Pa'] / 1e9:.3g} GPa at "
-             f"{moment(found[name]['peak_pressure_time_s'])}, peak speed {found[name]['peak_speed_m_s']:.0f} m/s"
-             for name in list(found)[:MOST_STATIONS]]
-    more = len(found) - len(lines)
+    stations = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
+    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {stations[name]['peak_pressure_Pa'] / 1e9:.3g} GPa at "
+             f"{moment(stations[name]['peak_pressure_time_s'])}, peak speed {stations[name]['peak_speed_m_s']:.0f} m/s"
+             for name in list(stations)[:MOST_STATIONS]]
+    more = len(stations) - len(lines)
     return lines + ([f"{more} more tracers and gauges are in summary.json"] if more else [])
 
 
@@ -422,8 +422,8 @@ def _moving(summary: dict) -> str:
 
 def passed(summary: dict) -> list[str]:
     """Names of the targets where the projectile has gone through all of them, else none."""
-    found = summary.get("targets") or {}
-    return [] if any(target.get("exit_time_s") is None for target in found.values()) else list(found)
+    targets = summary.get("targets") or {}
+    return [] if any(target.get("exit_time_s") is None for target in targets.values()) else list(targets)
 
 
 def _over_length(summary: dict) -> str:
@@ -468,10 +468,10 @@ def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     if experiment and experiment["residual_velocity_m_s"] is not None:
         measured = experiment["residual_velocity_m_s"]
         lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment['source']}")
-    for name, found in summary["targets"].items() if len(summary["targets"]) > 1 else ():
-        if found["exit_time_s"] is not None:
-            velocity, mass = number(found["exit_velocity_m_s"], 1, ".1f", "m/s"), number(found["exit_mass_kg"], 1e3, ".2f", "g")
-            lines.append(f"  through {name} at {moment(found['exit_time_s'])}: {velocity}, {mass}")
+    for name, plate in summary["targets"].items() if len(summary["targets"]) > 1 else ():
+        if plate["exit_time_s"] is not None:
+            velocity, mass = number(plate["exit_velocity_m_s"], 1, ".1f", "m/s"), number(plate["exit_mass_kg"], 1e3, ".2f", "g")
+            lines.append(f"  through {name} at {moment(plate['exit_time_s'])}: {velocity}, {mass}")
     return [
         *lines,
         f"{f'{body} length':<21} {number(shape['length_m'], 1e2, '.2f', 'cm')}",

@@ -21,11 +21,11 @@ def change(columns: Columns, exits: list[dict], measured: dict, time: float) -> 
     exits : what `Penetrator.passages` gives;  measured : what `Penetrator.measure` gives;  time : of the end, s
     """
     velocity = measured.get(VELOCITY)
-    found = columns.some(("time", VELOCITY))
-    if velocity is None or VELOCITY not in found:
+    rows = columns.some(("time", VELOCITY))
+    if velocity is None or VELOCITY not in rows:
         return {CHANGE: None, OVER: None}
-    known = np.isfinite(found[VELOCITY])
-    times, velocities = found["time"][known], found[VELOCITY][known]
+    known = np.isfinite(rows[VELOCITY])
+    times, velocities = rows["time"][known], rows[VELOCITY][known]
     through = exits[-1] if exits else {}
     if through.get("exit_time_s") is not None and through.get("exit_velocity_m_s") is not None:
         times = np.append(through["exit_time_s"], times)

@@ -218,19 +218,19 @@ class Run:
         """The history to continue, with the rows that only the restart file has; a damaged file is renamed."""
         path = self.directory / HISTORY
         try:
-            found = History(path, rows - len(unwritten.get("time", ())), unwritten)
-            if len(found) < rows:
-                self.lacking.append(f"{HISTORY} lacks {rows - len(found)} of {rows} rows before a restart")
-                self.report.line(f"warning: {path} lacks {rows - len(found)} of {rows} rows before the restart")
-            return found
+            history = History(path, rows - len(unwritten.get("time", ())), unwritten)
+            if len(history) < rows:
+                self.lacking.append(f"{HISTORY} lacks {rows - len(history)} of {rows} rows before a restart")
+                self.report.line(f"warning: {path} lacks {rows - len(history)} of {rows} rows before the restart")
+            return history
         except HistoryError as error:
             aside = path.with_name(f"damaged-{HISTORY}")
             if path.exists():
                 path.replace(aside)
-            found = History(path, 0, unwritten)
-            self.lacking.append(f"{HISTORY} lacks {rows - len(found)} of {rows} rows before a restart")
+            history = History(path, 0, unwritten)
+            self.lacking.append(f"{HISTORY} lacks {rows - len(history)} of {rows} rows before a restart")
             self.report.line(f"warning: {error}; a new history is begun, the old file is now {aside.name}")
-            return found
+            return history
 
     @property
     def wall(self) -> float:
@@ -319,15 +319,15 @@ class Run:
 
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
-        found, outlook = self.sim.diagnostics(), self.clock.look(self.sim)
+        measured, outlook = self.sim.diagnostics(), self.clock.look(self.sim)
         write_json(self.directory / PROGRESS, {
             "time_s": self.sim.time,
             "cycles": self.sim.cycle,
             "fraction": outlook.share,
             "left_s": outlook.left,
             "wall_s": self.wall,
-            "penetration_depth_m": found.get("penetration_depth_m"),
-            "rod_tail_velocity_m_s": found.get("rod_tail_velocity_m_s"),
+            "penetration_depth_m": measured.get("penetration_depth_m"),
+            "rod_tail_velocity_m_s": measured.get("rod_tail_velocity_m_s"),
             "host": self.provenance["host"],
             "process": os.getpid(),
         })  # fmt: skip
@@ -451,7 +451,7 @@ class Run:
             **dict.fromkeys(ROD_RESULTS),
             **measured,
             "projectile": projectile(sim.projectile, measured, settling),
-            "crater": next((found["crater"] for found in targets.values()), None),
+            "crater": next((target["crater"] for target in targets.values()), None),
             "targets": targets,
             "derived": {name: last[name] for name in sim.formulas},
             "bodies": sim.of_bodies(),
@@ -529,8 +529,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             signals(interrupt),
             announced(report, deck if (threads() > 1 if second is None else second) else None) as compiled,
         ):
-            found = Run(deck, directory, restart=restart, report=report, columns=columns, compiled=compiled, theory=theory)
-            return found.execute(interrupt)
+            this_run = Run(deck, directory, restart=restart, report=report, columns=columns, compiled=compiled, theory=theory)
+            return this_run.execute(interrupt)
 
 
 def exit_status(summary: dict) -> int:

@@ -90,8 +90,8 @@ class Team:
         total = sum(self.cycles.values())
         first, *rest = sorted(self.cycles, key=self.cycles.get, reverse=True)
         share = {n: f"{100.0 * count / total:.0f} %" for n, count in self.cycles.items()}
-        told = f"{several(first, 'thread')} in {share[first]} of the cycles"
-        return ", ".join([told, *(f"{n} in {share[n]}" for n in rest)])
+        leading = f"{several(first, 'thread')} in {share[first]} of the cycles"
+        return ", ".join([leading, *(f"{n} in {share[n]}" for n in rest)])
 
     def all(self) -> None:
         """Returns to all threads."""
@@ -105,7 +105,7 @@ class Team:
     def _observe(self, seconds: float) -> None:
         if self._trial:
             self._trial[self.threads].append(seconds)
-            if all(len(found) == TRIAL for found in self._trial.values()):
+            if all(len(times) == TRIAL for times in self._trial.values()):
                 self._decide()
             return
         self._recent.append(seconds)
@@ -114,9 +114,9 @@ class Team:
             self._trial = {n: [] for n in self._options}
 
     def _decide(self) -> None:
-        medians = {n: statistics.median(found) for n, found in self._trial.items()}
+        medians = {n: statistics.median(times) for n, times in self._trial.items()}
         self._set(min(medians, key=medians.get))
-        rest = max(REST * sum(sum(found) for found in self._trial.values()), LEAST)
+        rest = max(REST * sum(sum(times) for times in self._trial.values()), LEAST)
         now = self._clock()
         self._expected, self._early, self._until = medians[self.threads], now + EARLY * rest, now + rest
         self._recent.clear()

@@ -81,9 +81,9 @@ class _Frames:
         self.thin.append([_thin(fillings[body], shift) for body in dump.bodies])
         self.boxes.append(_box(fillings[self.projectile], dump, shift) if self.projectile in fillings else None)
         for each in _shown(self.stored):
-            found = _magnitude(values, each) if each.is_magnitude else values[each.word]
-            if found is not None:
-                self.ranges[each.word].add(found, fillings[each.body or None].shown | each.is_share)
+            field = _magnitude(values, each) if each.is_magnitude else values[each.word]
+            if field is not None:
+                self.ranges[each.word].add(field, fillings[each.body or None].shown | each.is_share)
 
     def table(self) -> dict:
         """Times in s, how far the mesh has travelled and its first edges in m, fields, and the pieces of each dump."""
@@ -102,12 +102,12 @@ def _same(edges: np.ndarray, others: np.ndarray) -> bool:
 
 def _shown(stored: list[Stored]) -> list[Stored]:
     """The fields that can be drawn: what is stored, and before the components of a vector their magnitude."""
-    found = []
+    drawn = []
     for each in stored:
         if each.component == 0:
-            found.append(each.magnitude())
-        found.append(each)
-    return found
+            drawn.append(each.magnitude())
+        drawn.append(each)
+    return drawn
 
 
 def _magnitude(values: dict, each: Stored) -> np.ndarray | None:

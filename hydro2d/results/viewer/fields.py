@@ -53,10 +53,10 @@ class Stored:
 
     def values(self, dump: Dump) -> np.ndarray | None:
         """Values of a dump in the reader's unit, shape (nz, nr); None if it has none."""
-        found = dump.fields.get(self.name)
-        if found is None:
+        array = dump.fields.get(self.name)
+        if array is None:
             return None
-        return (found if self.component is None else found[..., self.component]).astype(float) * self.scale
+        return (array if self.component is None else array[..., self.component]).astype(float) * self.scale
 
 
 def asked(words: Iterable[str], dumps: list[Dump], run) -> list[Quantity]:
@@ -68,10 +68,10 @@ def asked(words: Iterable[str], dumps: list[Dump], run) -> list[Quantity]:
     if "all" in words:
         return there
     keys = quantities.expand(words)
-    held = {quantity.key for quantity in there}
+    available = {quantity.key for quantity in there}
     for word in words:
-        if word in quantities.BY_KEY and word not in held:
-            raise ViewError(f'{run.directory}: the dumps have no "{word}", but {", ".join(sorted(held))}; '
+        if word in quantities.BY_KEY and word not in available:
+            raise ViewError(f'{run.directory}: the dumps have no "{word}", but {", ".join(sorted(available))}; '
                             f"{quantities.not_written(word)}")
     return [quantity for quantity in there if quantity.key in keys]
 

@@ -68,19 +68,19 @@ def view(runs: Sequence, words: Iterable[str] = ("all",), bits: int = DEFAULT_BI
     if bits not in BITS:
         raise ViewError(f"{bits} bits for a value: must be {', '.join(map(str, BITS))}")
     words = list(words)
-    found = [contents(run, words, bits) for run in runs]
+    packed = [contents(run, words, bits) for run in runs]
     about = {
         "made": f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         "clips": CLIPS,
         "body_colours": [[int(colour[place : place + 2], 16) for place in (1, 3, 5)] for colour in BODY_COLOURS],
         "maps": {name: _colours(name) for name in MAPS},
-        "runs": [table for table, _ in found],
+        "runs": [table for table, _ in packed],
     }
     parts = {
         "title": html.escape(" and ".join(shown(run.label) for run in runs)),
         "style": _asset("page.css"),
         "contents": _json(about),
-        "numbers": "\n".join(f'<script type="text/plain" class="numbers">{text}</script>' for _, text in found),
+        "numbers": "\n".join(f'<script type="text/plain" class="numbers">{text}</script>' for _, text in packed),
         "program": "\n".join(map(_asset, SCRIPTS)),
     }
     return View(re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], _asset("page.html")))
