@@ -23,7 +23,7 @@ def curve(
     csv: Path | None = None,
     figure: Path | None = None,
 ) -> int:
-    """Prints flow stress against plastic strain at constant strain rates, with the heat of the plastic work.
+    """Prints flow stress against plastic strain at constant strain rates, with heating by plastic work.
 
     Example: hydro2d curve W_alloy W_sintered --rate "1e4 /s" --figure flow_stress.png
 

@@ -8,7 +8,7 @@ from hydro2d.cli import words
 from hydro2d.errors import DeckError, nearest
 from hydro2d.mesh import quantities
 
-#: names that are told as near an unknown one, and characters of it that are compared
+#: largest number of suggestions for an unknown name, and of its characters that are compared
 MOST_NEAR, LONGEST_NAME = 6, 200
 
 
@@ -83,7 +83,7 @@ def _table(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def page(name: str) -> str:
-    """Everything that has this name, or that people call so. Raises DeckError with the names near it if nothing has."""
+    """The pages of everything with this name or common name. Raises DeckError with the nearest names if there is nothing."""
     import eos
     import strength
     from hydro2d.analytic import model_text
@@ -122,7 +122,7 @@ def page(name: str) -> str:
 
 
 def _unknown(name: str, known: set[str]) -> str:
-    """What is said of a name that nothing has: the one that is probably meant, and others near it."""
+    """The message for an unknown name: the one that is probably meant, and others near it."""
     lower = {each.lower(): each for each in sorted(known)}
     near = [lower[each] for each in difflib.get_close_matches(name.lower()[:LONGEST_NAME], lower, n=MOST_NEAR)]
     likely = [f'"{each}"' for each in dict.fromkeys([*filter(None, [nearest(name, known)]), *near])]
@@ -160,7 +160,7 @@ def overview() -> str:
         ("penetration models", [(model.name, model.title) for model in catalogue.MODELS.values()]),
         ("fields", [(entry.key, entry.meaning) for entry in quantities.TABLE]),
         ("sections of a deck", [(key, keys[key].get("description", "")) for key in keys if "." not in key]),
-        ("words that have another name here", [(word, entry.said) for word, entry in words.WORDS.items()]),
+        ("words with another name here", [(word, entry.said) for word, entry in words.WORDS.items()]),
     )
     lines = []
     for heading, rows in parts:

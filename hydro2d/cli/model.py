@@ -10,7 +10,7 @@ from cyclopts import App, Parameter
 from hydro2d.cli.base import Overrides, UsageError, import_matplotlib, quantity
 from hydro2d.terminal import say, wrapped
 
-#: the most rows that --velocity A:B:N makes
+#: largest number of rows of --velocity A:B:N
 MOST_ROWS = 100_000
 
 #: `hydro2d model NAME --help` shows the page of that model, so --help is an ordinary option here
@@ -39,8 +39,7 @@ def evaluate(
     Parameters
     ----------
     name
-        Name of the model. Without --velocity and --deck its page is shown: source of the equations, inputs, outputs, validity,
-        and an example.
+        Name of the model. Without --velocity and --deck its page is shown: source, validity, inputs, outputs and an example.
     rod
         Rod material from the library, NAME or NAME:VARIANT; default: the material of the model's example.
     target
@@ -126,7 +125,7 @@ def _velocities(text: str) -> list[float]:
 
 
 def _show(output) -> None:
-    """Text as it is, data as JSON."""
+    """Prints text as it is, data as JSON."""
     import json
 
     say(output if isinstance(output, str) else json.dumps(output, indent=2, allow_nan=False))
