@@ -1,4 +1,4 @@
-"""Depths of analytic models for the shot of a deck: what stands beside the depth of a run."""
+"""Depths of analytic models for the shot of a deck, printed next to the depth of a run."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from hydro2d.deck.deck import Deck
 from hydro2d.errors import DeckError
 from hydro2d.penetration.model import InputError
 
-#: models of a rod into a thick target, by the name that a line gives them: eroding rods, and one that stays rigid
+#: models of a rod into a thick target, and their names in the line: two of eroding rods, and one of a rigid rod
 SHOWN = {"tate": "Tate", "walker-anderson": "Walker-Anderson", "forrestal": "rigid"}
 
 
 def case(name: str, shot: model_deck.Shot) -> models.Case:
     """A model with the rod and the target of a deck.
 
-    Raises InputError where the deck and its materials lack an input; the model's example never replaces it.
+    Raises InputError if the deck and its materials lack an input; it is never taken from the model's example.
     """
     resolved = models.resolve(models.named(name), models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
     borrowed = sorted(key for key, given in resolved.inputs.items() if models.EXAMPLE in given.source)
@@ -26,7 +26,7 @@ def case(name: str, shot: model_deck.Shot) -> models.Case:
 def depths(deck: Deck) -> dict[str, float]:
     """Final depth in m by each model of SHOWN that can be applied; none unless the deck is a rod into one target.
 
-    With a third body, such as a jacket or a cover plate, the models would be of another shot.
+    With a third body, such as a jacket or a cover plate, the models would describe another shot.
     """
     try:
         shot = model_deck.shot(deck)
@@ -44,7 +44,7 @@ def depths(deck: Deck) -> dict[str, float]:
 def lines(deck: Deck, summary: dict) -> list[str]:
     """A line for the end of a run, such as "analytic, at rest     Tate 27.54 cm, Walker-Anderson 35.87 cm, rigid 49.54 cm".
 
-    None behind a target that the rod has gone through, and none without a model that can be applied.
+    There is no line if the rod has perforated a target, or if no model can be applied.
     """
     if any(target.get("exit_time_s") is not None for target in (summary.get("targets") or {}).values()):
         return []

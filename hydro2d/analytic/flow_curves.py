@@ -33,7 +33,7 @@ class Curve:
         return cls(material, rate, isothermal, tuple(strains), stress, temperature)
 
     def at(self, strains: Sequence[float]) -> Curve:
-        """The same at other strains."""
+        """This curve at other strains."""
         return Curve.of(self.material, self.rate, strains, self.isothermal)
 
     @property
@@ -42,7 +42,7 @@ class Curve:
 
 
 def lines(all_curves: Sequence[Curve]) -> list[str]:
-    """A table: strains down, materials and rates across; MPa."""
+    """A table in MPa: a row for each material and rate, a column for each strain."""
     rows = [("material", "rate [1/s]", *(f"{strain:g}" for strain in all_curves[0].strains))]
     rows += [(each.name, f"{each.rate:g}", *(f"{stress / 1e6:.0f}" for stress in each.stress)) for each in all_curves]
     widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
@@ -54,7 +54,7 @@ def lines(all_curves: Sequence[Curve]) -> list[str]:
 
 
 def write_csv(all_curves: Sequence[Curve], path: Path) -> None:
-    """One row for each material, rate and strain, with every digit."""
+    """Writes one row for each material, rate and strain, with all digits."""
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["material", "model", "rate [1/s]", "plastic strain", "flow stress [Pa]", "temperature [K]"])
@@ -65,7 +65,7 @@ def write_csv(all_curves: Sequence[Curve], path: Path) -> None:
 
 
 def draw(all_curves: Sequence[Curve]):
-    """A matplotlib Figure: a colour for each material, a dash for each rate."""
+    """A matplotlib Figure: a colour for each material, a line style for each rate."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

@@ -1,4 +1,4 @@
-"""The rod and the target of an input deck, as the analytic models want them."""
+"""The rod and the target of an input deck, as the analytic models need them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydro2d.errors import DeckError
 from hydro2d.materials.material import Material
 from hydro2d.solver import insertion
 
-#: words of decks for noses, where they differ from the models'
+#: the models' names of noses, where those of decks differ
 NOSES = {"ogive": "ogival"}
 
 
@@ -32,7 +32,7 @@ class Shot:
 
 
 def read(path: Path) -> Shot:
-    """The shot of a deck file. Raises DeckError where the deck is wrong or has no rod and target."""
+    """The shot of a deck file. Raises DeckError if the deck is wrong or has no rod and target."""
     return shot(decks.load(path))
 
 
@@ -72,7 +72,7 @@ def _rod(rod, material: Material) -> dict[str, float | str]:
 
 
 def _volume(rod) -> float:
-    """Volume of the rod, m^3: the share that it fills of the cylinder around it."""
+    """Volume of the rod, m^3, from the share of the surrounding cylinder that it fills."""
     outline = shapes.outline(rod, 0.0)
     edges = np.array(outline.extent("z"))
     share = insertion.fractions([outline], np.array([0.0, rod.rod_radius]), edges, cylindrical=True)

@@ -1,8 +1,7 @@
-"""Where a rod stops being rigid: every model's velocity beside the experiments' bracket, the CTH study's and runs'.
+"""The velocity at which a rod stops being rigid: predictions of all models next to brackets from experiments, CTH and runs.
 
-An experiment's bracket follows from its shots by one rule: a rod that went deeper than the hydrodynamic limit
-L sqrt(rho_p/rho_t) stayed rigid, any other did not. The bracket lies between the fastest of the first and the slowest of
-the second.
+The bracket of experiments follows from their shots by one rule: a rod that went deeper than the hydrodynamic limit
+L sqrt(rho_p/rho_t) stayed rigid, any other did not. The bracket lies between the fastest rigid rod and the slowest other one.
 """
 
 from __future__ import annotations
@@ -26,14 +25,14 @@ from hydro2d.toml import problems_folder
 
 STUDY = "cth_nose_shape"
 RULE = "rigid where deeper than the hydrodynamic limit L sqrt(rho_p/rho_t)"
-#: caliber-radius-head of the study's ogive: with the printed length it has the printed mass, 63 g
+#: caliber-radius-head of the study's ogive, which gives the printed mass, 63 g, with the printed length
 OGIVE_CRH = 2.5
-#: what the bracket of each kind in cth_predictions.csv is called
+#: name of the bracket of each kind in cth_predictions.csv
 KINDS = {"cth": "the CTH study", "test": "tests at thinner plates"}
 
 
 def hydrodynamic_limit(length: float, rod: library.Material, target: library.Material) -> float:
-    """Depth in m that a rod of this length in m reaches while it is consumed, at any velocity: L sqrt(rho_p/rho_t)."""
+    """Depth in m that a rod of this length in m reaches at any velocity if it is consumed: L sqrt(rho_p/rho_t)."""
     return length * math.sqrt(rod.reference_density / target.reference_density)
 
 
@@ -102,7 +101,7 @@ class Prediction:
 
 
 def _rows(name: str) -> list[dict[str, str]]:
-    """Lines of a table of the study, by column."""
+    """Rows of a table of the study, by column."""
     with open(problems_folder() / STUDY / name, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
@@ -118,7 +117,7 @@ def experiments() -> list[Shot]:
 
 
 def between(name: str, rigid: Iterable[float], others: Iterable[float], source: str) -> Bracket:
-    """From the fastest that stayed rigid to the slowest that did not."""
+    """The bracket from the fastest rod that stayed rigid to the slowest that did not."""
     return Bracket(name, max(rigid, default=None), min(others, default=None), source)
 
 
@@ -189,7 +188,7 @@ def predict(model: Model, request: models.Request) -> Prediction:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Predictions for a rod, target and nose beside known brackets."""
+    """Predictions for a rod, target and nose, with known brackets."""
 
     title: str
     predictions: list[Prediction]
@@ -197,7 +196,7 @@ class Comparison:
     runs: list[tuple[str, ...]]
 
     def lines(self, inputs: bool = True) -> list[str]:
-        """The table, the brackets, the runs and, where wanted, every input, for reading."""
+        """The table, the brackets, the runs and, if requested, all inputs, as text."""
         heads = ("model", "transition", *(f"from {entry.name}" for entry in self.brackets), "nose")
         lines = [self.title, "", *columns([heads, *map(self._row, self.predictions)])]
         if self.brackets:
@@ -207,14 +206,14 @@ class Comparison:
         return [*lines, "", "inputs", *columns(self._inputs())] if inputs else lines
 
     def _row(self, entry: Prediction) -> tuple[str, ...]:
-        nose = "counts" if entry.knows_nose else "not an input"
+        nose = "an input" if entry.knows_nose else "not an input"
         if entry.velocity is None:
             return entry.model.name, entry.in_words, *("" for _ in self.brackets), nose
         away = (distance(bracket.off(entry.velocity)) for bracket in self.brackets)
         return entry.model.name, entry.in_words, *away, nose
 
     def _inputs(self) -> list[tuple[str, ...]]:
-        """Every input of any model; where models differ, each value with its models."""
+        """All inputs of all models; if models differ, each value with its models."""
         users_of: dict[tuple[str, str, str], list[str]] = {}
         for entry in self.predictions:
             units_of = {each.name: each.unit for each in entry.model.inputs}
@@ -224,7 +223,7 @@ class Comparison:
         return [(*key, ", ".join(users) if names.count(key[0]) > 1 else "") for key, users in sorted(users_of.items())]
 
     def data(self) -> dict:
-        """The same for programs."""
+        """The comparison for JSON."""
         return {
             "title": self.title,
             "models": [

@@ -1,7 +1,7 @@
 """Analytic models with materials of the library: finds every input and its source, then evaluates the model.
 
-An input comes, in this order, from the user, from a deck, from the material library, from the geometry of a cylinder of equal
-mass, from its default, and last from the example of the model, which is always stated.
+An input comes, in this order, from the user, a deck, the material library, the geometry of a cylinder of equal mass, its
+default, and last the example of the model, which is always stated.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ def _si(entry: Input, text: str) -> Value:
 
 
 def resolve(model: Model, request: Request) -> Case:
-    """Every input of a model with its source. Raises InputError for an impossible or a missing input."""
+    """Every input of a model with its source. Raises InputError for an impossible or missing input."""
     chosen = {name: Given(value, "given") for name, value in request.settings.items()}
     given = {**_library(model, request), **request.geometry, **chosen}
     given.update(_cylinder(model, request, chosen, given.get("rod.density")))
@@ -141,7 +141,7 @@ def _example(model: Model, name: str) -> Given | None:
 
 
 def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
-    """The value of the example if the user chose nothing for that side; else the default; else the value of the example."""
+    """The value of the example if the user chose nothing for that side, else the default, else the value of the example."""
     value, side = _example(model, entry.name), SIDES.get(entry.name.split(".")[0])
     if value is not None and all(getattr(request, each) is None for each in ([side] if side else ["rod", "target"])):
         return value
@@ -149,7 +149,7 @@ def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
 
 
 def _cylinder(model: Model, request: Request, chosen: Mapping[str, Given], density: Given | None) -> dict[str, Given]:
-    """Diameter, length and mass of a cylinder: the user's choices, completed to two, and the third from the density."""
+    """Diameter, length and mass of a cylinder: the user's choices, supplemented to two, and the third from the density."""
     have = {name: chosen[name] for name in CYLINDER if name in chosen}
     if not have and not set(CYLINDER) & set(request.geometry) and request.rod is None:
         have = {name: value for name in CYLINDER if (value := _example(model, name)) is not None}

@@ -1,8 +1,8 @@
-"""A spherical cavity that grows at constant velocity V from nothing in an elastic-plastic solid: the stress at its wall.
+"""Stress at the wall of a spherical cavity that grows from zero radius at constant velocity V in an elastic-plastic solid.
 
-The radial stress at the wall is the pressure that models of rigid penetration put on a nose. Closed forms for an
-incompressible solid with linear or power-law hardening; for a compressible one with power-law hardening a similarity solution,
-and from it the coefficients of A Y + B rho V^2 and of A Y + B sqrt(rho Y) V + C rho V^2.
+The radial stress at the wall is the pressure that models of rigid penetration put on a nose. There are closed forms for an
+incompressible solid with linear or power-law hardening. For a compressible one with power-law hardening there is a similarity
+solution, from which the coefficients of A Y + B rho V^2 and of A Y + B sqrt(rho Y) V + C rho V^2 follow.
 explanation/penetration/cavity
 """
 
@@ -18,11 +18,11 @@ import numpy as np
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
 
-#: how far the solution is followed towards the wall: to exp(-DEEP) of the mass inside the plastic front
+#: the solution is integrated towards the wall, to exp(-DEEP) of the mass inside the plastic front
 DEEP = 32.0
-#: front velocities at which a curve is computed, over the bulk sound speed: slow ones in a geometric series, then even steps
+#: front velocities of the computed curve, over the bulk sound speed: a geometric series of slow ones, then even steps
 SLOW, FAST = (1e-3, 0.04, 6), (0.08, 1.0, 40)
-#: the weakest solid, as yield stress over Young's modulus, and the slowest cavity, m/s, that the numbers can resolve
+#: the weakest solid, as yield stress over Young's modulus, and the slowest cavity, m/s, that the numerics can resolve
 WEAKEST, SLOWEST = 1e-6, 1.0
 #: points of the least-squares fits, evenly spread over the velocities
 POINTS = 400
@@ -80,9 +80,9 @@ class Expansion:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Of the stress at the wall over Y: ``a`` + ``b`` x^2 and ``a`` + ``b_linear`` x + ``c`` x^2, with x = V sqrt(rho/Y).
+    """Fits of the wall stress over Y: ``a`` + ``b`` x^2 and ``a`` + ``b_linear`` x + ``c`` x^2, with x = V sqrt(rho/Y).
 
-    ``velocity`` is the largest of the fit, m/s. ``a`` is the quasi-static value; the others are least squares with ``a`` fixed.
+    ``velocity`` is the largest in the fit, m/s. ``a`` is the quasi-static value; the others are least squares with ``a`` fixed.
     """
 
     velocity: float
@@ -230,7 +230,7 @@ def given_or_fitted(
     target_youngs_modulus: float | None, target_poisson_ratio: float | None, target_hardening_exponent: float,
     cavity_velocity: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """A and B as given; one that is None comes from ``coefficients``. InputError if that needs elastic constants not given."""
+    """A and B as given, or from ``coefficients`` where None. InputError if elastic constants needed for that are not given."""
     if cavity_a is not None and cavity_b is not None:
         return cavity_a, cavity_b
     if target_youngs_modulus is None or target_poisson_ratio is None:

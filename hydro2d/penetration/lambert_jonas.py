@@ -17,7 +17,7 @@ import numpy as np
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 from hydro2d.penetration.recht_ipson import LIMIT_VELOCITY
 
-#: exponents from which a fit starts, and the range that it stays in; p = 1 would be a straight line
+#: exponents from which a fit starts, and its allowed range; p = 1 would be a straight line
 STARTS, EXPONENTS = (1.5, 2.0, 3.0, 5.0), (1.0, 20.0)
 
 
@@ -25,7 +25,7 @@ STARTS, EXPONENTS = (1.5, 2.0, 3.0, 5.0), (1.0, 20.0)
 class Fit:
     """Constants from shots: ``a``, ``p``, ``limit_velocity`` v_bl (m/s), ``standard_error`` of v_r (m/s), number of ``shots``.
 
-    The standard error is the root of the sum of squares over shots less fitted constants.
+    The standard error is the root of the sum of squares over the number of shots minus that of fitted constants.
     """
 
     a: float
@@ -48,7 +48,7 @@ def residual_velocity(velocity: float, *, limit_velocity: float, a: float = 1.0,
 
 
 def fit(velocities: Sequence[float], residual_velocities: Sequence[float], *, p: float | None = None) -> Fit:
-    """Least-squares a, p and v_bl from impact and residual velocities of shots in m/s; the residual is 0 for a plate that held.
+    """Least-squares a, p and v_bl from impact and residual velocities of shots in m/s; the residual is 0 if the plate held.
 
     a lies in 0 to 1, p in 1 to 20 unless it is given; v_bl below the slowest shot that perforated. InputError for fewer
     perforations than constants.
@@ -61,7 +61,7 @@ def fit(velocities: Sequence[float], residual_velocities: Sequence[float], *, p:
 
 
 def _fit_from(start: float, v: np.ndarray, left: np.ndarray, p: float | None) -> Fit:
-    """The fit from one exponent on; the limit is sought as a share of the slowest velocity that perforated."""
+    """The fit that starts from one exponent; the limit is sought as a share of the lowest velocity that perforated."""
     from scipy.optimize import least_squares
 
     slowest = float(v[left > 0.0].min())
@@ -84,9 +84,9 @@ def _shots(velocities: Sequence[float], residuals: Sequence[float], constants: i
     if v.ndim != 1 or v.shape != left.shape:
         raise InputError("a fit needs as many residual velocities as impact velocities")
     if not (np.all(np.isfinite(v)) and np.all(np.isfinite(left)) and np.all(v > 0.0) and np.all((left >= 0.0) & (left <= v))):
-        raise InputError("a fit needs shots with a positive velocity and a residual one from 0 up to it")
+        raise InputError("a fit needs shots with a positive velocity and a residual velocity from 0 up to it")
     if np.unique(v[left > 0.0]).size < constants:
-        raise InputError(f"a fit of {constants} constants needs perforations at {constants} velocities at least")
+        raise InputError(f"a fit of {constants} constants needs perforations at {constants} or more velocities")
     return v, left
 
 
