@@ -1,4 +1,4 @@
-"""Exports a run: a VTK series with chosen fields, or the state of the restart file, and the history as CSV."""
+"""Exports a run: a VTK series with chosen fields, or the state in the restart file, and the history as CSV."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def names(dump: vtk.Dump, keys) -> list[str]:
 def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     """Writes `out`/series.pvd with the dumps of a run, and `out`/history.csv. Returns the files to open.
 
-    keys : quantities of quantities.TABLE to export. For a run without dumps, the state of its restart file is written.
+    keys : quantities of quantities.TABLE to export. For a run without dumps, the state in its restart file is written.
 
     Raises ResultsError, FieldError, SnapshotError, StrangeFile (a symbolic link in one of the two directories).
     """

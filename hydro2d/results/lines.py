@@ -1,4 +1,4 @@
-"""Figures along a line through the mesh, at some times or over place and time; and of the debris behind plates."""
+"""Figures of fields along a line through the mesh, at some times or over place and time, and of debris behind plates."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.scales import LINEAR, FigureError, Scale
 
-#: points of a line in a diagram of place and time
+#: number of points on a line in a diagram of place and time
 POINTS = 800
 #: share of the debris in a bin, or of a fragment in the debris, below which nothing is drawn
 LEAST = 1e-9
 
 
 class Line(NamedTuple):
-    """A straight line from (r0, z0) to (r1, z1), m, in the frame of the laboratory."""
+    """A straight line from (r0, z0) to (r1, z1), m, in the laboratory frame."""
 
     r0: float
     z0: float
@@ -27,7 +27,7 @@ class Line(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What is measured along it: z or r where it is parallel to one, else the distance from its first point."""
+        """The coordinate along the line: z or r if it is parallel to one, else the distance from its first point."""
         return "z" if self.r0 == self.r1 else "r" if self.z0 == self.z1 else "distance"
 
     def at(self, shares: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -38,7 +38,7 @@ class Line(NamedTuple):
 
 
 def axis_of(run) -> Line:
-    """The line along the inner edge of the mesh, over all that its dumps cover."""
+    """The line along the inner edge of the mesh, over the whole range of the dumps."""
     if not run.dumps:
         return Line(0.0, 0.0, 0.0, 1.0)
     ends = [run.dump(time) for time, _ in (run.dumps[0], run.dumps[-1])]
@@ -145,7 +145,7 @@ def _panel(run, field: str, line: Line):
     """Coordinates (n,), times (k,), values (k, n) and the volume fractions of the bodies, each (k, n); and the label."""
     files = run.dumps
     if len(files) < 2:
-        raise FigureError(f"{run.directory} has {len(files)} dumps; a diagram of place and time needs two at least")
+        raise FigureError(f"{run.directory} has {len(files)} dumps; a diagram of place and time needs at least two")
     r, z, along = line.at((np.arange(POINTS) + 0.5) / POINTS)
     rows, shares, label = [], [], ""
     for time, _ in files:
@@ -156,14 +156,14 @@ def _panel(run, field: str, line: Line):
         shares.append([np.where(inside, dump.fields[f"Volume Fraction for {body}"][j, i], 0.0) for body in dump.bodies])
         label = shown.label
     if not np.isfinite(rows).any():
-        raise FigureError(f"{run.directory}: nothing of {field} lies on the line")
+        raise FigureError(f"{run.directory}: no values of {field} lie on the line")
     return along, np.array([time for time, _ in files]), np.array(rows), np.array(shares).swapaxes(0, 1), label
 
 
 def debris(runs: list):
-    """What flies behind every target at the end: mass by axial speed, mass by angle, and how many fragments are so heavy.
+    """Debris behind each target at the end: mass by axial speed, mass by angle, and number of fragments by mass.
 
-    A row for each run (results.Results) and target. Raises ResultsError, and FigureError where nothing flies.
+    A row for each run (results.Results) and target. Raises ResultsError, and FigureError if there is no debris.
     """
     clouds = [(run, name, each) for run in runs for name, each in run.debris.items() if len(each["body"])]
     if not clouds:
@@ -183,7 +183,7 @@ def debris(runs: list):
         masses = np.sort(each["fragment_mass_kg"])[::-1] * 1e3
         row[2].plot(masses, np.arange(1, len(masses) + 1), "o-", markersize=3, linewidth=1.0, color="black")
         row[2].set_xscale("log")
-        _labels(row[2], "mass of a fragment [g]", "number of fragments as heavy")
+        _labels(row[2], "mass of a fragment [g]", "number of fragments at least as heavy")
         row[2].grid(alpha=0.3)
     return figure
 
