@@ -63,7 +63,7 @@ def _check_table(file: Path, text: str, T: float) -> int:
     try:
         table = sesame.read(text)
         if not table.temperature[0] <= T < table.temperature[-1]:
-            raise sesame.TableError(f"{T:g} K is outside its temperatures, {table.temperature[0]:g} to "
+            raise sesame.TableError(f"{T:g} K is not within its temperatures, {table.temperature[0]:g} to "
                                     f"{table.temperature[-1]:g} K")
         rest = [rho for rho in tabular.densities_without_pressure(table, T) if rho > 0.0]
         if not rest:

@@ -1,7 +1,7 @@
-"""Chooses the number of threads of a run: the number that is fastest, up to the maximum.
+"""Chooses the fastest number of threads for a run, up to the maximum.
 
 Threads wait for each other some sixty times a cycle. On a small mesh, a second thread gains nothing. If another process uses a
-core, every one of these waits lasts until the operating system lets the second thread run again. The results do not depend on
+core, each of these waits lasts until the operating system lets the second thread run again. The results do not depend on
 the number of threads, so a run may change it between any two cycles.
 """
 
@@ -21,7 +21,7 @@ from hydro2d.terminal import several
 TRIAL = 5
 #: the next trial comes after this many times the duration of the last one, and after at least this many seconds
 REST, LEAST = 20.0, 2.0
-#: it comes after this fraction of that interval if the median of this many cycles is longer by this factor than in the trial
+#: it comes after this fraction of that interval if the median of this many cycles exceeds that of the trial by this factor
 EARLY, LATE, SLOWER = 0.25, 20, 1.5
 
 
@@ -31,7 +31,7 @@ class ThreadsError(Error):
 
 @contextmanager
 def at_most(threads: int | None) -> Iterator[None]:
-    """Within the block at most this many threads are used; None: as many as before. Raises ThreadsError."""
+    """Uses at most this many threads within the block; None: as many as before. Raises ThreadsError."""
     if threads is None:
         yield
         return
@@ -84,7 +84,7 @@ class Team:
         return seconds
 
     def told(self) -> str:
-        """Such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
+        """Text such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
         if self.most == 1 or not self.cycles:
             return ""
         total = sum(self.cycles.values())
