@@ -12,7 +12,7 @@ import sys
 
 
 def _leave_current_directory() -> None:
-    """For `python -m hydro2d`, which looks for modules in the current directory first; a stranger's files may be there."""
+    """Keeps `python -m hydro2d` from importing modules of the current directory, which may hold a stranger's files."""
     beside = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     asked = sys.argv[:1] == ["-m"] and any(word in ("hydro2d", "-mhydro2d") for word in sys.orig_argv)
     if asked and not sys.flags.safe_path and sys.path[0] != beside:
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
     from hydro2d.study.definition import StudyError
 
-#: modules of the public names, which are imported on first use, so that `import hydro2d` costs nothing
+#: modules of the public names, imported on first use, so that `import hydro2d` costs nothing
 _PLACES = {
     "Deck": "hydro2d.deck.deck",
     "Simulation": "hydro2d.solver.simulation",
@@ -79,14 +79,14 @@ __all__ = [
 
 
 def _own_packages() -> None:
-    """Raises ImportError where Python would find another package, or a user's file, for `eos` or `strength`."""
+    """Raises ImportError if Python would import another package, or a user's file, as `eos` or `strength`."""
     beside = Path(__file__).resolve().parent.parent
     for name in ("eos", "strength"):
-        found = sys.modules[name].__spec__ if name in sys.modules else importlib.util.find_spec(name)
-        file = found.origin if found is not None else None
+        spec = sys.modules[name].__spec__ if name in sys.modules else importlib.util.find_spec(name)
+        file = spec.origin if spec is not None else None
         if file is None or Path(file).resolve().parent != beside / name:
-            raise ImportError(f"hydro2d has a package {name} of its own, and Python finds another one at {file or 'no place'}: "
-                              "rename that file, or install hydro2d in an environment of its own")
+            raise ImportError(f"hydro2d has its own package {name}, but Python finds another one at {file or 'no place'}: "
+                              "rename that file, or install hydro2d in a separate environment")
 
 
 _own_packages()

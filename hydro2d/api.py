@@ -42,8 +42,8 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads
     Parameters
     ----------
     deck : Deck, or path of a deck file
-    directory : where everything is written; default: ``output.directory`` of the deck, else ``runs/NAME``
-    threads : largest number of threads, for this run; default: all that the process has. The results do not depend on it
+    directory : the directory to write to; default: ``output.directory`` of the deck, else ``runs/NAME``
+    threads : largest number of threads for this run; default: all that the process has. The results do not depend on it
     restart, overwrite : continue the existing run, or replace it
     quiet : prints nothing; log.txt is still written
     columns : dict of functions of the simulation, by name
@@ -57,7 +57,7 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads
     ColumnError
         A column has no name for a file, or fails; ``restart=True`` continues the run.
     UnphysicalState
-        The state became unphysical; the directory has the last good one.
+        The state became unphysical; the directory keeps the last good state.
     KeyboardInterrupt
         The run was interrupted; ``restart=True`` continues it.
     """
@@ -80,9 +80,9 @@ def open_run(directory: str | Path, *, trust: bool = False) -> Results:
 
     Parameters
     ----------
-    directory : of the run
-    trust : whether the code of models from outside that the deck of the run carries may be run. Only `Results.simulation` and
-        `Results.state` need it; give it for runs whose origin you know.
+    directory : the run directory
+    trust : whether the code of outside models in the deck of the run may be executed. Only `Results.simulation` and
+        `Results.state` need it; set it for runs whose origin you know.
 
     Raises ResultsError if the directory holds no run.
     """
@@ -95,16 +95,16 @@ class Study(layout.Study):
     Attributes
     ----------
     title, name : title and name of the study
-    axes : what the study varies, in the order of its file; empty for a folder of runs
+    axes : the varied quantities, in the order of the study file; empty for a folder of runs
     cases : the cases, each with name, values on the axes, status, directory, and the summary once it has ended
     """
 
     def table(self, *, members: bool = False) -> pandas.DataFrame:
         """One row for each case, indexed by its name: axes, status, results, experiment, conservation, cost; SI units.
 
-        members : of a study with an ensemble, one row for each run; without it, one for each case with the medians of its
-            members under the names that single runs have, the 10 and 90 % quantiles beside them (``depth_low_m``,
-            ``depth_high_m``), and for each regime its fraction with a 90 % Wilson interval (``rigid_fraction``,
+        members : for a study with an ensemble, one row for each run; by default one row for each case, with the medians of its
+            members under the names that single runs have, next to them the 10 and 90 % quantiles (``depth_low_m``,
+            ``depth_high_m``), and the fraction of each regime with a 90 % Wilson interval (``rigid_fraction``,
             ``rigid_fraction_low``, ``rigid_fraction_high``); ``as_experiment_fraction`` is that of the experiment's outcome
 
         Raises MissingPackage.
@@ -112,9 +112,9 @@ class Study(layout.Study):
         with from_extra("data", "the table of a study"):
             import pandas
 
-        found = contents.collect(self)
+        collected = contents.collect(self)
         repeated = self.ensembles and not members
-        return pandas.DataFrame(found.rows_of_ensembles() if repeated else found.rows).set_index("case")
+        return pandas.DataFrame(collected.rows_of_ensembles() if repeated else collected.rows).set_index("case")
 
 
 def open_study(directory: str | Path) -> Study:
@@ -132,12 +132,12 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
     ----------
     study : path of a study file, or, with `axes`, a deck or its path
     axes : dict of lists by dotted deck key
-        What is varied, such as ``{"body.rod.velocity": ["1000 m/s", "1200 m/s"]}``. The cases are all combinations.
+        The values to vary, such as ``{"body.rod.velocity": ["1000 m/s", "1200 m/s"]}``. The cases are all combinations.
     directory : directory of the study; default: ``out`` of its file, else ``runs/NAME``
-    overrides : values of the deck for all cases, as in `Deck.from_file`
+    overrides : deck values for all cases, as in `Deck.from_file`
     workers : number of processes; default: cores of this machine / threads
     threads : number of threads per worker; the results do not depend on it
-    only : patterns of names, such as ``["*ogive*"]``: runs the cases that match one, and leaves the others for later
+    only : patterns of names, such as ``["*ogive*"]``: runs the cases that match one of them and leaves the others for later
     resume : continue the study in the directory; cases that have ended are not run again
     overwrite : start the study again from the beginning
     quiet : prints nothing; sweep.log is still written
@@ -146,10 +146,10 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
     -------
     pandas.DataFrame
         One row for each case, indexed by its name: the axes as text, ``status``, depths, lengths and the other columns that
-        `hydro2d report` lists, in SI units. For a case that failed, or whose deck is wrong, ``message`` has the reason.
+        `hydro2d report` lists, in SI units. For a case that failed or has a wrong deck, ``message`` gives the reason.
 
-    Raises MissingPackage, StudyError, also if no case has a valid deck, DeckError, LockError; KeyboardInterrupt if the sweep
-    was interrupted, which ``resume=True`` continues.
+    Raises MissingPackage, StudyError (also if no case has a valid deck), DeckError, LockError; KeyboardInterrupt if the sweep
+    was interrupted (``resume=True`` continues it).
 
     Worker processes are spawned, so a script must call this below ``if __name__ == "__main__":``.
     """
@@ -157,7 +157,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
         if number is not None and number < 1:
             raise StudyError(f"{name} = {number}: at least one is needed")
     with from_extra("data", "the table of a study"):
-        import pandas  # noqa: F401  (a table that cannot be made is refused before the runs, not after them)
+        import pandas  # noqa: F401  (without it the table cannot be made: fail before the runs, not after them)
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
     choice = Choice(plan, only, again=overwrite and not resume)
@@ -192,7 +192,7 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
 
 
 def _base(deck: Deck, directory: str | Path | None) -> Path:
-    """The file of a Deck in the directory of its study, named by what is in it, so that no other deck is replaced."""
+    """The file of a Deck in the directory of its study, named by a hash of its contents, so that it replaces no other deck."""
     if directory is None:
         raise StudyError("a study of a Deck needs a directory")
     text = toml.dumps(deck._tables)

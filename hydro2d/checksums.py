@@ -1,14 +1,14 @@
-"""Checksums: a file that a run or a study writes holds the SHA-256 of all its other bytes, which is checked before it is read.
+"""Checksums: each file that a run or a study writes holds the SHA-256 of all its other bytes, which is checked before reading.
 
-The checksum is part of its file, so that the two are replaced together, at any moment of a run. It stands where programs that
-read the format pass over it:
+The checksum is part of the file, so that both are always replaced together. It is in a place that programs which read the
+format ignore:
 
     .toml               a comment in the first line
     .json               the first key, `sha256`
     .vtr, .vtp, .pvd    a comment before the first element
-    .h5                 behind the end of the HDF5 file
+    .h5                 after the end of the HDF5 file
 
-A file without one, of an earlier version or of another program, is read as it is. So is one from which a user has removed it.
+A file without a checksum, of an earlier version or another program, is read as it is. So is one whose checksum a user removed.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hydro2d.strange import own
 
 
 class Form(NamedTuple):
-    """How a format holds a checksum: what a file begins with, and the bytes before and after the digits that follow."""
+    """Where a format holds a checksum: the first bytes of a file, and the bytes before and after the digits."""
 
     begin: bytes
     before: bytes
@@ -42,18 +42,18 @@ FORMS = {
 HDF5 = ".h5"
 #: the key in a JSON file
 KEY = "sha256"
-#: number of digits, and how many of them must still be digits for a damaged checksum to be known as one
+#: number of digits, and how many must still be digits for a damaged checksum to be recognised
 DIGITS, ENOUGH = 64, 48
-#: bytes in which the place of a checksum can be seen, and of a piece that is read at once
+#: number of first bytes that show whether there is a checksum, and bytes read at a time
 BEGIN, PIECE = 1 << 10, 1 << 24
-#: bytes that a text and any other file may have
+#: largest size of a text and of any other file, bytes
 MOST_TEXT, MOST_DATA = 1 << 28, 1 << 36
 #: offset in an HDF5 file of the address of its end, by the version of its superblock
 _ENDS = {0: 40, 1: 44, 2: 28, 3: 28}
 
 
 def sealed(data: bytes, suffix: str) -> bytes:
-    """The contents of a file with their checksum; as they are if the format, or a JSON file that is no table, has no place."""
+    """The contents of a file with their checksum; unchanged if the format, or a JSON file that is no table, cannot hold one."""
     if suffix == HDF5:
         return data + b" sha256 " + _digest(data, b" sha256 ")
     form = FORMS.get(suffix)
@@ -64,27 +64,27 @@ def sealed(data: bytes, suffix: str) -> bytes:
 
 
 def seal(file: Path, suffix: str) -> None:
-    """Gives a file that was just written its checksum."""
+    """Adds the checksum to a file that was just written."""
     file.write_bytes(sealed(file.read_bytes(), suffix))
 
 
 def verify(path: Path, error: type[Error]) -> None:
-    """Checks a file with its checksum, piece by piece.
+    """Checks a file against its checksum, piece by piece.
 
-    Raises `error` with one line if the file cannot be read or does not fit its checksum, and StrangeFile.
+    Raises `error` with one line if the file cannot be read or does not match its checksum, and StrangeFile.
     """
     _verified(path, error, MOST_DATA, lambda piece: None)
 
 
 def verified(path: Path, error: type[Error]) -> bytes:
-    """The contents of a text file with their checksum, which fits. Raises what `verify` raises."""
+    """The contents of a text file, checksum included, once it is verified. Raises what `verify` raises."""
     pieces: list[bytes] = []
     _verified(path, error, MOST_TEXT, pieces.append)
     return b"".join(pieces)
 
 
 def _verified(path: Path, error: type[Error], most: int, take: Callable[[bytes], object]) -> None:
-    """Checks a file of at most so many bytes and gives away its contents, piece by piece."""
+    """Checks a file of at most ``most`` bytes and passes its contents to ``take``, piece by piece."""
     path = own(Path(path))
     try:
         if path.is_dir():
@@ -115,7 +115,7 @@ def _verified(path: Path, error: type[Error], most: int, take: Callable[[bytes],
 
 
 def verified_text(path: Path, error: type[Error]) -> str:
-    """The text of a file whose checksum fits, without a comment that holds the checksum. Raises `error` with one line."""
+    """The text of a verified file, without the comment that holds the checksum. Raises `error` with one line."""
     data = verified(path, error)
     form = FORMS[path.suffix]
     if path.suffix == ".toml" and data.startswith(form.before):
@@ -127,7 +127,7 @@ def verified_text(path: Path, error: type[Error]) -> str:
 
 
 def begins_with_one(text: str) -> bool:
-    """Whether the text of a deck begins with a checksum, as those have that hydro2d wrote."""
+    """Whether the text of a deck begins with a checksum, as decks written by hydro2d do."""
     return text.startswith(FORMS[".toml"].before.decode())
 
 
@@ -139,9 +139,9 @@ def _digest(*parts: bytes) -> bytes:
 
 
 def _place(begin: bytes, end: bytes, size: int, suffix: str) -> int | None:
-    """Where a file of a size has the digits of its checksum; None if it has no checksum.
+    """Offset of the checksum's digits in a file of a given size; None if it has no checksum.
 
-    begin, end : its first and last bytes, BEGIN and DIGITS of them
+    begin, end : the first BEGIN and the last DIGITS bytes of the file
     """
     if suffix == HDF5:
         at = size - DIGITS
@@ -155,19 +155,19 @@ def _place(begin: bytes, end: bytes, size: int, suffix: str) -> int | None:
 
 
 def _is_digits(data: bytes) -> bool:
-    """Whether this was a checksum, though it may be damaged."""
+    """Whether this is a checksum, perhaps a damaged one."""
     return sum(byte in b"0123456789abcdef" for byte in data) >= ENOUGH
 
 
 def _is_longer(begin: bytes, size: int) -> bool:
-    """Whether anything stands behind the end of an HDF5 file."""
+    """Whether anything follows the end of an HDF5 file."""
     at = _ENDS.get(begin[8]) if begin.startswith(b"\x89HDF\r\n\x1a\n") and len(begin) > 8 else None
     return at is not None and size > int.from_bytes(begin[at : at + 8], "little")
 
 
 def _remedy(suffix: str) -> str:
     if suffix == ".toml":
-        return "put it back, or remove its first line if the change is meant"
+        return "put it back, or remove its first line if the change is intended"
     if suffix == ".json":
-        return f'put it back, or remove its key "{KEY}" if the change is meant'
+        return f'put it back, or remove its key "{KEY}" if the change is intended'
     return "put it back from a copy, or repeat the run"

@@ -1,4 +1,4 @@
-"""Python processes that hydro2d starts: none takes a module from the current directory, where a stranger's files may be."""
+"""Starts Python processes that import nothing from the current directory, which may hold a stranger's files."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-#: the variable by which Python leaves the current directory out of the places where it looks for modules
+#: environment variable that keeps Python from looking for modules in the current directory
 SAFE = "PYTHONSAFEPATH"
 
 
 def python(module: str) -> list[str]:
-    """The command that runs a module of hydro2d in a process of its own."""
+    """The command that runs a module of hydro2d in a separate process."""
     return [sys.executable, "-P", "-m", module]
 
 
 def detached(arguments: Sequence[str], log: Path, nice: int) -> int:
-    """Starts the command `hydro2d` with these arguments in a session of its own. Returns the number of the process.
+    """Starts the command `hydro2d` with these arguments in a new session. Returns the number of the process.
 
-    log : file for what it prints, which is added to;  nice : by how much its priority is lowered
+    log : file to which its output is appended;  nice : by how much its priority is lowered
     """
     command = ["nice", "-n", str(nice), *python("hydro2d"), *arguments]
     with open(log, "a", encoding="utf-8") as file:
@@ -30,7 +30,7 @@ def detached(arguments: Sequence[str], log: Path, nice: int) -> int:
 
 @contextmanager
 def safe() -> Iterator[None]:
-    """For all Python processes that are started within the block, by whatever library."""
+    """Sets SAFE for all Python processes started within the block, by any library."""
     before = os.environ.get(SAFE)
     os.environ[SAFE] = "1"
     try:

@@ -1,7 +1,7 @@
-"""Tells how far the compilation of kernels is, and keeps the time that it takes.
+"""Reports the progress of the compilation of kernels and measures its time.
 
-Everything that a process waits for before its kernels run counts: compilation, and waiting for another process that compiles
-the same kernel. One line, "compiling kernels: 14 of 23, 21 s", moves every second in a `moving.Place`.
+All waiting before kernels run counts: compilation, and waiting for another process that compiles the same kernel. One line,
+"compiling kernels: 14 of 23, 21 s", is updated every second in a `moving.Place`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from hydro2d.files import turn, write_text
 from hydro2d.terminal import duration, several
 
 COMPILE = "numba:compile"
-#: seconds between two states of the line; a first call that has taken as long is more than the reading of a kernel
+#: seconds between updates of the line; a first call that takes longer has more to do than read a kernel
 BEAT = 1.0
 events = jit.compiler_events
 
@@ -33,13 +33,13 @@ class Compilation(events.Listener):
 
     Parameters
     ----------
-    place : where the line moves
-    second : the second process that helps, if one does
-    by_default : it is silent while another one listens
+    place : where the line is shown
+    second : the second process that helps, if there is one
+    by_default : whether it is silent while another one listens
 
     Attributes
     ----------
-    happened : bool; whether anything was compiled or waited for. Kernels that come from the cache are neither
+    happened : bool; whether anything was compiled or waited for. Kernels read from the cache do not count
     """
 
     def __init__(self, place: moving.Place, second: Second | None = None, by_default: bool = False):
@@ -58,28 +58,28 @@ class Compilation(events.Listener):
 
     @property
     def state(self) -> tuple[int, int | None]:
-        """Number of kernels that are compiled, by whatever process, and of all that have to be, None if that is not known."""
+        """Number of kernels compiled so far, by any process, and of all that must be compiled, None if that is not known."""
         return len(self._needed & self._done), len(self._needed) if self._listed else None
 
     def told(self, doing: str = "compiling") -> str:
-        """The line, such as "compiling kernels: 14 of 23, 21 s"."""
+        """Line such as "compiling kernels: 14 of 23, 21 s"."""
         done, whole = self.state
         count = f"{done} of {whole}" if whole else f"{done} so far"
         return f"{doing} kernels: {count}, {duration(self.seconds)}"
 
     def expect(self, names: Collection[str] | None) -> None:
-        """Kernels that will have to be compiled; None: nobody knows which."""
+        """Announces the kernels that must be compiled; None: not known."""
         self._listed = self._listed and names is not None
         self._needed |= set(names or ())
         if self._second and len(self._needed) > 1:
             self._second.start(self.done)
 
     def done(self, name: str) -> None:
-        """A kernel is compiled, by this process or by the second one."""
+        """Counts a kernel as compiled, by this process or by the second one."""
         self._done.add(name)
 
     def on_start(self, event) -> None:
-        """A first call or a compilation begins; they nest."""
+        """Called when a first call or a compilation begins; these nest."""
         with self._lock:
             self._depth += 1
             if event.kind == jit.FIRST_CALL:
@@ -94,7 +94,7 @@ class Compilation(events.Listener):
                 self._move()
 
     def on_end(self, event) -> None:
-        """It ends."""
+        """Called when it ends."""
         with self._lock:
             if event.kind == jit.FIRST_CALL:
                 self.done(event.data["kernel"])
@@ -108,7 +108,7 @@ class Compilation(events.Listener):
                     self._place.rest(self.told("compiled"))
 
     def _tick(self, ended: threading.Event) -> None:
-        """Moves the line at every whole second of `seconds`."""
+        """Updates the line at every whole second of `seconds`."""
         while not ended.wait(BEAT - self.seconds % BEAT):
             with self._lock:
                 self.happened = self.happened or time.perf_counter() - self._start >= BEAT
@@ -120,28 +120,28 @@ class Compilation(events.Listener):
         if self._by_default and len(_listening) > 1:
             return
         done, whole = self.state
-        with suppress(OSError):  # nobody reads it; what is printed next tells
+        with suppress(OSError):  # nobody reads the output; the next print raises the error
             self._place.move(self.told(), done / whole if whole else None)
 
     def settled(self) -> list[str]:
-        """Lines for the log after the first cycle, when the kernels of a run are compiled. Ends the second process."""
-        found = []
+        """Lines for the log after the first cycle, once the kernels of a run are compiled. Ends the second process."""
+        lines = []
         if self.happened and self.seconds > self._told:
             done, _ = self.state
-            found.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
+            lines.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
             self._told = self.seconds
         status = self._second.stop() if self._second else None
-        return found + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status
+        return lines + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status
                         else [])
 
     def listen(self) -> None:
-        """Begins."""
+        """Begins to listen."""
         _listening.append(self)
         for kind in (COMPILE, jit.FIRST_CALL):
             events.register(kind, self)
 
     def stop(self) -> None:
-        """Ends."""
+        """Ends listening, and the second process."""
         _listening.remove(self)
         for kind in (COMPILE, jit.FIRST_CALL):
             events.unregister(kind, self)
@@ -149,14 +149,14 @@ class Compilation(events.Listener):
             self._second.stop()
 
 
-#: those that listen now
+#: the current listeners
 _listening: list[Compilation] = []
 
 
 class Second:
     """A second process that compiles the kernels of a deck from last to first, while this process begins with the first.
 
-    Each takes from the cache what the other has compiled, and waits for a kernel that the other is compiling.
+    Each reads from the cache the kernels that the other has compiled, and waits for one that the other is compiling.
 
     deck : the resolved deck
     """
@@ -165,14 +165,14 @@ class Second:
         self._deck, self._process = deck, None
 
     def start(self, done: Callable[[str], None]) -> None:
-        """Starts it, if there is a second core. ``done`` gets the name of every kernel that it has compiled."""
+        """Starts the process, if there is a second core. ``done`` gets the name of every kernel that it has compiled."""
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
         if cores < 2 or self._process:
             return
         command = children.python("hydro2d.running.compile_ahead")
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         threading.Thread(target=self._listen, args=(self._process.stdout, done), daemon=True).start()
-        with suppress(BrokenPipeError):  # its exit status tells
+        with suppress(BrokenPipeError):  # its exit status shows the failure
             self._process.stdin.write(self._deck.to_toml().encode())
             self._process.stdin.close()
 
@@ -183,7 +183,7 @@ class Second:
                 done(line.decode(errors="replace").strip())
 
     def stop(self) -> int | None:
-        """Ends it. Returns its exit status if it had failed, else None."""
+        """Ends the process. Returns its exit status if it had failed, else None."""
         process, self._process = self._process, None
         if process is None:
             return None
@@ -196,9 +196,9 @@ class Second:
 
 @contextmanager
 def announced(place: moving.Place, helped=None) -> Iterator[Compilation]:
-    """A line moves in a place while kernels are compiled within the block.
+    """Shows a line in a place while kernels are compiled within the block.
 
-    helped : a resolved deck, of which a second process helps to compile the kernels
+    helped : a resolved deck, whose kernels a second process helps to compile
     """
     listener = Compilation(place, Second(helped) if helped else None)
     listener.listen()
@@ -209,9 +209,9 @@ def announced(place: moving.Place, helped=None) -> Iterator[Compilation]:
 
 
 def expect(key: str, calls: Callable[[], Iterable[jit.Call]]) -> None:
-    """Tells whoever listens which kernels will have to be compiled; without any, a line moves from here on (`moving.place`).
+    """Announces the kernels that must be compiled to all listeners; without any, shows a line from here on (`moving.place`).
 
-    key : name of the set of kernels;  calls : lists them. It is asked until all of them are found in the cache.
+    key : name of the set of kernels;  calls : lists them, and is called until all of them are in the cache
     """
     if jit.is_recording():
         return
@@ -236,7 +236,7 @@ def _missing(calls: Callable[[], Iterable[jit.Call]]) -> list[str] | None:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return [call.name for call in calls() if not call.is_compiled()]
-    except Exception:  # nothing was computed, so anything can be wrong; the deck itself is run next
+    except Exception:  # any error may occur before anything is computed; the deck is run next and raises it
         return None
 
 
@@ -247,7 +247,7 @@ def _mark(key: str) -> Path:
 
 
 def _touch(mark: Path) -> None:
-    """Makes the file; where nothing can be written, the kernels are listed again each time."""
+    """Makes the file; if it cannot be written, the kernels are listed again each time."""
     with suppress(OSError):
         mark.parent.mkdir(parents=True, exist_ok=True)
         mark.touch()
@@ -259,7 +259,7 @@ def is_compiled(key: str) -> bool:
 
 
 def once(key: str, compile: Callable[[], None]) -> None:
-    """Calls `compile` unless a process has done so for this key. Of several processes at once, one does and the others wait.
+    """Calls `compile` unless a process has done so for this key. Among several processes, one calls it and the others wait.
 
     key : name of the set of kernels
     """
@@ -278,7 +278,7 @@ def once(key: str, compile: Callable[[], None]) -> None:
 
 
 class _Shared:
-    """A file that tells other processes the state."""
+    """A file that shows the state to other processes."""
 
     def __init__(self, path: Path):
         self._path = path

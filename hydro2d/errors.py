@@ -10,12 +10,12 @@ import functools
 from collections.abc import Iterable
 from contextlib import contextmanager
 
-#: largest number of lines of a message, and of characters of a line
+#: largest number of lines in a message, and of characters in a line
 MOST_LINES, LONGEST_LINE = 50, 2000
 
 
 def limited(message: str) -> str:
-    """A message that a reader can take in: its first lines, the middle of long ones left out."""
+    """A message short enough to read: its first lines, without the middle of long ones."""
     lines = message.split("\n")
     kept = [line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
             for line in lines[:MOST_LINES]]  # fmt: skip
@@ -23,7 +23,7 @@ def limited(message: str) -> str:
 
 
 class Error(Exception):
-    """The base of what hydro2d raises for its users; the message says what is wrong, and what is allowed."""
+    """Base of the errors that hydro2d raises for its users; the message says what is wrong and what is allowed."""
 
     def __init__(self, *said: object):
         super().__init__(*(limited(part) if isinstance(part, str) else part for part in said))
@@ -38,15 +38,15 @@ class TargetError(Error):
 
 
 class MissingPackage(Error, ImportError):
-    """A package that an extra of hydro2d brings is not installed; the message has the command that installs it."""
+    """A package of one of hydro2d's extras is not installed; the message has the command that installs it."""
 
 
 @contextmanager
 def from_extra(extra: str, wanted: str):
-    """For imports of packages that only an extra brings. Raises MissingPackage.
+    """Wraps imports of packages that only an extra installs. Raises MissingPackage.
 
     extra : its name in pyproject.toml
-    wanted : what needs the package, at the beginning of the message
+    wanted : the feature that needs the package, at the beginning of the message
     """
     try:
         yield
@@ -56,12 +56,12 @@ def from_extra(extra: str, wanted: str):
 
 
 class UnphysicalState(Error):
-    """The state has become one that no material can have; the message gives the place, the body and the values."""
+    """The state has become physically impossible; the message gives the place, the body and the values."""
 
 
-#: a name is near another if they share this much of their letters, as difflib counts: of three letters two
+#: a name is near another if they share this fraction of their letters, as difflib counts: two of three letters
 NEAR = 0.65
-#: a name of at least so many letters is near those that begin with it
+#: a name of at least this many letters is near those that begin with it
 BEGINNING = 3
 
 
@@ -72,10 +72,10 @@ def nearest(name: str, allowed: Iterable[str]) -> str | None:
         return None
     names = [str(entry) for entry in allowed]
     lower = {entry.lower(): entry for entry in reversed(names)}
-    found = difflib.get_close_matches(name, list(lower), n=1, cutoff=NEAR)
-    if not found and len(name) >= BEGINNING:
-        found = sorted((entry for entry in lower if entry.startswith(name)), key=len)
-    return lower[found[0]] if found else None
+    matches = difflib.get_close_matches(name, list(lower), n=1, cutoff=NEAR)
+    if not matches and len(name) >= BEGINNING:
+        matches = sorted((entry for entry in lower if entry.startswith(name)), key=len)
+    return lower[matches[0]] if matches else None
 
 
 #: largest number of names that a message lists, and of characters of a name that is compared with others
@@ -83,7 +83,7 @@ MOST_NAMES, LONGEST_NAME = 40, 200
 
 
 def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
-    """'unknown material "W_aloy"; did you mean "W_alloy"? (allowed: ...)'; of a long list only the nearest names."""
+    """'unknown material "W_aloy"; did you mean "W_alloy"? (allowed: ...)'; only the nearest names of a long list."""
     names = sorted(str(entry) for entry in allowed)
     close = nearest(name, names)
     hint = f'; did you mean "{close}"?' if close else ""
@@ -95,7 +95,7 @@ def unknown(what: str, name: str, allowed: Iterable[str]) -> str:
 
 
 def in_words(entry: dict) -> str:
-    """What is said of one of pydantic's errors, without its place; unknown keys are left to those who know the table."""
+    """The message for one of pydantic's errors, without its place. The caller, who knows the table, handles unknown keys."""
     kind = entry["type"]
     if kind == "missing":
         return "is missing"
@@ -129,10 +129,10 @@ class _Scanner:
         return self.text[self.at : self.at + length]
 
     def _take(self, length: int = 1) -> str:
-        taken = self._next(length)
+        text = self._next(length)
         self.at += length
-        self.line += taken.count("\n")
-        return taken
+        self.line += text.count("\n")
+        return text
 
     def _skip(self, newlines: bool) -> bool:
         """Skips blanks and comments; False at the end of the text."""
@@ -256,7 +256,7 @@ def key_lines(text: str) -> dict[tuple, int]:
 
 
 def spelled(path: tuple) -> str:
-    """A key as it is written: ("body", 0, "name") is body[0].name."""
+    """A key as written in a deck: ("body", 0, "name") is body[0].name."""
     text = ""
     for part in path:
         text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else str(part)
@@ -266,7 +266,7 @@ def spelled(path: tuple) -> str:
 class Sources:
     """The files from which a deck was assembled, so that a key can be traced to its line.
 
-    They are searched in the order of precedence: command line, the deck, its includes.
+    They are searched in order of precedence: command line, the deck, its includes.
     """
 
     def __init__(self) -> None:
@@ -274,7 +274,7 @@ class Sources:
         self._set: dict[tuple, str] = {}
 
     def add(self, name: str, data: dict, text: str) -> None:
-        """Registers a file, before the files that it includes. Its lines are only searched when one is needed."""
+        """Registers a file, before the files that it includes. Its lines are searched only when one is needed."""
         self._files.append((name, data, text))
 
     @property
@@ -284,7 +284,7 @@ class Sources:
 
     def add_override(self, path: tuple, said: str) -> None:
         """Registers an override under its name in messages; the path has names where arrays hold named entries."""
-        self._set.pop(path, None)  # the last word stands last
+        self._set.pop(path, None)  # the last override comes last
         self._set[path] = said
 
     def where(self, path: tuple, merged: dict) -> str:

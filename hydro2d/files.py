@@ -30,7 +30,7 @@ def sync(path: Path) -> None:
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Gives a temporary name in the same folder, which is renamed to `path` on success and removed on an exception."""
+    """Yields a temporary name in the same folder, which is renamed to `path` on success and removed on an exception."""
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(4)}.tmp")  # no link can wait at a random name
     check_place(path)
@@ -50,7 +50,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def hdf5(path: Path) -> Iterator:
-    """Gives an h5py.File in memory and writes it to disk at the end, so that a full disk raises one OSError.
+    """Yields an h5py.File in memory and writes it to disk at the end, so that a full disk raises one OSError.
 
     With a file on disk, h5py would print the error again for every object that is closed, and go on. The format is that of HDF5
     1.8, in which an attribute may be larger than 64 KiB.
@@ -80,13 +80,13 @@ def read_text(path: Path, error: type[Error]) -> str:
 
 
 def write_text(path: Path, text: str, *, checksum: bool = False) -> None:
-    """Writes a text, with its checksum if that is wanted."""
+    """Writes a text, with its checksum if requested."""
     data = text.encode("utf-8")
     with replacing(path) as temporary:
         temporary.write_bytes(sealed(data, Path(path).suffix) if checksum else data)
 
 
-#: letters of a lock file that are read
+#: number of characters read from a lock file
 MOST_SAID = 1000
 
 
@@ -99,14 +99,14 @@ class LostPlaceError(Error):
 
 
 class Holder(NamedTuple):
-    """Who holds a lock."""
+    """The process that holds a lock."""
 
     host: str
     process: int
 
     @property
     def is_here(self) -> bool:
-        """Whether it is a process on this machine."""
+        """Whether the process is on this machine."""
         return self.host == socket.gethostname()
 
     def __str__(self) -> str:
@@ -114,17 +114,17 @@ class Holder(NamedTuple):
 
 
 def holder(path: Path) -> Holder | None:
-    """Who holds a lock; None if it does not exist, or was left behind by a process on this machine."""
+    """The holder of a lock; None if the lock does not exist, or was left behind by a process on this machine."""
     try:
         with opened(path) as file:
-            found = _said(file.read(MOST_SAID))
-            left = found is not None and found.is_here and _taken(file)
+            owner = _said(file.read(MOST_SAID))
+            left = owner is not None and owner.is_here and _take_lock(file)
     except (FileNotFoundError, NotADirectoryError):
         return None
-    return None if left else found
+    return None if left else owner
 
 
-def _taken(file: TextIO) -> bool:
+def _take_lock(file: TextIO) -> bool:
     """Takes the lock of an open file, for as long as it is open, unless a process on this machine has it."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -135,19 +135,18 @@ def _taken(file: TextIO) -> bool:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Holds a lock file, which says who holds it.
+    """Holds a lock file, which names its holder.
 
-    On one machine, the lock belongs to the operating system (flock). It ends with the process, however that ends, and a process
-    number that is used again cannot imitate it. Between machines, the contents of the file count; it is removed at the end.
-    As long as the lock is held, `replacing` and `remove` refuse to touch anything beside or below it that is no longer beside
-    or below this very file.
+    On one machine, the lock belongs to the operating system (flock). It ends with the process, however that ends, and a reused
+    process number cannot imitate it. Between machines, the contents of the file count; it is removed at the end. While the lock
+    is held, `replacing` and `remove` work in its directory, or below it, only as long as this same file is still there.
 
     Raises LockError if another process holds the lock.
     """
     path, tries = Path(path), 5
     while True:
         with opened(path, "a+") as file:
-            free = _taken(file)
+            free = _take_lock(file)
             if free and not _is_at(file, path):
                 continue  # its former holder has removed it in the meantime
             if not free and tries:  # this may be a process that only checks whether the lock is held
@@ -163,27 +162,27 @@ def locked(path: Path) -> Iterator[None]:
             file.write(f"{socket.gethostname()} {os.getpid()}\n")
             file.flush()
             place = Path(os.path.abspath(path.parent))
-            _held.setdefault(place, []).append((file, path))
+            _own_locks.setdefault(place, []).append((file, path))
             try:
                 yield
             finally:
-                _held[place].remove((file, path))
+                _own_locks[place].remove((file, path))
                 if _is_at(file, path):
                     path.unlink(missing_ok=True)
             return
 
 
-#: the locks that this process holds, by the absolute path of their directory
-_held: dict[Path, list[tuple[TextIO, Path]]] = {}
+#: locks that this process holds, by the absolute path of their directory
+_own_locks: dict[Path, list[tuple[TextIO, Path]]] = {}
 
 
 def check_place(path: Path) -> None:
-    """Raises LostPlaceError if this process has locked a directory in which a path is, and the lock is no longer there.
+    """Raises LostPlaceError if this process has locked a directory above a path, and the lock is no longer there.
 
-    The directory is then another one: it was removed or renamed, and may be another process's by now.
+    The directory was then removed or renamed, and another process may be using the one that is there now.
     """
     for place in Path(os.path.abspath(path)).parents:
-        for file, lock in _held.get(place, ()):
+        for file, lock in _own_locks.get(place, ()):
             if not _is_at(file, lock):
                 raise LostPlaceError(f"{place} was removed, renamed or taken by another process since this one began to write "
                                      "there; nothing more is written")  # fmt: skip
@@ -210,7 +209,7 @@ def _is_at(file: TextIO, path: Path) -> bool:
 
 
 def plain(value):
-    """A copy with numpy numbers and arrays as Python numbers and lists, and paths as text: what TOML and JSON can hold."""
+    """A copy that TOML and JSON can hold: numpy numbers and arrays as Python numbers and lists, paths as text."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -221,7 +220,7 @@ def plain(value):
 
 
 def _finite(value):
-    """Plain data with null for what is not finite, which JSON cannot represent."""
+    """Plain data with null for non-finite numbers, which JSON cannot represent."""
     if isinstance(value, dict):
         return {key: _finite(item) for key, item in value.items()}
     if isinstance(value, list):
@@ -233,13 +232,13 @@ def read_json(path: Path, error: type[Error]) -> dict:
     """The table in a JSON file whose checksum fits. Raises `error` with one line."""
     text = verified_text(path, error)
     try:
-        found = json.loads(text)
+        table = json.loads(text)
     except (ValueError, RecursionError) as problem:
         raise error(f"{path} cannot be read: {problem}") from None
-    if not isinstance(found, dict):
-        raise error(f"{path} cannot be read: it holds no table")
-    found.pop(KEY, None)
-    return found
+    if not isinstance(table, dict):
+        raise error(f"{path} cannot be read: it is not a table")
+    table.pop(KEY, None)
+    return table
 
 
 def write_json(path: Path, value) -> None:
@@ -250,8 +249,8 @@ def write_json(path: Path, value) -> None:
 def turn(file: Path) -> Iterator[None]:
     """Waits until no other process is in such a block with this file, and makes others wait. Makes the file if necessary.
 
-    The turn ends with the process, however that ends. For short work on one machine, of which two processes at once only do
-    more than necessary: where the file cannot be made (on a full disk, in a folder that is read-only), nobody waits.
+    The turn ends with the process, however that ends. Meant for short work on one machine that is merely done twice if two
+    processes do it at once: if the file cannot be made (on a full disk, in a read-only folder), nobody waits.
     """
     handle = None
     with suppress(OSError):

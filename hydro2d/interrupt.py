@@ -1,4 +1,4 @@
-"""What makes a run stop after its cycle: a signal, a closed pipe, or a program that requests it."""
+"""Interrupts that stop a run after its cycle: a signal, a closed pipe, or a request by a program."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-#: exit status of a process that a signal has ended, as in shells
+#: exit status of a process ended by a signal, as in shells
 STATUS = {number.name: 128 + number for number in (signal.SIGHUP, signal.SIGINT, signal.SIGPIPE, signal.SIGTERM)}
 #: the signals that end a run after its cycle
 CAUGHT = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
@@ -36,9 +36,9 @@ def status(reason: str) -> int:
 
 @contextmanager
 def signals(interrupt: Interrupt) -> Iterator[None]:
-    """SIGINT, SIGTERM and SIGHUP set the interrupt; a second signal has its former effect. Only the main thread gets signals.
+    """SIGINT, SIGTERM and SIGHUP set the interrupt; a second signal has its usual effect. Only the main thread gets signals.
 
-    A signal that was ignored before, such as SIGHUP under nohup, is still ignored. A nested block for the same interrupt
+    A signal that was ignored before, such as SIGHUP under nohup, stays ignored. A nested block for the same interrupt
     changes nothing.
     """
     if interrupt.hears_signals or threading.current_thread() is not threading.main_thread():
@@ -68,7 +68,7 @@ _came: list[str] = []
 
 
 def ended_by() -> str:
-    """The name of the signal that ends a command. It is kept because other code may replace the exception that it raised."""
+    """The name of the signal that ended a command. It is kept because other code may replace the exception that it raised."""
     return _came[0] if _came else "SIGINT"
 
 
@@ -77,7 +77,7 @@ def raise_between_imports() -> None:
 
     An exception in the middle of an import turns into another one or, in C libraries, ends in a crash. Where Python cannot
     propagate the exception, such as in a finaliser or in a callback from C, it is raised again shortly after. A signal that was
-    ignored before, such as SIGHUP under nohup, is still ignored. To be called in the main thread of a command.
+    ignored before, such as SIGHUP under nohup, stays ignored. To be called in the main thread of a command.
     """
 
     def handle(number, frame):
@@ -89,13 +89,13 @@ def raise_between_imports() -> None:
             raise KeyboardInterrupt
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
 
-    told = sys.unraisablehook
+    previous_hook = sys.unraisablehook
 
     def lost(unraisable):
         if unraisable.exc_type is KeyboardInterrupt and _came:
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
         else:
-            told(unraisable)
+            previous_hook(unraisable)
 
     sys.unraisablehook = lost
     signal.signal(signal.SIGALRM, handle)
@@ -105,9 +105,9 @@ def raise_between_imports() -> None:
 
 
 def open_closed_streams() -> None:
-    """Opens those of the three standard streams that the process was started without: nothing is read, or all is discarded.
+    """Opens each standard stream that the process was started without: reads give nothing, writes are discarded.
 
-    To be called before anything else is opened, which would get their numbers.
+    To be called before anything else is opened, since that would get the number of a missing stream.
     """
     for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
         if getattr(sys, name) is None:

@@ -1,6 +1,6 @@
-"""A line that moves: the state of something that takes long, on a terminal, below the cell of a notebook, or now and then.
+"""A progress line for slow work: redrawn on a terminal or below the cell of a notebook, elsewhere printed now and then.
 
-The solver uses it for what a program calls. A run has a report of its own (`running/progress.py`) with the same two methods.
+It is shown when a program calls the solver. A run has its own report (`running/progress.py`) with the same two methods.
 """
 
 from __future__ import annotations
@@ -13,20 +13,20 @@ from typing import Protocol
 
 from hydro2d.terminal import one_line, say, shown
 
-#: seconds between lines where nothing can be redrawn
+#: seconds between lines where they cannot be redrawn
 LINE_SECONDS = 5.0
-#: characters of a bar on a terminal
+#: width of a bar on a terminal, characters
 BAR = 30
 
 
 class Place(Protocol):
-    """Where a line moves."""
+    """A place where the line is shown."""
 
     def move(self, text: str, share: float | None) -> None:
-        """Shows the state; share : of the work that is done, 0 to 1, None if it is not known."""
+        """Shows the state; share : of the work that is done, 0 to 1, None if not known."""
 
     def rest(self, text: str) -> None:
-        """The line stops, for now or for good; ``text`` says what was done."""
+        """Ends the line, for now or for good; ``text`` says what was done."""
 
 
 class Lines:
@@ -62,7 +62,7 @@ class Terminal:
 
 
 class Page:
-    """What stands below a cell, as HTML for notebooks and as text for what shows no HTML.
+    """The output below a cell: HTML for notebooks, text for programs that show no HTML.
 
     lines : of text;  done : share for a bar, 0 to 1, None: not known;  table : values by name;  bar : whether there is a bar
     """
@@ -87,7 +87,7 @@ class Page:
 
 
 class Notebook:
-    """A line and a bar below the cell that runs when they first move."""
+    """A line and a bar below the cell that is running when they first appear."""
 
     def __init__(self) -> None:
         self._place = None
@@ -109,9 +109,9 @@ class Notebook:
 
 
 def is_notebook() -> bool:
-    """Whether this process is the kernel of a notebook, which shows HTML."""
-    found = sys.modules.get("IPython")
-    shell = found.get_ipython() if found is not None else None
+    """Whether this process is the kernel of a notebook, which can show HTML."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
     return shell is not None and hasattr(shell, "kernel")
 
 

@@ -1,4 +1,4 @@
-"""Description of a material model: its parameters, and its page for ``hydro2d info``.
+"""Descriptions of material models: their parameters, and their pages for ``hydro2d info``.
 
 A model is a module with the constants ``NAME`` (its name in decks), ``ID`` (the integer that kernels compare), ``EQUATION``,
 ``SOURCE``, ``VALIDITY`` and ``PARAMETERS``, and a function ``row(values)`` that packs the parameters into the one-dimensional
@@ -15,7 +15,7 @@ from types import ModuleType
 
 
 class Required:
-    """The default value of a parameter that must be given."""
+    """The default of a parameter that must be given."""
 
     def __repr__(self) -> str:
         return "required"
@@ -32,7 +32,7 @@ class Parameter:
 
     ``unit`` is in SI, and empty for a pure number. ``default`` is a float or ``REQUIRED``; only a parameter with an infinite
     default may be infinite. ``sign`` is ``ANY``, ``POSITIVE`` or ``NON_NEGATIVE``. ``from_eos`` marks a property of the
-    material that its equation of state has under the same name.
+    material that its equation of state also has, under the same name.
     """
 
     name: str

@@ -11,12 +11,12 @@ _one_at_a_time = threading.Lock()
 def parsed(text: str, mode: str = "exec") -> ast.AST:
     """The tree that `ast.parse` gives. Raises what it raises.
 
-    Python counts the depth of the tree for all threads together, and fails with a SystemError where two threads parse at once.
+    Python counts the depth of the tree for all threads together, and raises SystemError if two threads parse at once.
     """
     with _one_at_a_time:
         return ast.parse(text, mode=mode)
 
 
 def executed(text: str, file: str, names: dict) -> None:
-    """Executes the text of a module, whose functions name the file as theirs, among some names. Raises what it raises."""
+    """Executes the text of a module in the namespace `names`; tracebacks name `file`. Raises what the text raises."""
     exec(compile(parsed(text), file, "exec"), names)

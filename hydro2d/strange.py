@@ -1,4 +1,4 @@
-"""What must not be in a run or a study that comes from someone else: links, pipes and devices in the place of files."""
+"""Refuses links, pipes and devices in place of files, in a run or a study that comes from someone else."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from hydro2d.errors import Error
 
 
 class StrangeFile(Error):
-    """A pipe or a device in the place of a file, or a symbolic link inside a run or a study; the message is for the user."""
+    """A pipe or a device in place of a file, or a symbolic link inside a run or a study; the message is for the user."""
 
 
 def own(path: Path, *, links: bool = False) -> Path:
-    """The path, if nothing is there, or a file or a folder that is really there.
+    """The path, if it is a regular file or a folder, or if nothing is there.
 
-    What someone else has put into a run or a study can make a command wait for ever (a pipe), or write and read elsewhere (a
-    symbolic link). `links` allows symbolic links, for files that the user names.
+    A pipe that someone else has put into a run or a study can make a command wait forever, and a symbolic link can make it
+    write and read elsewhere. `links` allows symbolic links, for files that the user names.
 
     Raises StrangeFile.
     """
@@ -34,7 +34,7 @@ def own(path: Path, *, links: bool = False) -> Path:
 
 
 def within(folder: Path, name: str) -> Path:
-    """What a file of a run or a study names in a folder, by a relative path that leads nowhere else. Raises StrangeFile."""
+    """A file that a run or a study names by a relative path, which must stay inside the folder. Raises StrangeFile."""
     parts = PurePosixPath(name).parts
     if not parts or parts[0] == "/" or ".." in parts or "\0" in name:
         raise StrangeFile(f"{name!r} does not name a file in {folder}")
@@ -44,7 +44,7 @@ def within(folder: Path, name: str) -> Path:
 
 
 def own_folder(path: Path) -> Path:
-    """Makes a folder of a run or a study where there is none. Raises StrangeFile if a symbolic link is there."""
+    """Makes a folder of a run or a study if there is none. Raises StrangeFile if a symbolic link is there."""
     own(path).mkdir(parents=True, exist_ok=True)
     return path
 

@@ -15,17 +15,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-#: characters in a line where there is no terminal: a file or another program gets every line whole
+#: width without a terminal: a file or another program gets every line whole
 NO_TERMINAL = 1_000_000
-#: a line goes on below its last column if that begins before this share of the width, else so many characters further in
-#: than it begins
+#: a wrapped line continues below its last column if that begins within this share of the width, else this many characters
+#: further in than the line begins
 MOST_INDENT, FURTHER = 0.7, 4
-#: categories of characters that are not shown but change what is: control, direction of writing, lines
+#: categories of invisible characters that change the display: control, direction of writing, lines
 _STEERING = frozenset(("Cc", "Cf", "Zl", "Zp"))
 
 
 def shown(text: object) -> str:
-    """A text in which only line feeds and tabs are not to be seen; other such characters are spelled out, as in \\x1b."""
+    """A text whose only invisible characters are line feeds and tabs; others are spelled out, as in \\x1b."""
     text = str(text)
     if text.isprintable():
         return text
@@ -34,18 +34,18 @@ def shown(text: object) -> str:
 
 def _shown(character: str) -> str:
     kind = unicodedata.category(character)
-    if kind == "Cs":  # a byte of a name that is no text
+    if kind == "Cs":  # a byte of a file name that is not text
         return "?"
     return character if character in "\n\t" or kind not in _STEERING else character.encode("unicode_escape").decode()
 
 
 def one_line(text: object) -> str:
-    """The same on one line."""
+    """A text as `shown` gives it, on one line."""
     return shown(text).replace("\n", "\\n")
 
 
 def duration(seconds: float, tenths: bool = False) -> str:
-    """'1 h 02 min', '3 min 20 s', '12 s'; with ``tenths`` also '3.1 s', for what was measured."""
+    """'1 h 02 min', '3 min 20 s', '12 s'; with ``tenths`` also '3.1 s', for measured times."""
     if tenths and seconds < 9.95:
         return f"{seconds:.1f} s"
     seconds = round(seconds)
@@ -62,19 +62,19 @@ def several(number: object, what: str) -> str:
 
 
 def cell(text: str) -> str:
-    """A text as a cell or a head of a CSV file: none that a spreadsheet would take for a formula."""
+    """A text as a cell or head of a CSV file, such that no spreadsheet takes it for a formula."""
     return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
 
 
 def width() -> int:
-    """Characters in a line of the terminal that the output goes to; NO_TERMINAL if it goes elsewhere and COLUMNS is not set."""
+    """Width of the terminal that shows the output, characters; NO_TERMINAL without one, unless COLUMNS is set."""
     return shutil.get_terminal_size((NO_TERMINAL, 24)).columns
 
 
 def wrapped(text: str) -> str:
-    """Lines that break at words where the terminal is narrower, and go on below the last of their columns.
+    """Lines wrapped at words to the width of the terminal, and continued below their last column.
 
-    Columns have two spaces or more between them.
+    Columns have two or more spaces between them.
     """
     return "\n".join(map(_wrapped, text.split("\n")))
 
@@ -92,7 +92,7 @@ def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:
 
 
 def flush() -> None:
-    """Writes what was printed and not yet written. Raises OSError, which names the stream."""
+    """Writes out the buffered output. Raises OSError, which names the stream."""
     with _named():
         sys.stdout.flush()
 

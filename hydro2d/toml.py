@@ -18,23 +18,23 @@ from hydro2d import checksums, units
 from hydro2d.errors import DeckError, Sources, entry_index
 from hydro2d.files import read_text
 
-#: what `numbers` of a deck is where numbers without a unit are in SI units
+#: value of `numbers` in a deck whose numbers without a unit are in SI
 SI = "SI"
-#: the parts of a material that are described by a model
+#: parts of a material that a model describes
 PARTS = ("eos", "strength", "damage")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-#: what a deck can hold: characters, values, tables or lists within each other, and files
+#: limits of a deck: characters, values, depth of nested tables or lists, and files
 MOST_TEXT, MOST_VALUES, DEEPEST, MOST_FILES = 4_000_000, 100_000, 30, 100
-#: characters of the key of an override
+#: largest number of characters in the key of an override
 LONGEST_KEY = 1000
-_TOO_DEEP = f"tables or lists stand within each other more than {DEEPEST} deep"
+_TOO_DEEP = f"tables or lists are nested more than {DEEPEST} deep"
 _TOO_LONG = "an integer has more than 18 digits; give a number with a decimal point"
-#: a key of more parts, which tomllib takes long to read
+#: a key with too many parts, which tomllib would take long to read
 _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){40}""")
 
 
 def problems_folder() -> Path:
-    """The folder of decks and materials: beside the package in a checkout, inside it when installed."""
+    """The folder of decks and materials: next to the package in a checkout, inside it when installed."""
     here = Path(__file__).resolve().parent
     for folder in (here.parent / "problems", here / "problems"):
         if (folder / "materials").is_dir():
@@ -48,7 +48,7 @@ def is_study(data: dict) -> bool:
 
 
 def parse(text: str, name: str) -> dict:
-    """TOML as a dict. Raises DeckError with file and line if the text is not valid TOML, or holds more than a deck can."""
+    """TOML as a dict. Raises DeckError with file and line if the text is not valid TOML, or exceeds the limits of a deck."""
     if len(text) > MOST_TEXT:
         raise DeckError(f"{name}: has {len(text)} characters; at most {MOST_TEXT} are allowed")
     if _DOTTED.search(text):
@@ -59,15 +59,15 @@ def parse(text: str, name: str) -> dict:
         raise DeckError(f"{name}: {_TOO_DEEP}") from None
     except tomllib.TOMLDecodeError as problem:
         message = str(problem)
-        found = re.search(r"\(at line (\d+), column (\d+)\)", message)
-        line = found.group(1) if found else str(text.count("\n") + 1)
+        position = re.search(r"\(at line (\d+), column (\d+)\)", message)
+        line = position.group(1) if position else str(text.count("\n") + 1)
         raise DeckError(f"{name}:{line}: not valid TOML: {message.split(' (at ')[0].lower()}") from None
     except ValueError:
         raise DeckError(f"{name}: {_TOO_LONG}") from None
 
 
 def within_limits(data, name: str):
-    """The same data. Raises DeckError if it holds more values, deeper tables or longer integers than a deck can."""
+    """The data, unchanged. Raises DeckError for more values, deeper tables or longer integers than a deck can have."""
     waiting, number = [(data, 0)], 0
     while waiting:
         value, depth = waiting.pop()
@@ -75,7 +75,7 @@ def within_limits(data, name: str):
         if depth > DEEPEST:
             raise DeckError(f"{name}: {_TOO_DEEP}")
         if number + len(waiting) > MOST_VALUES:
-            raise DeckError(f"{name}: has more than {MOST_VALUES} values, which is the most that a deck can hold")
+            raise DeckError(f"{name}: has more than {MOST_VALUES} values, the most that a deck can hold")
         if isinstance(value, int) and abs(value) >= 1 << 63:
             raise DeckError(f"{name}: {_TOO_LONG}")
         if isinstance(value, Mapping):
@@ -92,22 +92,22 @@ def read(path: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
         circle = " -> ".join(entry.name for entry in (*chain[chain.index(path.resolve()) :], path))
         raise DeckError(f"{chain[-1]}: include: the files include each other in a circle: {circle}")
     if sources.number > MOST_FILES:
-        raise DeckError(f"{path}: include: the deck includes more than {MOST_FILES} files, those counted again that come again")
+        raise DeckError(f"{path}: include: the deck includes more than {MOST_FILES} files, counting repeated ones each time")
     text = read_text(path, DeckError)
     return assemble(text, str(path), path.parent, sources, (*chain, path.resolve()))
 
 
 def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """Deck text merged with its includes, which are searched for in its folder and among the shipped decks."""
+    """Deck text merged with its includes, which are looked up in its folder and among the shipped decks."""
     data = parse(text, name)
-    if checksums.begins_with_one(text):  # a resolved deck, of whatever version
+    if checksums.begins_with_one(text):  # a resolved deck, of any version
         data.setdefault("numbers", SI)
     sources.add(name, data, text)
     return with_included(data, folder, sources, chain)
 
 
 def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
-    """The tables of a deck merged with its includes, which are searched for in a folder and among the shipped decks.
+    """The tables of a deck merged with its includes, which are looked up in a folder and among the shipped decks.
 
     Numbers of a file that does not say numbers = "SI" are marked as bare.
     """
@@ -126,7 +126,7 @@ def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path,
 
 
 def model_tables(data: dict) -> Iterator[tuple[tuple, dict]]:
-    """The tables of models in the materials of a deck, with their paths. The deck may be wrong in any way."""
+    """The tables of models in the materials of a deck, with their paths. The deck may contain any error."""
     waiting = [(("materials", name), table) for name, table in _table(data.get("materials")).items()]
     while waiting:
         path, table = waiting.pop(0)
@@ -139,7 +139,7 @@ def _table(value) -> dict:
 
 
 def placed(data: dict, folder: Path) -> dict:
-    """A deck with full paths of the files of its models, code and tables, which are relative to a folder."""
+    """A deck in which the files of its models (code and tables), relative to a folder, have full paths."""
     data = copy.deepcopy(data)
     for _, table in model_tables(data):
         for key in ("file", "table"):
@@ -149,7 +149,7 @@ def placed(data: dict, folder: Path) -> dict:
 
 
 def placed_value(key: str, value, folder: Path):
-    """The value of an override, with full paths of the files of models, as `placed` gives them."""
+    """The value of an override, with full paths of model files, as `placed` gives them."""
     parts = key_parts(key)
     nested = value
     for part in reversed(parts):
@@ -195,14 +195,14 @@ def key_parts(key: str) -> list[str]:
 
 
 def assigned(key: str, value) -> str:
-    """The override that gives a key a value, or removes it where the value is None."""
+    """The override that sets a key to a value, or removes it if the value is None."""
     return f"{key}=" if value is None else f"{key}={inline(value)}"
 
 
 def assignment(text: str) -> tuple[str, Any]:
     """Key and value of ``key=value``. The value is read as TOML, or as a plain string if it is not valid TOML.
 
-    Of ``key=``, which removes a key, the value is None.
+    The value of ``key=``, which removes a key, is None.
     """
     key, equals, value_text = text.partition("=")
     if len(text) > MOST_TEXT or len(key) > LONGEST_KEY or _DOTTED.search(value_text):
@@ -222,7 +222,7 @@ def assignment(text: str) -> tuple[str, Any]:
 
 
 def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
-    """Overrides a value of the deck. Entries of arrays are found by name, as in ``body.rod.velocity``, or by number from 0.
+    """Overrides a value of the deck. Entries of arrays are addressed by name, as in ``body.rod.velocity``, or by number from 0.
 
     said : name of the override in messages, such as "--set body.rod.velocity=1200 m/s"
     """
@@ -237,7 +237,7 @@ def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
 
 
 def removed(data: dict, key: str, said: str) -> dict:
-    """The deck without a key, which then has its default; the same deck where it has no such key."""
+    """The deck without a key, which then takes its default; an equal deck if it has no such key."""
     *keys, last = key_parts(key)
     result = copy.deepcopy(data)
     place: Any = result
@@ -253,7 +253,7 @@ def removed(data: dict, key: str, said: str) -> dict:
 
 
 def _put(data: dict, keys: list[str], value, said: str) -> list:
-    """Sets a value. Returns its path, with indices of entries in place of their names."""
+    """Sets a value. Returns its path, with indices instead of names of entries."""
     place, path = data, []
     for depth, key in enumerate(keys):
         last = depth == len(keys) - 1

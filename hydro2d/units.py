@@ -2,9 +2,9 @@
 
 A table holds the common units. Pint, which takes long to import, converts all others.
 
-A number without a unit is in SI where a program gives it. In a deck that does not say numbers = "SI" it is refused: `bare`
-marks the numbers of such a deck, and `to_si` refuses a number that is marked, unless it is 0 or the quantity is a plain number.
-`of_argument` refuses it in the arguments of commands.
+A number without a unit that a program gives is in SI. In a deck without numbers = "SI" it is refused: `bare` marks the numbers
+of such a deck, and `to_si` refuses a marked number, unless it is 0 or the quantity is a plain number. `of_argument` refuses it
+in the arguments of commands.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ REACH = {
     "rad/s": (1e-12, 1e9, "no body spins so fast"),
 }
 
-#: by SI unit: the unit in which a number below the first bound, or from the second one on, is probably meant
+#: by SI unit: the unit probably meant by a number below the first bound, or from the second one on
 MEANT = {
     "m": ((0.0, ""), (0.2, "mm")),
     "s": ((0.0, ""), (1e-2, "us")),
@@ -71,9 +71,9 @@ MEANT = {
     "rad": ((0.0, ""), (1.6, "deg")),
 }
 
-#: characters of a quantity
+#: largest number of characters in a quantity
 LONGEST = 200
-#: a power of a unit; a power of a power, which may be a number without end; a digit other than the 1 of 1/s
+#: a power of a unit; a power of a power, which may be an endless number; a digit other than the 1 of 1/s
 _POWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\d{1,2}(?:\.\d{1,6})?(?:\s*/\s*\d{1,2})?(?![\d.])\s*\)?")
 _TOWER = re.compile(r"(?:\*\*|\^)[^*/]*(?:\*\*|\^)")
 _DIGIT = re.compile(r"[02-9]|1(?=[\d.])")
@@ -82,7 +82,7 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*
 
 
 def in_reach(value: float, unit: str, reach: Mapping[str, tuple[float, float, str]] = REACH) -> float:
-    """The value. Raises ValueError if it is outside the meaningful range of this unit in ``reach``."""
+    """The value. Raises ValueError if it is outside the meaningful range of its unit in ``reach``."""
     least, most, reason = reach.get(unit, (0.0, math.inf, ""))
     if not math.isnan(value) and value != 0.0 and not least <= abs(value) <= most:
         bound = f"beyond {most:g}" if abs(value) > most else f"nearer to 0 than {least:g}"
@@ -91,15 +91,15 @@ def in_reach(value: float, unit: str, reach: Mapping[str, tuple[float, float, st
 
 
 class BareFloat(float):
-    """A number without a unit, of a deck that does not say that such numbers are in SI units."""
+    """A number without a unit, from a deck without numbers = "SI"."""
 
 
 class BareInt(int):
-    """The same as a whole number."""
+    """A whole number without a unit, from a deck without numbers = "SI"."""
 
 
 def bare(value):
-    """The same tables, lists or value with every number marked as one that needs a unit if its quantity has one."""
+    """A copy of tables, lists or a value whose numbers are marked as needing a unit if their quantity has one."""
     if isinstance(value, Mapping):
         return {key: bare(entry) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):
@@ -110,14 +110,14 @@ def bare(value):
 
 
 def without_unit(value: float, unit: str) -> str:
-    """What is said of a number of a deck that lacks its unit: what is probably meant, or the key that takes it as SI."""
+    """The message for a number of a deck that lacks its unit: the probable meaning, or the key that makes it SI."""
     meant, si = _meant(value, unit)
     if_si = f", if {si} is meant" if meant != si else ""
     return f'{value:.12g} has no unit; write "{meant}" (or numbers = "SI" at the top of the deck{if_si})'
 
 
 def _meant(value: float, unit: str) -> tuple[str, str]:
-    """A number without a unit as it is probably meant, and as it is in SI: "95.25 mm" and "95.25 m"."""
+    """The probable meaning of a number without a unit, and its meaning in SI: "95.25 mm" and "95.25 m"."""
     (low, small), (high, large) = MEANT.get(unit, ((0.0, ""), (math.inf, "")))
     si = f"{value:.12g} {unit.removeprefix('1')}"
     meant = small if abs(value) < low else large if abs(value) >= high else ""
@@ -125,7 +125,7 @@ def _meant(value: float, unit: str) -> tuple[str, str]:
 
 
 def exact(value: float, unit: str) -> str:
-    """A number in an SI unit as text that gives the same number, to the last bit."""
+    """A number in an SI unit as text that is read back to the last bit."""
     return f"{float(value)!r} {unit}"
 
 
@@ -143,7 +143,7 @@ def _registry():
 
 @functools.lru_cache(maxsize=4096)
 def _parsed(text: str, unit: str) -> float:
-    """SI value of a string with a unit. The ValueError for a wrong one says what was expected."""
+    """SI value of a string with a unit. The message of the ValueError for a wrong one says what was expected."""
     if len(text) > LONGEST:
         raise ValueError(f'"{text[:20]} ..." is too long for a number with a unit; {_expected(unit)}')
     match = _NUMBER.match(text)
@@ -162,7 +162,7 @@ def _parsed(text: str, unit: str) -> float:
 
 
 def written(value, unit: str) -> tuple[str, float]:
-    """The common unit in which a quantity is written, and its factor; the SI unit ``unit`` for numbers and other texts."""
+    """The common unit in which a quantity is written, and its factor; the SI unit ``unit`` for numbers and other text."""
     match = _NUMBER.match(value) if isinstance(value, str) else None
     name = match.group(2) if match else unit
     known, factor = COMMON.get(name, ("", 1.0))
@@ -176,9 +176,9 @@ def _by_pint(text: str, number: float, name: str, unit: str) -> float:
     registry = _registry()
     try:
         if _TOWER.search(name) or _DIGIT.search(_POWER.sub("", _spelled(name))):
-            raise ValueError("a number that may take for ever")
+            raise ValueError("a number that may take forever")
         quantity = registry.Quantity(number, registry.parse_units(_spelled(name)))
-    except Exception as problem:  # pint raises a dozen kinds for text that is no unit
+    except Exception as problem:  # pint raises a dozen kinds for text that is not a unit
         raise ValueError(f'"{name}" is not a unit; {_expected(unit)}') from problem
     try:
         return quantity.to("dimensionless" if unit == "1" else unit).magnitude
@@ -230,7 +230,7 @@ def to_si(value, unit: str) -> float:
 
 
 def of_argument(text: str, unit: str) -> float:
-    """SI value of an argument of a command: a number with its unit; a bare one only if it is 0 or the quantity a plain number.
+    """SI value of an argument of a command: a number with its unit, or a bare one if it is 0 or the quantity is a plain number.
 
     Raises ValueError, whose message says what to type.
     """
@@ -246,7 +246,7 @@ def of_argument(text: str, unit: str) -> float:
 
 
 def of_kinds(text: str, kinds: Iterable[str]) -> tuple[float, str]:
-    """SI value of a string with a unit of one of several kinds, and that SI unit, one of ``kinds``. Raises ValueError."""
+    """SI value of a string with a unit of one of several kinds, and its SI unit, one of ``kinds``. Raises ValueError."""
     match = _NUMBER.match(text)
     known, _ = COMMON.get(match.group(2), ("", 0.0)) if match else ("", 0.0)
     for unit in [known] if known in kinds else kinds:

@@ -51,7 +51,7 @@ def test_another_package_called_eos_is_told(tmp_path, first):
     found = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
                            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
     assert found.returncode == 1
-    assert f"hydro2d has a package eos of its own, and Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
+    assert f"hydro2d has its own package eos, but Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
 
 
 TYPED = """

@@ -91,7 +91,7 @@ def test_other_programs_read_the_files(done):
 
 @pytest.mark.parametrize(("name", "change", "remedy"), [
     ("summary.json", lambda text: text.replace('"done"', '"fine"'), 'put it back, or remove its key "sha256" if the change'),
-    ("deck.toml", lambda text: text.replace("0.5", "0.4"), "put it back, or remove its first line if the change is meant")])
+    ("deck.toml", lambda text: text.replace("0.5", "0.4"), "put it back, or remove its first line if the change is intended")])
 def test_a_change_is_refused_until_it_is_meant(done, name, change, remedy):
     file = done / name
     changed = change(file.read_text())

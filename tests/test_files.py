@@ -61,7 +61,7 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
 
 def test_a_lock_that_goes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
     """The holder before removes the file after it was opened here: a lock on what has no name any more keeps nobody out."""
-    lock, taken, calls = tmp_path / "a.lock", files._taken, []
+    lock, taken, calls = tmp_path / "a.lock", files._take_lock, []
 
     def late(file):
         calls.append(file)
@@ -69,7 +69,7 @@ def test_a_lock_that_goes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
             lock.unlink()
         return taken(file)
 
-    monkeypatch.setattr(files, "_taken", late)
+    monkeypatch.setattr(files, "_take_lock", late)
     with locked(lock):
         assert lock.exists()
         with pytest.raises(LockError), locked(lock):

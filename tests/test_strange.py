@@ -41,7 +41,7 @@ def secret(tmp_path):
 @pytest.mark.parametrize("kind", ["dump", "interfaces"])
 def test_a_series_names_only_vtk_files_in_its_folder(finished, secret, tmp_path, kind, name, capsys):
     (finished / vtk.SERIES[kind]).write_text(SERIES.format(name))
-    with pytest.raises(vtk.VtkError, match=r"in vtk/ alone"):
+    with pytest.raises(vtk.VtkError, match=r"only VTK files in vtk/"):
         vtk.read_series(finished / vtk.SERIES[kind])
     assert call(["export", str(finished), "-o", str(tmp_path / "out" / "deep")]) == 2
     assert secret.read_text() == SECRET

@@ -1,1 +1,1 @@
-"""The analytic penetration models, set beside materials, decks, experiments and runs."""
+"""The analytic penetration models, applied to materials and decks and compared with experiments and runs."""

@@ -1,4 +1,4 @@
-"""Depths of analytic models for the shot of a deck: what stands beside the depth of a run."""
+"""Depths of analytic models for the shot of a deck, printed next to the depth of a run."""
 
 from __future__ import annotations
 
@@ -7,46 +7,46 @@ from hydro2d.deck.deck import Deck
 from hydro2d.errors import DeckError
 from hydro2d.penetration.model import InputError
 
-#: models of a rod into a thick target, by the name that a line gives them: eroding rods, and one that stays rigid
+#: models of a rod into a thick target, and their names in the line: two of eroding rods, and one of a rigid rod
 SHOWN = {"tate": "Tate", "walker-anderson": "Walker-Anderson", "forrestal": "rigid"}
 
 
 def case(name: str, shot: model_deck.Shot) -> models.Case:
     """A model with the rod and the target of a deck.
 
-    Raises InputError where the deck and its materials lack an input; the model's example never replaces it.
+    Raises InputError if the deck and its materials lack an input; it is never taken from the model's example.
     """
-    found = models.resolve(models.named(name), models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
-    borrowed = sorted(key for key, given in found.inputs.items() if models.EXAMPLE in given.source)
+    resolved = models.resolve(models.named(name), models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
+    borrowed = sorted(key for key, given in resolved.inputs.items() if models.EXAMPLE in given.source)
     if borrowed:
         raise InputError(f"the deck and its materials do not give {', '.join(borrowed)}")
-    return found
+    return resolved
 
 
 def depths(deck: Deck) -> dict[str, float]:
     """Final depth in m by each model of SHOWN that can be applied; none unless the deck is a rod into one target.
 
-    With a third body, such as a jacket or a cover plate, the models would be of another shot.
+    With a third body, such as a jacket or a cover plate, the models would describe another shot.
     """
     try:
         shot = model_deck.shot(deck)
     except DeckError:
         return {}
-    found = {}
+    by_model = {}
     for name, shown in SHOWN.items() if len(deck.body) == 2 else ():
         try:
-            found[shown] = float(case(name, shot).rows([shot.velocity])[0]["depth"])
+            by_model[shown] = float(case(name, shot).rows([shot.velocity])[0]["depth"])
         except InputError:
             continue
-    return found
+    return by_model
 
 
 def lines(deck: Deck, summary: dict) -> list[str]:
     """A line for the end of a run, such as "analytic, at rest     Tate 27.54 cm, Walker-Anderson 35.87 cm, rigid 49.54 cm".
 
-    None behind a target that the rod has gone through, and none without a model that can be applied.
+    There is no line if the rod has perforated a target, or if no model can be applied.
     """
     if any(target.get("exit_time_s") is not None for target in (summary.get("targets") or {}).values()):
         return []
-    found = ", ".join(f"{name} {depth * 1e2:.2f} cm" for name, depth in depths(deck).items())
-    return [f"{'analytic, at rest':<21} {found}"] if found else []
+    text = ", ".join(f"{name} {depth * 1e2:.2f} cm" for name, depth in depths(deck).items())
+    return [f"{'analytic, at rest':<21} {text}"] if text else []

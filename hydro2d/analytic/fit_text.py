@@ -13,8 +13,8 @@ from hydro2d.materials.fitting import Fit
 
 
 def lines(fit: Fit) -> list[str]:
-    """Constants with their standard errors, how well they fit as a whole and by group, rate and temperature, and the law as a
-    line of a deck."""
+    """Constants with standard errors, quality of the fit as a whole and by group, rate and temperature, and the law as a line
+    of a deck."""
     points = fit.points
     said = [f"{fit.law.name}: {len(points)} points, differences from the measured stress: {_size(fit.residual)}"]
     for group in points.groups:
@@ -24,7 +24,7 @@ def lines(fit: Fit) -> list[str]:
         for name, error in fit.errors[group].items():
             unit, value = fit.law.unit(name), fit.constants[group][name]
             scale, shown = (1e6, "MPa") if unit == "Pa" else (1.0, "" if unit == "1" else unit)
-            about = ", at its least value" * (value == 0.0) + ", shared by all groups" * (name in fit.shared)
+            about = ", at its lower bound" * (value == 0.0) + ", shared by all groups" * (name in fit.shared)
             said.append(f"  {name:<24}{value / scale:>11.5g} +- {error / scale:.2g} {shown}".rstrip() + about)
         said.append(f"  {deck_table(fit, group)}")
     for title, values, form in (("strain rate [1/s]", points.rate, "g"), ("temperature [K]", points.temperature, "g"),
@@ -37,7 +37,7 @@ def lines(fit: Fit) -> list[str]:
 
 
 def deck_table(fit: Fit, group: float) -> str:
-    """The law of a group as a table of a deck or of the library, without what is the default of the model."""
+    """The law of a group as a table of a deck or of the library, without the defaults of the model."""
     defaults = {parameter.name: parameter.default for parameter in fit.law.model.PARAMETERS}
     values = {name: value for name, value in fit.constants[group].items() if value != defaults[name]}
     inner = "".join(f", {name} = {_text(value, fit.law.unit(name))}" for name, value in values.items())
@@ -57,7 +57,7 @@ def _size(residual: np.ndarray) -> str:
 
 
 def write_csv(fit: Fit, path: Path) -> None:
-    """One row for each point, with every digit."""
+    """Writes one row for each point, with all digits."""
     points = fit.points
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -70,7 +70,7 @@ def write_csv(fit: Fit, path: Path) -> None:
 
 
 def draw(fit: Fit):
-    """A matplotlib Figure: a panel for each group, a colour for each rate and temperature, dots measured and lines fitted."""
+    """A matplotlib Figure: a panel for each group, a colour for each rate and temperature, measured dots and fitted lines."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

@@ -33,7 +33,7 @@ class Curve:
         return cls(material, rate, isothermal, tuple(strains), stress, temperature)
 
     def at(self, strains: Sequence[float]) -> Curve:
-        """The same at other strains."""
+        """This curve at other strains."""
         return Curve.of(self.material, self.rate, strains, self.isothermal)
 
     @property
@@ -41,31 +41,31 @@ class Curve:
         return f"{self.material.name} ({self.material.strength.name})"
 
 
-def lines(found: Sequence[Curve]) -> list[str]:
-    """A table: strains down, materials and rates across; MPa."""
-    rows = [("material", "rate [1/s]", *(f"{strain:g}" for strain in found[0].strains))]
-    rows += [(each.name, f"{each.rate:g}", *(f"{stress / 1e6:.0f}" for stress in each.stress)) for each in found]
+def lines(all_curves: Sequence[Curve]) -> list[str]:
+    """A table in MPa: a row for each material and rate, a column for each strain."""
+    rows = [("material", "rate [1/s]", *(f"{strain:g}" for strain in all_curves[0].strains))]
+    rows += [(each.name, f"{each.rate:g}", *(f"{stress / 1e6:.0f}" for stress in each.stress)) for each in all_curves]
     widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
-    how = "at a constant temperature" if found[0].isothermal else "heated by its plastic work"
+    how = "at a constant temperature" if all_curves[0].isothermal else "heated by its plastic work"
     heading = f"flow stress [MPa] at zero pressure against plastic strain, {how}"
     table = ("  ".join(cell.ljust(w) if n == 0 else cell.rjust(w) for n, (cell, w) in enumerate(zip(row, widths, strict=True)))
              for row in rows)
     return [heading, "", *table]
 
 
-def write_csv(found: Sequence[Curve], path: Path) -> None:
-    """One row for each material, rate and strain, with every digit."""
+def write_csv(all_curves: Sequence[Curve], path: Path) -> None:
+    """Writes one row for each material, rate and strain, with all digits."""
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["material", "model", "rate [1/s]", "plastic strain", "flow stress [Pa]", "temperature [K]"])
-        for each in found:
+        for each in all_curves:
             for strain, stress, T in zip(each.strains, each.stress, each.temperature, strict=True):
                 row = [cell(each.material.name), each.material.strength.name, each.rate, strain, float(stress), float(T)]
                 writer.writerow(row)
 
 
-def draw(found: Sequence[Curve]):
-    """A matplotlib Figure: a colour for each material, a dash for each rate."""
+def draw(all_curves: Sequence[Curve]):
+    """A matplotlib Figure: a colour for each material, a line style for each rate."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -74,9 +74,9 @@ def draw(found: Sequence[Curve]):
     figure = Figure(figsize=(6.4, 4.2), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots()
-    names = list(dict.fromkeys(each.name for each in found))
-    rates = sorted({each.rate for each in found})
-    for each in found:
+    names = list(dict.fromkeys(each.name for each in all_curves))
+    rates = sorted({each.rate for each in all_curves})
+    for each in all_curves:
         colour = COLOURS[names.index(each.name) % len(COLOURS)]
         dash = ("-", "--", ":", "-.")[rates.index(each.rate) % 4]
         axes.plot(each.strains, each.stress / 1e6, dash, color=colour, label=f"{each.name}, {each.rate:g} /s")

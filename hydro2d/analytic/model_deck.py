@@ -1,4 +1,4 @@
-"""The rod and the target of an input deck, as the analytic models want them."""
+"""The rod and the target of an input deck, as the analytic models need them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydro2d.errors import DeckError
 from hydro2d.materials.material import Material
 from hydro2d.solver import insertion
 
-#: words of decks for noses, where they differ from the models'
+#: the models' names of noses, where those of decks differ
 NOSES = {"ogive": "ogival"}
 
 
@@ -32,7 +32,7 @@ class Shot:
 
 
 def read(path: Path) -> Shot:
-    """The shot of a deck file. Raises DeckError where the deck is wrong or has no rod and target."""
+    """The shot of a deck file. Raises DeckError if the deck is wrong or has no rod and target."""
     return shot(decks.load(path))
 
 
@@ -56,23 +56,23 @@ def _rod(rod, material: Material) -> dict[str, float | str]:
     R, nose = rod.rod_radius, rod.resolved_nose_length
     volume = _volume(rod)
     density = rod.density if rod.density is not None else material.reference_density
-    found = {
+    values = {
         "rod.diameter": 2.0 * R,
         "rod.mass": density * volume,
         "rod.length": volume / (math.pi * R**2),
         "nose.shape": NOSES.get(rod.nose, rod.nose),
     }
     if rod.density is not None:
-        found["rod.density"] = density
+        values["rod.density"] = density
     if rod.nose == "ogive":
-        found["nose.crh"] = (nose**2 + R**2) / (4.0 * R**2)
+        values["nose.crh"] = (nose**2 + R**2) / (4.0 * R**2)
     if rod.nose == "conical":
-        found["nose.half_angle"] = math.atan2(R, nose)
-    return found
+        values["nose.half_angle"] = math.atan2(R, nose)
+    return values
 
 
 def _volume(rod) -> float:
-    """Volume of the rod, m^3: the share that it fills of the cylinder around it."""
+    """Volume of the rod, m^3, from the share of the surrounding cylinder that it fills."""
     outline = shapes.outline(rod, 0.0)
     edges = np.array(outline.extent("z"))
     share = insertion.fractions([outline], np.array([0.0, rod.rod_radius]), edges, cylindrical=True)

@@ -13,7 +13,7 @@ COLOURS = ("#1f4e79", "#b5651d", "#4f7942", "#8b3a62", "#5b6770", "#c9a227")
 
 
 def _stretches(words: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """(first, one past last) of the runs of equal words."""
+    """(first, one past last) of each sequence of equal words."""
     first = 0
     for n in range(1, len(words) + 1):
         if n == len(words) or words[n] != words[first]:
@@ -27,7 +27,7 @@ def _label(output, factor_name: str) -> str:
 
 
 def draw(case: Case, rows: Sequence[dict]):
-    """A matplotlib Figure of the model's main output; a depth has depth over length on the right."""
+    """A matplotlib Figure of the model's main output; for a depth, the right axis shows depth over length."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -54,11 +54,11 @@ def draw(case: Case, rows: Sequence[dict]):
 def _lines(axes, velocity: np.ndarray, values: np.ndarray, rows: Sequence[dict]) -> None:
     words = [str(row.get("regime", "")) for row in rows]
     colours = {word: COLOURS[n % len(COLOURS)] for n, word in enumerate(dict.fromkeys(words))}
-    told = set()
+    seen = set()
     for first, last in _stretches(words):
         word = words[first]
         few = {"marker": "."} if last - first == 1 else {}
-        axes.plot(velocity[first:last], values[first:last], color=colours[word], label=None if word in told else word, **few)
-        told.add(word)
+        axes.plot(velocity[first:last], values[first:last], color=colours[word], label=None if word in seen else word, **few)
+        seen.add(word)
     if len(colours) > 1 or "" not in colours:
         axes.legend(fontsize=8)

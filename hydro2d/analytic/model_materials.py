@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hydro2d.materials import curves, library
 from hydro2d.penetration.model import InputError, Value
 
-#: state at which a flow stress is taken: plastic strain rate in 1/s, and the plastic strain that stands for "ultimate"
+#: state of the flow stress: plastic strain rate in 1/s, and the plastic strain that counts as "ultimate"
 RATE, ULTIMATE_STRAIN = 1.0, 1.0
 
 
@@ -21,15 +21,15 @@ class Given:
 
 
 def quantities(material: library.Material, strain: float = 0.0) -> dict[str, Given]:
-    """Inputs by the last part of their name (``inputs.FROM_LIBRARY``), as far as the material has them.
+    """Inputs that the material has, by the last part of their name (``inputs.FROM_LIBRARY``).
 
-    ``strain`` is the equivalent plastic strain at which the strength is taken; 0 is initial yield. A strength taken at a
-    positive strain is hardened already, so that the hardening exponent is 0 there. Raises InputError.
+    ``strain`` is the equivalent plastic strain at which the strength is evaluated; 0 is initial yield. A strength at a positive
+    strain includes the hardening, so that the hardening exponent is 0 there. Raises InputError.
     """
     if not (math.isfinite(strain) and strain >= 0.0):
         raise InputError(f"strain = {strain:g}: must be non-negative")
-    if told := material.strength.unread("strength"):
-        raise InputError(f"{material.name}: {told}")
+    if problem := material.strength.unread("strength"):
+        raise InputError(f"{material.name}: {problem}")
     return {**_equation_of_state(material), **_elastic(material), **_strength(material, strain)}
 
 
@@ -47,22 +47,22 @@ def _equation_of_state(material: library.Material) -> dict[str, Given]:
 
 
 def _elastic(material: library.Material) -> dict[str, Given]:
-    """Shear modulus, Young's modulus and Poisson's ratio: the strength model's own, or with K = rho0 c0^2."""
+    """Shear modulus, Young's modulus and Poisson's ratio: those of the strength model, or with K = rho0 c0^2."""
     if not material.has_strength:
         return {}
     model, row, state = curves.at_rest(material)
     G = float(model.shear_modulus(*state, row))
-    found = {"shear_modulus": Given(G, f"{material.name}: shear modulus of {material.strength.name} at rest")}
+    values = {"shear_modulus": Given(G, f"{material.name}: shear modulus of {material.strength.name} at rest")}
     own = material.strength.numbers
     if "youngs_modulus" in own and "poisson_ratio" in own:
         for key in ("youngs_modulus", "poisson_ratio"):
-            found[key] = Given(own[key].value, _printed(material, "strength", key))
+            values[key] = Given(own[key].value, _printed(material, "strength", key))
     elif "sound_speed" in material.eos.numbers:
         K = material.reference_density * material.eos.numbers["sound_speed"].value ** 2
         from_both = f"{material.name}: from the shear modulus and the bulk modulus rho0 c0^2 = {K / 1e9:.4g} GPa"
-        found["youngs_modulus"] = Given(9.0 * K * G / (3.0 * K + G), from_both)
-        found["poisson_ratio"] = Given((3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G)), from_both)
-    return found
+        values["youngs_modulus"] = Given(9.0 * K * G / (3.0 * K + G), from_both)
+        values["poisson_ratio"] = Given((3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G)), from_both)
+    return values
 
 
 def _strength(material: library.Material, strain: float) -> dict[str, Given]:
@@ -84,7 +84,7 @@ def _strength(material: library.Material, strain: float) -> dict[str, Given]:
 
 def _hardening(material: library.Material, strain: float) -> Given:
     if material.strength.name != "power-law":
-        return Given(0.0, f"{material.name}: {material.strength.name} is no power law")
+        return Given(0.0, f"{material.name}: {material.strength.name} is not a power law")
     if strain > 0.0:
-        return Given(0.0, f"{material.name}: the strength at plastic strain {strain:g} is hardened already")
+        return Given(0.0, f"{material.name}: the strength at plastic strain {strain:g} includes hardening")
     return Given(material.strength.numbers["hardening_exponent"].value, _printed(material, "strength", "hardening_exponent"))

@@ -16,7 +16,7 @@ from hydro2d.penetration import catalogue
 from hydro2d.penetration.inputs import FROM_LIBRARY
 from hydro2d.penetration.model import Input, Model, Value
 
-#: units in which quantities are typed in commands, by SI unit
+#: units of quantities typed in commands, by SI unit
 TYPED = {"m": "mm", "kg": "g", "Pa": "MPa"}
 
 def shown(value: Value, unit: str) -> str:
@@ -27,7 +27,7 @@ def shown(value: Value, unit: str) -> str:
 
 
 def columns(rows: Iterable[Sequence[str]], indent: str = "  ") -> list[str]:
-    """Rows of text under one another."""
+    """Rows of text in aligned columns."""
     rows = list(rows)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return [(indent + "  ".join(map(str.ljust, row, widths))).rstrip() for row in rows]
@@ -36,7 +36,7 @@ def columns(rows: Iterable[Sequence[str]], indent: str = "  ") -> list[str]:
 def overview() -> str:
     """Every model with its title."""
     lines = columns((model.name, model.title) for model in catalogue.MODELS.values())
-    ends = "`hydro2d model NAME` explains one; `hydro2d model transition` compares what they say of rods that stay rigid."
+    ends = "`hydro2d model NAME` explains one; `hydro2d model transition` compares their limits for rigid rods."
     return "\n".join([*lines, "", ends])
 
 
@@ -72,7 +72,7 @@ def example_command(model: Model) -> str:
 
 
 def _typed(value: float, unit: str) -> str:
-    """A quantity as it is typed in a command: a length in mm, a mass in g, a stress in MPa."""
+    """A quantity as typed in a command: a length in mm, a mass in g, a stress in MPa."""
     name = TYPED.get(unit, "" if unit == "1" else unit)
     return f"{value / units.COMMON[name][1] if unit in TYPED else value:.6g}{name}"
 
@@ -83,7 +83,7 @@ def page(model: Model) -> str:
     outputs = [(entry.name, entry.symbol, entry.unit or "word", "", entry.description) for entry in model.outputs]
     lines = [f"{model.name} (penetration model): {model.title}", "", f"Source: {model.source}", f"Validity: {model.validity}"]
     if model.transition is not None:
-        lines.append("It says at which velocity a rod stops being rigid: `hydro2d model transition`.")
+        lines.append("It gives the velocity at which a rod stops being rigid: `hydro2d model transition`.")
     lines += ["", "inputs", *columns([("name", "symbol", "unit", "default", "meaning"), *inputs])]
     lines += ["", "outputs", *columns([("name", "symbol", "unit", "", "meaning"), *outputs])]
     return "\n".join([*lines, "", "example", f"  {example_command(model)}"])
@@ -96,7 +96,7 @@ def inputs(case: Case) -> list[str]:
 
 
 def report(case: Case, rows: Sequence[dict[str, Value]]) -> str:
-    """The inputs, and the outputs at one velocity or a table of them."""
+    """The inputs, and the outputs at one velocity or in a table."""
     lines = [f"{case.model.name}: {case.model.title}", "", "inputs", *inputs(case), ""]
     if len(rows) > 1:
         return "\n".join([*lines, *table(case.model, rows)])
@@ -113,14 +113,14 @@ def heads(model: Model) -> list[str]:
 
 
 def table(model: Model, rows: Sequence[dict[str, Value]]) -> list[str]:
-    """Rows for reading."""
+    """Rows for the reader, with a head."""
     names = [VELOCITY, *(entry.name for entry in model.outputs)]
     cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.6g}" for name in names] for row in rows]
     return columns([heads(model), *cells])
 
 
 def write_csv(model: Model, rows: Sequence[dict[str, Value]], path: Path) -> None:
-    """Rows with every digit."""
+    """Writes rows with all digits."""
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(heads(model))
@@ -128,7 +128,7 @@ def write_csv(model: Model, rows: Sequence[dict[str, Value]], path: Path) -> Non
 
 
 def plain(value: Value) -> Value:
-    """A value that JSON has: no number is null."""
+    """A value that JSON can hold: null for a non-finite number."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -141,7 +141,7 @@ def given_data(inputs: dict[str, Given], model: Model) -> dict[str, dict]:
 
 
 def data(case: Case, rows: Sequence[dict[str, Value]]) -> dict:
-    """The same for programs."""
+    """The contents of `report` for JSON."""
     return {
         "model": case.model.name,
         "title": case.model.title,

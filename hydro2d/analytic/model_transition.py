@@ -1,8 +1,7 @@
-"""Where a rod stops being rigid: every model's velocity beside the experiments' bracket, the CTH study's and runs'.
+"""The velocity at which a rod stops being rigid: predictions of all models next to brackets from experiments, CTH and runs.
 
-An experiment's bracket follows from its shots by one rule: a rod that went deeper than the hydrodynamic limit
-L sqrt(rho_p/rho_t) stayed rigid, any other did not. The bracket lies between the fastest of the first and the slowest of
-the second.
+The bracket of experiments follows from their shots by one rule: a rod that went deeper than the hydrodynamic limit
+L sqrt(rho_p/rho_t) stayed rigid, any other did not. The bracket lies between the fastest rigid rod and the slowest other one.
 """
 
 from __future__ import annotations
@@ -26,14 +25,14 @@ from hydro2d.toml import problems_folder
 
 STUDY = "cth_nose_shape"
 RULE = "rigid where deeper than the hydrodynamic limit L sqrt(rho_p/rho_t)"
-#: caliber-radius-head of the study's ogive: with the printed length it has the printed mass, 63 g
+#: caliber-radius-head of the study's ogive, which gives the printed mass, 63 g, with the printed length
 OGIVE_CRH = 2.5
-#: what the bracket of each kind in cth_predictions.csv is called
+#: name of the bracket of each kind in cth_predictions.csv
 KINDS = {"cth": "the CTH study", "test": "tests at thinner plates"}
 
 
 def hydrodynamic_limit(length: float, rod: library.Material, target: library.Material) -> float:
-    """Depth in m that a rod of this length in m reaches while it is consumed, at any velocity: L sqrt(rho_p/rho_t)."""
+    """Depth in m that a rod of this length in m reaches at any velocity if it is consumed: L sqrt(rho_p/rho_t)."""
     return length * math.sqrt(rod.reference_density / target.reference_density)
 
 
@@ -102,7 +101,7 @@ class Prediction:
 
 
 def _rows(name: str) -> list[dict[str, str]]:
-    """Lines of a table of the study, by column."""
+    """Rows of a table of the study, by column."""
     with open(problems_folder() / STUDY / name, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
@@ -118,23 +117,23 @@ def experiments() -> list[Shot]:
 
 
 def between(name: str, rigid: Iterable[float], others: Iterable[float], source: str) -> Bracket:
-    """From the fastest that stayed rigid to the slowest that did not."""
+    """The bracket from the fastest rod that stayed rigid to the slowest that did not."""
     return Bracket(name, max(rigid, default=None), min(others, default=None), source)
 
 
 def brackets(rod: str, target: str, nose: str) -> list[Bracket]:
     """The brackets of the study for a rod, target and nose, by their names in the library; empty if there are none."""
     shots = [shot for shot in experiments() if (shot.rod, shot.target, shot.nose) == (rod, target, nose)]
-    found = []
+    known = []
     if shots:
         rigid, others = ([shot.velocity for shot in shots if shot.stayed_rigid is word] for word in (True, False))
         numbers = ", ".join(shot.number for shot in shots)
-        found.append(between("experiment", rigid, others, f"shots {numbers}; {RULE}"))
+        known.append(between("experiment", rigid, others, f"shots {numbers}; {RULE}"))
     for row in _rows("cth_predictions.csv"):
         if (row["rod"], row["target"], row["nose"]) == (rod, target, nose):
             low, high = (float(row[key]) if row[key] else None for key in ("low_m_s", "high_m_s"))
-            found.append(Bracket(KINDS[row["kind"]], low, high, row["source"]))
-    return found
+            known.append(Bracket(KINDS[row["kind"]], low, high, row["source"]))
+    return known
 
 
 def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple[str, ...]]]:
@@ -169,13 +168,13 @@ def geometry(rod: str, nose: str) -> dict[str, Given]:
     if not shots:
         return {}
     source = "the study's shots"
-    found = {
+    values = {
         "rod.diameter": Given(shots[0].diameter, source),
         "rod.mass": Given(sum(shot.mass for shot in shots) / len(shots), f"{source}, mean"),
     }
     if nose == "ogival":
-        found["nose.crh"] = Given(OGIVE_CRH, "assumed: tangent ogive of the study's mass and length")
-    return found
+        values["nose.crh"] = Given(OGIVE_CRH, "assumed: tangent ogive of the study's mass and length")
+    return values
 
 
 def predict(model: Model, request: models.Request) -> Prediction:
@@ -189,7 +188,7 @@ def predict(model: Model, request: models.Request) -> Prediction:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Predictions for a rod, target and nose beside known brackets."""
+    """Predictions for a rod, target and nose, with known brackets."""
 
     title: str
     predictions: list[Prediction]
@@ -197,7 +196,7 @@ class Comparison:
     runs: list[tuple[str, ...]]
 
     def lines(self, inputs: bool = True) -> list[str]:
-        """The table, the brackets, the runs and, where wanted, every input, for reading."""
+        """The table, the brackets, the runs and, if requested, all inputs, as text."""
         heads = ("model", "transition", *(f"from {entry.name}" for entry in self.brackets), "nose")
         lines = [self.title, "", *columns([heads, *map(self._row, self.predictions)])]
         if self.brackets:
@@ -207,24 +206,24 @@ class Comparison:
         return [*lines, "", "inputs", *columns(self._inputs())] if inputs else lines
 
     def _row(self, entry: Prediction) -> tuple[str, ...]:
-        nose = "counts" if entry.knows_nose else "not an input"
+        nose = "an input" if entry.knows_nose else "not an input"
         if entry.velocity is None:
             return entry.model.name, entry.in_words, *("" for _ in self.brackets), nose
         away = (distance(bracket.off(entry.velocity)) for bracket in self.brackets)
         return entry.model.name, entry.in_words, *away, nose
 
     def _inputs(self) -> list[tuple[str, ...]]:
-        """Every input of any model; where models differ, each value with its models."""
-        found: dict[tuple[str, str, str], list[str]] = {}
+        """All inputs of all models; if models differ, each value with its models."""
+        users_of: dict[tuple[str, str, str], list[str]] = {}
         for entry in self.predictions:
             units_of = {each.name: each.unit for each in entry.model.inputs}
             for name, given in entry.case.inputs.items():
-                found.setdefault((name, shown(given.value, units_of[name]), given.source), []).append(entry.model.name)
-        names = [name for name, _, _ in found]
-        return [(*key, ", ".join(users) if names.count(key[0]) > 1 else "") for key, users in sorted(found.items())]
+                users_of.setdefault((name, shown(given.value, units_of[name]), given.source), []).append(entry.model.name)
+        names = [name for name, _, _ in users_of]
+        return [(*key, ", ".join(users) if names.count(key[0]) > 1 else "") for key, users in sorted(users_of.items())]
 
     def data(self) -> dict:
-        """The same for programs."""
+        """The comparison for JSON."""
         return {
             "title": self.title,
             "models": [
@@ -260,9 +259,9 @@ def compare(request: models.Request, nose: str, runs: Sequence[Path] = ()) -> Co
     if not request.geometry:
         request = replace(request, geometry=geometry(rod, nose))
     request = replace(request, settings={**request.settings, "nose.shape": nose})
-    found, lines = brackets(rod, target, nose), []
+    known, lines = brackets(rod, target, nose), []
     if runs:
         bracket, lines = of_runs(runs, nose)
-        found.append(bracket)
+        known.append(bracket)
     title = f"rod no longer rigid: {rod} into {target}, {nose} nose"
-    return Comparison(title, [predict(model, request) for model in with_transition()], found, lines)
+    return Comparison(title, [predict(model, request) for model in with_transition()], known, lines)

@@ -1,7 +1,7 @@
 """Analytic models with materials of the library: finds every input and its source, then evaluates the model.
 
-An input comes, in this order, from the user, from a deck, from the material library, from the geometry of a cylinder of equal
-mass, from its default, and last from the example of the model, which is always stated.
+An input comes, in this order, from the user, a deck, the material library, the geometry of a cylinder of equal mass, its
+default, and last the example of the model, which is always stated.
 """
 
 from __future__ import annotations
@@ -82,15 +82,15 @@ def settings(texts: Sequence[str], models: Sequence[Model]) -> dict[str, Value]:
     known = {entry.name: entry for model in models for entry in model.inputs}
     if set(CYLINDER) & set(known):
         known |= {entry.name: entry for entry in (ROD_DIAMETER, ROD_LENGTH, ROD_MASS)}
-    found = {}
+    values = {}
     for text in texts:
         key, equals, value = (part.strip() for part in text.partition("="))
         if not equals:
             raise InputError(f'--set "{text}": expected key=value')
         if key not in known:
             raise InputError(f"--set {text}: {unknown('input', key, known)}")
-        found[key] = known[key].check(_si(known[key], value))
-    return found
+        values[key] = known[key].check(_si(known[key], value))
+    return values
 
 
 def _si(entry: Input, text: str) -> Value:
@@ -104,15 +104,15 @@ def _si(entry: Input, text: str) -> Value:
 
 
 def resolve(model: Model, request: Request) -> Case:
-    """Every input of a model with its source. Raises InputError for an impossible or a missing input."""
+    """Every input of a model with its source. Raises InputError for an impossible or missing input."""
     chosen = {name: Given(value, "given") for name, value in request.settings.items()}
     given = {**_library(model, request), **request.geometry, **chosen}
     given.update(_cylinder(model, request, chosen, given.get("rod.density")))
     inputs = {}
     for entry in model.inputs:
-        found = given.get(entry.name) or _fallback(model, request, entry)
-        if found is not None:
-            inputs[entry.name] = found
+        value = given.get(entry.name) or _fallback(model, request, entry)
+        if value is not None:
+            inputs[entry.name] = value
     case = Case(model, inputs)
     model.collect(case.values)
     return case
@@ -120,20 +120,20 @@ def resolve(model: Model, request: Request) -> Case:
 
 def _library(model: Model, request: Request) -> dict[str, Given]:
     """Inputs from the materials by name; without a chosen material, those of the example."""
-    found = {}
+    values = {}
     for side in ("rod", "target"):
         wanted = {entry.name for entry in model.inputs if entry.name in LIBRARY[side]} | {f"{side}.density"}
         material, about = getattr(request, side), ""
         if material is None:
-            found.update((name, value) for name in wanted if (value := _example(model, name)) is not None)
-            wanted -= set(found)
+            values.update((name, value) for name in wanted if (value := _example(model, name)) is not None)
+            wanted -= set(values)
             name, about = getattr(model.example, side), f"; {EXAMPLE}"
             material = library.load(name) if name else None
         if material is not None:
             for last, given in model_materials.quantities(material, request.strain).items():
                 if f"{side}.{last}" in wanted:
-                    found[f"{side}.{last}"] = Given(given.value, given.source + about)
-    return found
+                    values[f"{side}.{last}"] = Given(given.value, given.source + about)
+    return values
 
 
 def _example(model: Model, name: str) -> Given | None:
@@ -141,7 +141,7 @@ def _example(model: Model, name: str) -> Given | None:
 
 
 def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
-    """The value of the example if the user chose nothing for that side; else the default; else the value of the example."""
+    """The value of the example if the user chose nothing for that side, else the default, else the value of the example."""
     value, side = _example(model, entry.name), SIDES.get(entry.name.split(".")[0])
     if value is not None and all(getattr(request, each) is None for each in ([side] if side else ["rod", "target"])):
         return value
@@ -149,7 +149,7 @@ def _fallback(model: Model, request: Request, entry: Input) -> Given | None:
 
 
 def _cylinder(model: Model, request: Request, chosen: Mapping[str, Given], density: Given | None) -> dict[str, Given]:
-    """Diameter, length and mass of a cylinder: the user's choices, completed to two, and the third from the density."""
+    """Diameter, length and mass of a cylinder: the user's choices, supplemented to two, and the third from the density."""
     have = {name: chosen[name] for name in CYLINDER if name in chosen}
     if not have and not set(CYLINDER) & set(request.geometry) and request.rod is None:
         have = {name: value for name in CYLINDER if (value := _example(model, name)) is not None}

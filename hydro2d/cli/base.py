@@ -13,7 +13,7 @@ Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
 
 Trust = Annotated[bool, Parameter(negative="")]
 
-#: the one name of what a command makes: a file or a folder
+#: the option that names the output of a command, a file or a folder
 Out = Annotated[Path, Parameter(name=["--out", "-o"])]
 
 
@@ -21,7 +21,7 @@ class UsageError(Exception):
     """Wrong arguments, or arguments that exclude each other; the message is for the user."""
 
 
-#: more threads make no machine faster, and thousands of them end in a crash
+#: more threads make no machine faster, and thousands of them cause a crash
 MOST = 1024
 
 
@@ -35,7 +35,7 @@ def _count(_type, tokens) -> int:
 
 Count = Annotated[int, Parameter(converter=_count)]
 
-#: largest number of members of an ensemble; most cells across a projectile
+#: largest number of members of an ensemble, and of cells across a projectile
 MOST_MEMBERS, FINEST = 1000, 1000.0
 
 
@@ -51,14 +51,14 @@ def whole(least: int, most: int) -> Parameter:
 
 
 def refuse_old_names(arguments: list[str]) -> None:
-    """Raises UsageError for the name that --out had in some commands."""
+    """Raises UsageError for the old name of --out in some commands."""
     for word in arguments[: arguments.index("--")] if "--" in arguments else arguments:
         if word.split("=")[0] == "--output":
-            raise UsageError("--output is called --out in every command, or -o in short")
+            raise UsageError("--output is now --out in every command, or -o for short")
 
 
 def quantity(text: str, unit: str, option: str) -> float:
-    """The SI value of an argument. Raises UsageError, also for a number that lacks its unit."""
+    """The SI value of an argument. Raises UsageError, also for a number without its unit."""
     from hydro2d import units
 
     try:

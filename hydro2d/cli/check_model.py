@@ -1,4 +1,4 @@
-"""The command `hydro2d check-model`: runs the checks of hydro2d's own models on a model or a table from outside."""
+"""The command `hydro2d check-model`: checks a model or a table from outside as hydro2d checks its own models."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ check_model = App(name="check-model")
 @check_model.default
 def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | None, Parameter(name="--as")] = None,
           temperature: str | None = None) -> int:
-    """Runs the checks of hydro2d's own models on a model from outside: form, docstrings, compilation, derivatives, limits.
+    """Checks a model from outside as hydro2d checks its own: form, docstrings, compilation, derivatives, limits.
 
     Example: hydro2d check-model my_model.py
 
@@ -30,11 +30,11 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
     Parameters
     ----------
     file
-        Python file of the model, or the name of a model in an installed package; or a table of the SESAME type 301.
+        Python file of the model, the name of a model in an installed package, or a table of the SESAME type 301.
     as_
         Kind of model; default: the kind to which the functions in the file belong.
     temperature
-        Temperature at rest of a table; default: 298 K. The greatest density without pressure there is that at rest.
+        Temperature at rest of a table; default: 298 K. The density at rest is the greatest with zero pressure there.
     """
     from hydro2d.materials import contract, outside, sesame
 
@@ -42,7 +42,7 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
     if sesame.is_table(text):
         return _check_table(file, text, quantity(temperature, "K", "--temperature") if temperature else ROOM)
     if temperature:
-        raise UsageError(f"--temperature is for a table, and {file} is none")
+        raise UsageError(f"--temperature is for tables, and {file} is not one")
     model = _model(file, as_)
     model.require()
     say(f"{model.file}: the {model.kind.title} {model.name}")
@@ -55,7 +55,7 @@ def check(file: Path, *, as_: Annotated[Literal["strength", "eos", "damage"] | N
 
 
 def _check_table(file: Path, text: str, T: float) -> int:
-    """Reads a table, says what a deck must give with it, and runs the checks of equations of state on it."""
+    """Reads a table, prints what a deck must give with it, and runs the checks of equations of state on it."""
     from eos import tabular
     from hydro2d.cli.tabulate import lines
     from hydro2d.materials import contract, sesame
@@ -67,7 +67,7 @@ def _check_table(file: Path, text: str, T: float) -> int:
                                     f"{table.temperature[-1]:g} K")
         rest = [rho for rho in tabular.densities_without_pressure(table, T) if rho > 0.0]
         if not rest:
-            raise sesame.TableError(f"at {T:g} K there is pressure at every density; a gas is at rest at 0 K")
+            raise sesame.TableError(f"no density has zero pressure at {T:g} K; a gas is at rest at 0 K")
         said = lines(table, rest[-1], T)
     except ValueError as error:
         raise DeckError(f"{file}: {error}") from None
@@ -78,7 +78,7 @@ def _check_table(file: Path, text: str, T: float) -> int:
 
 
 def _run(case) -> int:
-    """Runs the checks of a case, says what they find, and returns the exit status."""
+    """Runs the checks of a case, prints their results, and returns the exit status."""
     from hydro2d.materials import contract
 
     failed = 0
@@ -95,11 +95,11 @@ def _run(case) -> int:
 
 
 def _model(file: Path, part: str | None):
-    """The model in a file, or in an installed package."""
+    """The model in a file or in an installed package."""
     from hydro2d.materials import outside
 
     if not file.exists():
         for each in [part] if part else outside.KINDS:
-            if found := outside.from_package(each, str(file)):
-                return found
+            if model := outside.from_package(each, str(file)):
+                return model
     return outside.read(file, part)

@@ -1,4 +1,4 @@
-"""The command `hydro2d compile`: kernels are compiled before a run needs them."""
+"""The command `hydro2d compile`: compiles kernels before a run needs them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def compile_kernels(*decks: Path) -> int:
     Parameters
     ----------
     decks
-        Input decks (TOML); default: shipped ones that together call every kernel.
+        Input decks (TOML); default: shipped decks that together call every kernel.
     """
     from hydro2d.jit import cache, target
     from hydro2d.running import compile_all

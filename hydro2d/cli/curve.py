@@ -23,7 +23,7 @@ def curve(
     csv: Path | None = None,
     figure: Path | None = None,
 ) -> int:
-    """Prints flow stress against plastic strain at constant strain rates, with the heat of the plastic work.
+    """Prints flow stress against plastic strain at constant strain rates, with heating by plastic work.
 
     Example: hydro2d curve W_alloy W_sintered --rate "1e4 /s" --figure flow_stress.png
 
@@ -50,18 +50,18 @@ def curve(
         raise UsageError("--rate and --strain must not be negative")
     from hydro2d.analytic import flow_curves
 
-    found = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(library.load, materials)
-             for each in rates]
-    for line in flow_curves.lines(found):
+    curves = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(library.load, materials)
+              for each in rates]
+    for line in flow_curves.lines(curves):
         say(line)
     if csv is not None:
-        flow_curves.write_csv(found, csv)
+        flow_curves.write_csv(curves, csv)
     if figure is not None:
         import_matplotlib()
         from hydro2d.results import figures
 
         fine = [strains[-1] * n / 100 for n in range(101)] if strains[-1] > 0.0 else strains
-        figures.save(flow_curves.draw([each.at(fine) for each in found]), figure)
+        figures.save(flow_curves.draw([each.at(fine) for each in curves]), figure)
     for path in filter(None, (csv, figure)):
         say(f"wrote {path}")
     return 0

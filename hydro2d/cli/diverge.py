@@ -1,4 +1,4 @@
-"""The command `hydro2d diverge`: where and when two runs part."""
+"""The command `hydro2d diverge`: where and when two runs diverge."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ def diverge(
     out: Out | None = None,
     csv: Path | None = None,
 ) -> int:
-    """Shows where and when two runs part, and how fast their difference grows.
+    """Shows where and when two runs diverge, and how fast their difference grows.
 
-    The runs are of one deck, with another draw of chance or with a small change. Depth, length, velocity and fields are
-    compared, each relative to its largest value.
+    Both runs are of one deck, but differ by chance or by a small change. Depth, length, velocity and fields are compared, each
+    relative to its largest value.
 
     Example: hydro2d diverge runs/a runs/b --size 0.001 -o apart.png
 
@@ -32,9 +32,9 @@ def diverge(
     first
         Run directory.
     second
-        Run directory of the same mesh.
+        Run directory with the same mesh.
     size
-        The relative difference at which the runs count as parted; the growth time is fitted up to it.
+        Relative difference from which the runs count as diverged; the growth time is fitted up to it.
     field
         Field to compare, as `hydro2d info` names it; can be repeated. Default: velocity, pressure, density, plastic_strain.
     out
@@ -47,16 +47,16 @@ def diverge(
     from hydro2d.results.reading import Results
     from hydro2d.study import divergence
 
-    found = divergence.compare(Results(first), Results(second), field or ())
-    for line in found.lines(size):
+    comparison = divergence.compare(Results(first), Results(second), field or ())
+    for line in comparison.lines(size):
         say(line)
     if csv is not None:
-        divergence.write_csv(found, csv)
+        divergence.write_csv(comparison, csv)
         say(f"wrote {csv}")
     if out is not None:
         import_matplotlib()
         from hydro2d.results import figures
 
-        figures.save(divergence.figure(found, size), out)
+        figures.save(divergence.figure(comparison, size), out)
         say(f"wrote {out}")
     return 0

@@ -12,7 +12,7 @@ from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, w
 from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say
 
-#: most meshes of a sequence
+#: largest number of meshes in a sequence
 MOST_MESHES = 20
 
 Repeats = Annotated[int, whole(2, MOST_MEMBERS)]
@@ -42,7 +42,7 @@ class Chosen:
                 raise UsageError(f"{name} needs --repeats or --member")
 
     def table(self, repeats: int) -> dict:
-        """As [ensemble] of a study file."""
+        """The options as [ensemble] of a study file."""
         given = {"by": self.by, "seed": self.seed}
         return {"repeats": repeats, **{name: value for name, value in given.items() if value is not None}}
 
@@ -52,14 +52,14 @@ class Chosen:
         from hydro2d.study import definition, members
 
         tables = {"deck": str(deck), "ensemble": self.table(2)}
-        found, *_ = definition.of_tables(tables, f"--member {self.member}", ())
-        changed = members.amounts(found.ensemble, self.member)
+        study, *_ = definition.of_tables(tables, f"--member {self.member}", ())
+        changed = members.amounts(study.ensemble, self.member)
         return [*overrides, *members.overrides(decks.load(deck, overrides), changed)]
 
 
 def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, *, threads: int, restart: bool, overwrite: bool,
             quiet: bool) -> int:  # fmt: skip
-    """Runs all members of an ensemble of a deck as a study, and prints what they say together."""
+    """Runs all members of an ensemble of a deck as a study, and prints their joint result."""
     from hydro2d.cli.study import run_study
     from hydro2d.deck import deck as decks
     from hydro2d.study import cases
@@ -75,14 +75,14 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
 def _meshes(text: str) -> list[float]:
     """Numbers of cells of --cells, from the coarsest to the finest."""
     try:
-        found = [float(part) for part in text.split(",")]
+        numbers = [float(part) for part in text.split(",")]
     except ValueError:
         raise UsageError(f"--cells {text}: expected numbers with commas between them, such as 5.5,8.5,12.5") from None
-    if not all(0.5 <= cells <= FINEST for cells in found):
+    if not all(0.5 <= cells <= FINEST for cells in numbers):
         raise UsageError(f"--cells {text}: each must be from 0.5 to {FINEST:g} cells across the radius of the projectile")
-    if not 2 <= len({f"{cells:g}" for cells in found}) == len(found) <= MOST_MESHES:
+    if not 2 <= len({f"{cells:g}" for cells in numbers}) == len(numbers) <= MOST_MESHES:
         raise UsageError(f"--cells {text}: give 2 to {MOST_MESHES} different numbers; three or more can show an order")
-    return sorted(found)
+    return sorted(numbers)
 
 
 def converge(
@@ -99,26 +99,27 @@ def converge(
     check: bool = False,
     quiet: bool = False,
 ) -> int:
-    """Runs an ensemble of a deck on several meshes, and tells change by the mesh from scatter within it.
+    """Runs an ensemble of a deck on several meshes, and separates the effect of the mesh from scatter.
 
     Example: hydro2d converge problems/cth_nose_shape/hemi_5083_1086.toml --cells 5.5,8.5,12.5 --repeats 4
 
-    Where the sequence of meshes allows it, the value for cells of no size is given with a 90 % interval, else why it is not.
-    The file convergence.json in the study directory has the same results for programs, and `hydro2d report` draws them.
+    Where the sequence of meshes allows it, the value extrapolated to cells of zero size is given with a 90 % interval;
+    otherwise the reason is. The file convergence.json in the study directory has the same results for programs, and
+    `hydro2d report` draws them.
 
     Parameters
     ----------
     deck
         Input deck (TOML) with a projectile that has a radius.
     cells
-        Numbers of cells across the radius of the projectile, such as 5.5,8.5,12.5. All cells of the mesh change by one factor.
+        Numbers of cells across the radius of the projectile, such as 5.5,8.5,12.5. One factor scales all cells of the mesh.
     repeats
         Number of members on each mesh.
     by
-        What the members differ in: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
+        Differences between members: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
         first step. Offsets are fractions of a cell of each mesh.
     seed
-        Which sequence of changes; default: 0.
+        Seed of the sequence of changes; default: 0.
     y
         A number in summary.json; can be repeated; default: depth, final over initial length, and the residual velocity where
         something perforates.
@@ -148,10 +149,10 @@ def converge(
 
 
 def _conclude(directory: Path, y, quiet: bool) -> None:
-    """Writes and prints what the meshes say."""
+    """Writes and prints the results of all meshes."""
     from hydro2d.study import contents, convergence, layout
 
-    found = convergence.sequences(contents.collect(layout.read(directory)), y)
-    convergence.write(directory, found)
-    for line in [line for each in found for line in ("", *each.lines())] if not quiet else []:
+    sequences = convergence.sequences(contents.collect(layout.read(directory)), y)
+    convergence.write(directory, sequences)
+    for line in [line for each in sequences for line in ("", *each.lines())] if not quiet else []:
         say(line)

@@ -26,7 +26,7 @@ def fit_strength(
     csv: Path | None = None,
     figure: Path | None = None,
 ) -> int:
-    """Fits the constants of a strength model to measured flow stresses, and says how well it fits.
+    """Fits the constants of a strength model to measured flow stresses, and reports how well they fit.
 
     Example: hydro2d fit-strength points.txt --model johnson-cook --material steel_4340 --fix rate_coefficient=0.014
 
@@ -39,21 +39,21 @@ def fit_strength(
         johnson-cook, zerilli-armstrong, power-law or steinberg-guinan.
     material
         Material of the library, NAME or NAME:VARIANT. It gives the density and specific heat for --heated-from, and those
-        constants of the model that are not fitted and that its own law has too.
+        constants of the model that are not fitted, if its own law has them too.
     fix
-        Keeps a constant, as name=value, with its unit if it has one; can be repeated.
+        Keeps a constant fixed, as name=value, with its unit if it has one; can be repeated.
     share
         A constant that all groups have in common; can be repeated. The others are fitted for each group.
     group
         Fits the points of this group, by its number in the column "group"; can be repeated; default: all groups.
     columns
-        What the columns are, in order, with commas: strain, rate, temperature, stress, group, skip.
+        The columns in order, separated by commas: strain, rate, temperature, stress, group, skip.
     stress_unit
         Unit of the stresses.
     temperature
-        Range of temperatures of the points that are fitted, as LOW:HIGH, such as "150 K:800 K".
+        Range of temperatures of the fitted points, as LOW:HIGH, such as "150 K:800 K".
     heated_from
-        Strain rate, such as "100 /s", from which plastic work heats the specimen during a test.
+        Strain rate, such as "100 /s", from which on plastic work heats the specimen during a test.
     csv
         Writes every point with the fitted stress and the difference to this file.
     figure
@@ -70,16 +70,16 @@ def fit_strength(
     given = fitting.from_material(law, base) | {name: quantity(text, law.unit(name), f"--fix {name}")
                                                 for name, text in map(_assignment, fix or [])}
     heating = fitting.heating_of(base, quantity(heated_from, "1/s", "--heated-from")) if heated_from else None
-    found = fitting.fit(law, data, given, share or [], heating)
-    for line in fit_text.lines(found):
+    fit = fitting.fit(law, data, given, share or [], heating)
+    for line in fit_text.lines(fit):
         say(line)
     if csv is not None:
-        fit_text.write_csv(found, csv)
+        fit_text.write_csv(fit, csv)
     if figure is not None:
         import_matplotlib()
         from hydro2d.results import figures
 
-        figures.save(fit_text.draw(found), figure)
+        figures.save(fit_text.draw(fit), figure)
     for path in filter(None, (csv, figure)):
         say(f"wrote {path}")
     return 0

@@ -8,7 +8,7 @@ from hydro2d.cli import words
 from hydro2d.errors import DeckError, nearest
 from hydro2d.mesh import quantities
 
-#: names that are told as near an unknown one, and characters of it that are compared
+#: largest number of suggestions for an unknown name, and of its characters that are compared
 MOST_NEAR, LONGEST_NAME = 6, 200
 
 
@@ -17,7 +17,7 @@ def deck_keys() -> dict[str, dict]:
     from hydro2d.deck import deck as decks
 
     schema = decks.schema()
-    definitions, found = schema["$defs"], {}
+    definitions, keys = schema["$defs"], {}
 
     def target(entry: dict) -> list[dict]:
         """The tables that a value can be."""
@@ -34,16 +34,16 @@ def deck_keys() -> dict[str, dict]:
         for key, entry in table.get("properties", {}).items():
             name = f"{prefix}{key}"
             inner = target(entry)
-            found[name] = {"description": inner[0].get("description", ""), **entry} if len(inner) == 1 else entry
+            keys[name] = {"description": inner[0].get("description", ""), **entry} if len(inner) == 1 else entry
             for each in inner:
                 shape = each.get("properties", {}).get("shape", {}).get("const")
                 if shape is not None:
-                    found[f"{name}.{shape}"] = each
+                    keys[f"{name}.{shape}"] = each
                 named = isinstance(entry.get("additionalProperties"), dict)
                 walk(f"{name}.{shape}." if shape else f"{name}.NAME." if named else f"{name}.", each)
 
     walk("", schema)
-    return found
+    return keys
 
 
 def _type(entry: dict) -> str:
@@ -83,7 +83,7 @@ def _table(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def page(name: str) -> str:
-    """Everything that has this name, or that people call so. Raises DeckError with the names near it if nothing has."""
+    """The pages of everything with this name or common name. Raises DeckError with the nearest names if there is nothing."""
     import eos
     import strength
     from hydro2d.analytic import model_text
@@ -93,36 +93,36 @@ def page(name: str) -> str:
     from strength import melting
 
     packaged = [each for part in outside.KINDS if (each := outside.from_package(part, name))]
-    found = [said] if (said := words.page(name)) else []
-    found += [str(described(each.module, each.kind.title)) for each in packaged]
+    pages = [said] if (said := words.page(name)) else []
+    pages += [str(described(each.module, each.kind.title)) for each in packaged]
     if library.parted(name)[0] in library.names():
-        found.append(library.describe(name))
+        pages.append(library.describe(name))
     for models, describe in (
         (eos.MODELS, eos.describe),
         (strength.STRENGTH_MODELS, strength.describe),
         (strength.DAMAGE_MODELS, strength.describe_damage),
     ):
         if name in models:
-            found.append(str(describe(name)))
+            pages.append(str(describe(name)))
     if name == melting.NAME:
-        found.append(str(described(melting, "melting line of a material")))
+        pages.append(str(described(melting, "melting line of a material")))
     if name in catalogue.MODELS:
-        found.append(model_text.page(catalogue.MODELS[name]))
+        pages.append(model_text.page(catalogue.MODELS[name]))
     if name in quantities.BY_KEY:
-        found.append(_field_page(quantities.BY_KEY[name]))
+        pages.append(_field_page(quantities.BY_KEY[name]))
     keys = deck_keys()
     groups = {name: []} if name in keys else _same_last(keys, name)
-    found += [_key_page(key, keys[key], others) for key, others in groups.items()]
-    if not found:
+    pages += [_key_page(key, keys[key], others) for key, others in groups.items()]
+    if not pages:
         others = {other for part in outside.KINDS for other in outside.in_packages(part)}
         known = {*others, *library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
                  *catalogue.MODELS, *quantities.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
         raise DeckError(_unknown(name, {*known, *words.WORDS, *words.ALSO}))
-    return "\n\n".join(text.rstrip() for text in found)
+    return "\n\n".join(text.rstrip() for text in pages)
 
 
 def _unknown(name: str, known: set[str]) -> str:
-    """What is said of a name that nothing has: the one that is probably meant, and others near it."""
+    """The message for an unknown name: the one that is probably meant, and others near it."""
     lower = {each.lower(): each for each in sorted(known)}
     near = [lower[each] for each in difflib.get_close_matches(name.lower()[:LONGEST_NAME], lower, n=MOST_NEAR)]
     likely = [f'"{each}"' for each in dict.fromkeys([*filter(None, [nearest(name, known)]), *near])]
@@ -160,7 +160,7 @@ def overview() -> str:
         ("penetration models", [(model.name, model.title) for model in catalogue.MODELS.values()]),
         ("fields", [(entry.key, entry.meaning) for entry in quantities.TABLE]),
         ("sections of a deck", [(key, keys[key].get("description", "")) for key in keys if "." not in key]),
-        ("words that have another name here", [(word, entry.said) for word, entry in words.WORDS.items()]),
+        ("words with another name here", [(word, entry.said) for word, entry in words.WORDS.items()]),
     )
     lines = []
     for heading, rows in parts:

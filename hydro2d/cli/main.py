@@ -60,7 +60,7 @@ app.command(transition)
 app.command(view)
 
 
-#: modules, and their exceptions that tell the user what to correct
+#: modules, and their exceptions for errors that the user can correct
 USER_ERRORS = (
     ("errors", "DeckError"), ("errors", "MissingPackage"), ("errors", "TargetError"), ("files", "LockError"),
     ("strange", "StrangeFile"),
@@ -72,12 +72,12 @@ USER_ERRORS = (
 )
 
 
-#: the same for what the machine refuses
+#: modules, and their exceptions for what the machine refuses
 REFUSALS = (("files", "LostPlaceError"),)
 
 
 def _loaded(errors: tuple[tuple[str, str], ...]) -> tuple[type[Exception], ...]:
-    """The exceptions of those modules that are loaded. They are reported as one message, without a traceback."""
+    """The exceptions of the modules loaded so far. They are reported as one message, without a traceback."""
     modules = ((sys.modules.get(f"hydro2d.{module}"), name) for module, name in errors)
     return tuple(getattr(module, name) for module, name in modules if module is not None)
 
@@ -103,7 +103,7 @@ def _load(deck: Path, overrides: list[str] | None):
 
 
 def _theory(deck, summary: dict) -> list[str]:
-    """What analytic models say of a run that is done."""
+    """Lines with the results of analytic models for a finished run."""
     from hydro2d.analytic import beside
 
     return beside.lines(deck, summary)
@@ -125,7 +125,7 @@ def run(
     seed: Seed | None = None,
     workers: Count | None = None,
 ) -> int:
-    """Runs a deck, or an ensemble of it that shows how sure the result is.
+    """Runs a deck, or an ensemble of it that shows the scatter of the result.
 
     Example: hydro2d run problems/cth_nose_shape/hemi_5083_1086.toml --out runs/a --set mesh.r.0.cells=40 --threads 4
 
@@ -143,21 +143,21 @@ def run(
         Largest number of threads; default: all cores. A run uses fewer where that is faster, for example on a small mesh or a
         busy machine, and compiles kernels with a second process unless it is 1. The results do not depend on it.
     restart
-        Continues the run in the directory from its restart file; the results are bitwise the same.
+        Continues the run in the directory from its restart file; the results are bitwise identical.
     overwrite
-        Replaces the run that is in the directory.
+        Replaces the run in the directory.
     quiet
-        Prints nothing, unless the run ends as unphysical: then one line on the error output. log.txt is still written.
+        Prints nothing, except one line on the error output if the run ends as unphysical. log.txt is still written.
     repeats
-        Runs an ensemble of so many members, which differ in what should not matter, as a study: its directory is --out, else
-        runs/<name of the deck>_ensemble, its workers are processes, and --threads is that of each, by default 1.
+        Runs an ensemble of this many members, which differ in what should not matter, as a study. Its directory is --out, else
+        runs/<name of the deck>_ensemble. Its workers are processes; --threads applies to each, by default 1.
     member
-        Runs this one member of the ensemble, numbered from 0, as a single run. Member 0 is the deck as it stands.
+        Runs only this member of the ensemble, numbered from 0, as a single run. Member 0 is the unchanged deck.
     by
-        What the members differ in: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
+        Differences between members: "mesh offset", "flank offset" or "first step"; can be repeated; default: mesh offset and
         first step.
     seed
-        Which sequence of changes; default: 0.
+        Seed of the sequence of changes; default: 0.
     workers
         Number of worker processes of --repeats; default: cores / threads.
     """
@@ -169,14 +169,14 @@ def run(
         return run_all(chosen, deck, set_ or [], out, threads=threads or 1, restart=restart, overwrite=overwrite, quiet=quiet)
     _set_threads(threads)
     interrupt = Interrupt()
-    with signals(interrupt):  # from here on, through all that is imported
+    with signals(interrupt):  # from here on, during all imports
         from hydro2d.running import run as runs
 
         resolved = _load(deck, set_ if member is None else chosen.overrides(deck, set_ or []))
-        found = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt, theory=_theory)
-    status = runs.exit_status(found)
+        ended = runs.run(resolved, out, restart=restart, overwrite=overwrite, quiet=quiet, interrupt=interrupt, theory=_theory)
+    status = runs.exit_status(ended)
     if quiet and status == runs.UNPHYSICAL:
-        return _told(f"{out or resolved.output.directory}: unphysical: {found['stop_reason']}", status)
+        return _report(f"{out or resolved.output.directory}: unphysical: {ended['stop_reason']}", status)
     return status
 
 
@@ -195,20 +195,20 @@ def check(
     set_
         Overrides a value of the deck, as key=value; can be repeated.
     threads
-        Number of threads for the estimate of the time; default: all cores.
+        Number of threads for the time estimate; default: all cores.
     picture
         Draws the bodies, the mesh, tracers and gauges, and saves the picture as this file (.png, .pdf, .svg).
     """
     from hydro2d.running import check as checks
 
-    found = checks.check(_load(deck, set_))
-    for line in found.lines(threads or os.cpu_count() or 1):
+    checked = checks.check(_load(deck, set_))
+    for line in checked.lines(threads or os.cpu_count() or 1):
         say(wrapped(line))
     if picture is not None:
         import_matplotlib()
         from hydro2d.results import figures, start_figure
 
-        figures.save(start_figure.draw(found.dump, found.deck), picture)
+        figures.save(start_figure.draw(checked.dump, checked.deck), picture)
         say(f"wrote     {picture}")
     return 0
 
@@ -251,7 +251,7 @@ def export(
     fields
         Fields to write, as `hydro2d info` names them; default: all fields of the dumps.
     trust
-        Runs the code of models from outside that the deck of the run carries; a run without dumps needs it. Only for a run
+        Runs the code of outside models that the deck of the run carries; a run without dumps needs it. Use it only for a run
         whose origin you know.
     """
     from hydro2d.results.export import export as write
@@ -276,7 +276,7 @@ def bench(*, json: Path | None = None, shot: bool = False, compilation: bool = F
     shot
         Also runs the shot at 1086 m/s to rest, with all its outputs, on one thread and on all; this takes minutes.
     compilation
-        Also compiles all kernels of the README's first shot anew, and says what each of them, and each stage, takes.
+        Also compiles all kernels of the README's first shot anew, and reports the time of each kernel and each stage.
     threads
         Number of threads; default: all cores.
     """
@@ -318,33 +318,33 @@ def call(arguments: list[str]) -> int:
         flush()
         return status if isinstance(status, int) else 0
     except cyclopts.CycloptsError as error:
-        return _told(error, WRONG_INPUT)
+        return _report(error, WRONG_INPUT)
     except KeyboardInterrupt:
         return STATUS[ended_by()]
     except BrokenPipeError:
         lose_output()
         return STATUS["SIGPIPE"]
     except _loaded(REFUSALS) as error:
-        return _told(error, REFUSED)
+        return _report(error, REFUSED)
     except (UsageError, *_loaded(USER_ERRORS)) as error:
-        return _told(error, WRONG_INPUT)
+        return _report(error, WRONG_INPUT)
     except MemoryError as error:
-        return _told(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
+        return _report(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
     except (NotADirectoryError, FileExistsError) as error:
-        return _told(_no_directory(error), WRONG_INPUT)
+        return _report(_no_directory(error), WRONG_INPUT)
     except OSError as error:
         where = f": {error.filename}" if error.filename is not None else ""
-        return _told(f"{error.strerror or error}{where}", REFUSED)
+        return _report(f"{error.strerror or error}{where}", REFUSED)
 
 
 def _no_directory(error: OSError) -> str:
-    """Says which part of a path is a file where a directory is needed."""
+    """The message for a path in which a file stands where a directory is needed."""
     path = Path(os.fsdecode(error.filename or ""))
     file = next((each for each in (path, *path.parents) if each.is_file()), None)
     within = f", so {path} cannot exist" if file != path else ""
     return f"{file} is a file, not a directory{within}" if file else f"{error.strerror}: {path}"
 
 
-def _told(error: object, status: int) -> int:
+def _report(error: object, status: int) -> int:
     say(f"hydro2d: {error}", file=sys.stderr)
     return status

@@ -10,7 +10,7 @@ from cyclopts import App, Parameter
 from hydro2d.cli.base import Overrides, UsageError, import_matplotlib, quantity
 from hydro2d.terminal import say, wrapped
 
-#: the most rows that --velocity A:B:N makes
+#: largest number of rows of --velocity A:B:N
 MOST_ROWS = 100_000
 
 #: `hydro2d model NAME --help` shows the page of that model, so --help is an ordinary option here
@@ -39,8 +39,7 @@ def evaluate(
     Parameters
     ----------
     name
-        Name of the model. Without --velocity and --deck its page is shown: source of the equations, inputs, outputs, validity,
-        and an example.
+        Name of the model. Without --velocity and --deck its page is shown: source, validity, inputs, outputs and an example.
     rod
         Rod material from the library, NAME or NAME:VARIANT; default: the material of the model's example.
     target
@@ -125,11 +124,11 @@ def _velocities(text: str) -> list[float]:
     return [low + (high - low) * n / (count - 1) for n in range(count)]
 
 
-def _show(found) -> None:
-    """Text as it is, data as JSON."""
+def _show(output) -> None:
+    """Prints text as it is, data as JSON."""
     import json
 
-    say(found if isinstance(found, str) else json.dumps(found, indent=2, allow_nan=False))
+    say(output if isinstance(output, str) else json.dumps(output, indent=2, allow_nan=False))
 
 
 def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
@@ -191,6 +190,6 @@ def transition(
     request, _ = _request(model_transition.with_transition(), rod, target, set_, deck, strain)
     shape = nose or request.settings.get("nose.shape") or getattr(request.geometry.get("nose.shape"), "value", "hemispherical")
     shape = NOSE_SHAPE.check(model_deck.NOSES.get(shape, shape))
-    found = model_transition.compare(request, shape, runs or ())
-    _show(found.data() if json else "\n".join(found.lines()))
+    comparison = model_transition.compare(request, shape, runs or ())
+    _show(comparison.data() if json else "\n".join(comparison.lines()))
     return 0

@@ -14,7 +14,7 @@ from hydro2d.terminal import say, wrapped
 
 def new(kind: str | None = None, *, out: Out | None = None,
         list_: Annotated[bool, Parameter(name="--list", negative="")] = False) -> int:  # fmt: skip
-    """Writes a short deck with comments for a kind of shot, which runs as it is and is there to be changed.
+    """Writes a short commented deck for a kind of shot, which runs as it is and is meant to be changed.
 
     Example: hydro2d new whipple
 
@@ -32,9 +32,9 @@ def new(kind: str | None = None, *, out: Out | None = None,
 
     if list_ or kind is None:
         if kind is not None or out is not None:
-            raise UsageError("--list lists the kinds and writes nothing; leave the kind and --out out")
+            raise UsageError("--list lists the kinds and writes nothing; omit the kind and --out")
         if not list_:
-            raise UsageError(f"give a kind of shot: {', '.join(templates.kinds())} (hydro2d new --list says what they are)")
+            raise UsageError(f"give a kind of shot: {', '.join(templates.kinds())} (hydro2d new --list describes them)")
         width = max(map(len, templates.kinds()))
         for name, what in templates.kinds().items():
             say(wrapped(f"{name:<{width}}  {what}"))
@@ -52,7 +52,7 @@ def new(kind: str | None = None, *, out: Out | None = None,
         f"hydro2d run {file} --out {run}": "run it",
         f"hydro2d view {run}": "look at it in the browser",
     }
-    say(wrapped(f"wrote {deck}: {templates.kinds()[kind]}\n\nThen, after a look into the file:\n"))
+    say(wrapped(f"wrote {deck}: {templates.kinds()[kind]}\n\nNext, after reading the file:\n"))
     width = max(map(len, steps))
     for command, what in steps.items():
         say(f"    {command:<{width}}   # {what}")

@@ -33,9 +33,9 @@ def plot(
 ) -> int:
     """Draws runs as sections, histories, values along a line, holes in their targets, debris, or a cut-away.
 
-    The numbers of a line, a history or a hole are written as a table where the file is a .csv.
+    The numbers of a line, a history or a hole are written as a table if the file is a .csv.
 
-    Sections are mirrored at the axis, and on a planar mesh at a wall that stands at r = 0; others are drawn as they are.
+    Sections are mirrored at the axis or, on a planar mesh, at a wall at r = 0; others are drawn as they are.
 
     Example: hydro2d plot runs/a runs/b -o both.png --field von_mises --mirror material --time "80 us"
 
@@ -48,17 +48,17 @@ def plot(
     runs
         Run directories. Sections of several runs are drawn below one another, histories and craters in the same axes.
     out
-        Picture file; its suffix sets the format. With .csv a table, for --kind line, history and crater.
+        Picture file; its suffix sets the format. With .csv it is a table, for --kind line, history and crater.
     kind
-        What to draw. line: a field along a line, a curve for each run and time; xt: a field along a line, in colours over place
-        and time; crater: the holes in the targets; debris: what flies behind them.
+        Kind of picture. line: a field along a line, a curve for each run and time; xt: a field along a line, in colours over
+        place and time; crater: the holes in the targets; debris: the debris behind them.
     field
         Field, or that of the upper half, as `hydro2d info` names it; velocity:z for a component, body_temperature:rod for one
         body.
     mirror
         Field of the lower half of a mirrored section; default: the same.
     time
-        Time, such as "80 us", whose nearest dump is drawn; default: the last dump. Can be repeated, for sections side by side.
+        Time, such as "80 us"; the nearest dump is drawn. Default: the last dump. Can be repeated, for sections side by side.
     window
         Part of the mesh to show, z0,z1,r1, such as "-2 cm,8 cm,2 cm".
     quantity
@@ -66,11 +66,11 @@ def plot(
     line
         Line of --kind line and xt, r0,z0,r1,z1, such as "1 mm,-2 cm,1 mm,8 cm"; default: the axis.
     colours
-        Range of the field, low,high, in the unit of the colour bar; default: that of what is shown.
+        Range of the field, low,high, in the unit of the colour bar; default: the range of the values shown.
     clip
-        Per cent of the cells whose values may lie beyond each end of the range, so that a few do not take all colours.
+        Per cent of the cells whose values may lie beyond each end of the range, so that a few do not use up all colours.
     log
-        Logarithmic scale of the field; what is not positive has no colour.
+        Logarithmic scale of the field; values that are not positive have no colour.
     map_
         Colour map of matplotlib, such as magma; default: viridis, and blue to red for fields with negative values.
     """
@@ -179,7 +179,7 @@ def _window(text: str | None) -> tuple[float, float, float] | None:
 
 
 def _refuse_scale(kind: str, scaled: bool, line: bool) -> None:
-    """Raises UsageError for options that a kind of picture has no use for."""
+    """Raises UsageError for options that do not apply to a kind of picture."""
     if scaled and kind not in ("section", "line", "xt"):
         raise UsageError(f"--colours, --clip, --log and --map are for --kind section, line and xt, not for {kind}")
     if line and kind not in ("line", "xt"):

@@ -42,9 +42,9 @@ def report(
     movie
         Field to show in a small film of each run with dumps, as `hydro2d movie` makes; takes seconds to minutes per run.
     view
-        Makes the page of `hydro2d view` for each run with dumps. The report links to those that there are, in any case.
+        Makes the page of `hydro2d view` for each run with dumps. The report always links to existing pages.
     trust
-        Runs the code of models from outside that the decks of the runs carry, for the analytic models. Only for runs whose
+        Runs the code of outside models that the decks of the runs carry, for the analytic models. Use it only for runs whose
         origin you know.
     """
     import_matplotlib()

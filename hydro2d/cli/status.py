@@ -1,4 +1,4 @@
-"""The command `hydro2d status`: where a run stands."""
+"""The command `hydro2d status`: how far a run has got."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cyclopts import Parameter
 from hydro2d.cli.base import import_matplotlib
 from hydro2d.terminal import say
 
-#: seconds between two looks at a run that is going on
+#: seconds between two looks at a run in progress
 SECONDS = 2.0
 
 
@@ -24,21 +24,21 @@ def status(
     plot: bool | None = None,
     watch: bool | None = None,
 ) -> int:
-    """Says how far a run has got, and when and why it will stop; depth and dumps. A study has `hydro2d sweep STUDY --status`.
+    """Shows how far a run has got, when and why it will stop, depth and dumps. For a study: `hydro2d sweep STUDY --status`.
 
-    On a terminal it draws histories as well, and looks again every two seconds while the run goes on.
+    On a terminal it also draws histories, and looks again every two seconds until the run has ended.
 
     Example: hydro2d status runs/a --quantity penetration_depth_m --quantity interface_velocity_m_s
 
     Parameters
     ----------
     run
-        Run directory, of a run that has ended or is under way.
+        Directory of a run that has ended or is in progress.
     quantity
         Column of the history to draw; can be repeated; default: depth and tail velocity of the projectile, or velocity and
         extent of the first body.
     plot
-        Draws histories with characters, which needs plotext; default: on a terminal, where plotext is installed.
+        Draws histories with characters, which needs plotext; default: on a terminal, if plotext is installed.
     watch
         Looks again every two seconds until the run has ended; default: on a terminal.
     """
@@ -48,17 +48,17 @@ def status(
 
     terminal = sys.stdout.isatty()
     drawn = bool(quantity) or (terminal and terminal_charts.available()) if plot is None else plot
-    found, state = _look(run, quantity, drawn)
+    output, state = _look(run, quantity, drawn)
     if state != RUNNING or not (terminal if watch is None else watch):
-        _show(found)
+        _show(output)
     elif terminal:
         _live(run, quantity, drawn)
     else:
         while state == RUNNING:
-            _show(found)
+            _show(output)
             time.sleep(SECONDS)
-            found, state = _look(run, quantity, drawn)
-        _show(found)
+            output, state = _look(run, quantity, drawn)
+        _show(output)
     if terminal and not drawn and plot is None:
         say(terminal_charts.MISSING)
     return 0
@@ -80,9 +80,9 @@ def _look(run: Path, quantity: list[str] | None, drawn: bool) -> tuple[tuple[lis
     return (lines, charts), case.status
 
 
-def _show(found: tuple[list[str], list[str]]) -> None:
+def _show(output: tuple[list[str], list[str]]) -> None:
     """Prints lines and charts."""
-    for line in (*found[0], *found[1]):
+    for line in (*output[0], *output[1]):
         say(line, flush=True)
 
 

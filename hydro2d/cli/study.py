@@ -1,4 +1,4 @@
-"""The commands for studies: many runs from one file."""
+"""Commands for studies: many runs from one file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, w
 from hydro2d.cli.workers import DEFAULT, Workers
 from hydro2d.terminal import say, wrapped
 
-#: by how much the priority of a study in the background is lowered
+#: reduction of the priority of a study in the background
 NICE = 10
 
 
@@ -36,8 +36,8 @@ def sweep(
 
     Example: hydro2d sweep problems/cth_nose_shape/velocity_advection.toml --workers 4 --out runs/study
 
-    A study of parts runs them in turn, sweeps and searches, each in a directory of its own. Where a study keeps rows of its
-    runs in a file (`keep`), a run is made only if the file has no row of its deck and of this version of the method.
+    The parts of a study, sweeps and searches, run in turn, each in its own directory. If a study keeps rows of its runs in a
+    file (`keep`), a run is made only if the file has no row for its deck and this version of the method.
 
     Parameters
     ----------
@@ -51,15 +51,15 @@ def sweep(
         Runs the cases whose names match this pattern, such as "*ogive*", or these parts; can be repeated. The others wait for a
         later --resume.
     members
-        Number of members of each case, in the place of that of the study file; 1 runs each case once.
+        Number of members of each case, instead of that of the study file; 1 runs each case once.
     cells
-        Cells across the radius of the projectile of each deck, in the place of those of the decks.
+        Cells across the radius of the projectile of each deck, instead of those of the decks.
     check
         Resolves all decks and prints the cases with their cells and estimated times; runs nothing.
     status
         Prints the table of the study directory; runs nothing.
     background
-        Returns at once; the study goes on at low priority, whatever becomes of the terminal.
+        Returns at once; the study continues at low priority, even if the terminal is closed.
     quiet
         Prints errors only; sweep.log is still written.
     """
@@ -95,7 +95,7 @@ def sweep(
 
 
 def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), skip: Sequence[str] = (), quiet: bool) -> int:
-    """Runs the cases of a plan and prints what the members of ensembles say together. Returns the exit status."""
+    """Runs the cases of a plan and prints the joint results of ensembles. Returns the exit status."""
     from hydro2d.study import layout
     from hydro2d.study import sweep as sweeps
     from hydro2d.study.choice import Choice
@@ -117,18 +117,18 @@ def _is_of_parts(study: Path) -> bool:
 
 def _parts(study: Path, place: Path, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
            quiet: bool) -> int:  # fmt: skip
-    """Runs the parts of a study in turn. A failed case does not keep the next part from running; an interrupt does."""
+    """Runs the parts of a study in turn. The next part runs despite a failed case, but not after an interrupt."""
     from hydro2d.study import layout, parts
     from hydro2d.study.sweep import SOME_FAILED
 
-    found = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
+    plans = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
     if check:
-        return parts.show(found, workers.number)
+        return parts.show(plans, workers.number)
     worst = 0
     place.mkdir(parents=True, exist_ok=True)
-    for number, each in enumerate(found, 1):
+    for number, each in enumerate(plans, 1):
         if not quiet:
-            say(f"part {number} of {len(found)}: {each.name}")
+            say(f"part {number} of {len(plans)}: {each.name}")
         directory = place / each.name
         of_part = replace(workers, resume=workers.resume and (directory / layout.STUDY).is_file())
         if each.plan.search:
@@ -138,13 +138,13 @@ def _parts(study: Path, place: Path, overrides: list[str], size, workers: Worker
         if status > SOME_FAILED:
             return status
         worst = max(worst, status)
-    for told in parts.mixed(found):
-        say(wrapped(told))
+    for line in parts.mixed(plans):
+        say(wrapped(line))
     return worst
 
 
 def _status_of_parts(study: Path, out: Path | None) -> int:
-    """Prints how far each part of a study is."""
+    """Prints how far each part of a study has got."""
     from hydro2d.study import layout, monitor
 
     for directory in sorted(file.parent for file in (out or _directory(study)).glob(f"*/{layout.STUDY}")):
@@ -153,13 +153,13 @@ def _status_of_parts(study: Path, out: Path | None) -> int:
 
 
 def _in_background(place: Path) -> int:
-    """Starts this command again without --background, detached and at low priority, with its lines in a file."""
+    """Starts this command again without --background, detached and at low priority, with its output in a file."""
     from hydro2d.children import detached
 
     place.mkdir(parents=True, exist_ok=True)
     log = place / "background.log"
     process = detached([word for word in sys.argv[1:] if word != "--background"], log, NICE)
-    say(wrapped(f"process {process} runs the study in {place}; {log} has its lines; `kill {process}` stops it, and --resume "
+    say(wrapped(f"process {process} runs the study in {place}; its output is in {log}; `kill {process}` stops it, and --resume "
                 "continues it"))
     return 0
 
@@ -174,15 +174,15 @@ def transition(
     status: bool = False,
     quiet: bool = False,
 ) -> int:
-    """Searches for the impact velocities at which a rod stops being rigid, erodes or perforates; v50 where chance decides.
+    """Searches for the impact velocities at which a rod stops being rigid, erodes or perforates; v50 if chance decides.
 
     Example: hydro2d transition problems/cth_nose_shape/transition_hemi_5083.toml --workers 2 --out runs/transition
 
-    The search is a bisection, or with a budget of runs in the study a sequence that gives v50, its 90 % interval and the width.
-    The results are printed beside the criteria, the runs, the experiments and the predictions of the analytic models. The file
-    transition.json in the study directory has the same results for programs, and `hydro2d report` shows them. Workers beyond
-    the number of combinations of the axes try several velocities of one combination at a time. --resume continues unfinished
-    cases where the search still needs them.
+    The search is a bisection. With a budget of runs in the study it is a sequence that gives v50, its 90 % interval and the
+    width. The results are printed next to the criteria, the runs, the experiments and the predictions of the analytic models.
+    The file transition.json in the study directory has the same results for programs, and `hydro2d report` shows them. If there
+    are more workers than combinations of the axes, several velocities of one combination are tried at a time. --resume
+    continues unfinished cases that the search still needs.
 
     Parameters
     ----------
@@ -224,34 +224,34 @@ def run_search(plan, out: Path, workers: Workers, *, quiet: bool) -> int:
 
 
 def _show_ensembles(directory: Path) -> None:
-    """Prints what the members of each case of a study say together."""
+    """Prints the joint results of the members of each case of a study."""
     from hydro2d.study import contents, ensembles, layout, responses
 
-    found = contents.collect(layout.read(directory))
-    for line in ensembles.report(found.ensembles, responses.choose(found.study, found.records).y):
+    results = contents.collect(layout.read(directory))
+    for line in ensembles.report(results.ensembles, responses.choose(results.study, results.records).y):
         say(wrapped(line))
 
 
 def _status(study: Path, out: Path | None) -> int:
     from hydro2d.study import layout, monitor
 
-    found = layout.read(out or (study if study.is_dir() else _directory(study)))
-    told = monitor.status(found)
-    if found.search is not None:
+    opened = layout.read(out or (study if study.is_dir() else _directory(study)))
+    lines = monitor.status(opened)
+    if opened.search is not None:
         from hydro2d.study import regimes
 
-        told += ["", *regimes.lines(found, regimes.of_study(found))]
-    for line in told:
+        lines += ["", *regimes.lines(opened, regimes.of_study(opened))]
+    for line in lines:
         say(wrapped(line))
-    if found.ensembles:
+    if opened.ensembles:
         say("")
-        _show_ensembles(found.directory)
+        _show_ensembles(opened.directory)
     return 0
 
 
 def _directory(study: Path) -> Path:
-    """Where a study file's results are."""
+    """The directory of a study file's results."""
     from hydro2d.study import definition
 
-    found, *_ = definition.read(study, [])
-    return Path(found.out or f"runs/{study.stem}")
+    defined, *_ = definition.read(study, [])
+    return Path(defined.out or f"runs/{study.stem}")

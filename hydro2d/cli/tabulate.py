@@ -5,15 +5,15 @@ from __future__ import annotations
 from hydro2d.cli.base import Out, UsageError, quantity
 from hydro2d.terminal import say
 
-#: default range of densities, over that at rest, and of temperatures, K, and the numbers of both
+#: default range of densities over that at rest, largest temperature in K, and the numbers of both
 DENSITIES, HOTTEST = (0.8, 3.0), 20000.0
 NUMBERS = 151, 101
-#: least and greatest number of points
+#: smallest and largest number of points
 LEAST, MOST = 3, 1000
 
 
 def tabulate(material: str, *, out: Out, density: str | None = None, temperature: str | None = None) -> int:
-    """Writes the equation of state of a material as a table of the SESAME type 301, and says what it covers.
+    """Writes the equation of state of a material as a table of the SESAME type 301, and prints its range.
 
     Example: hydro2d tabulate Al_tillotson -o aluminium.301 --density "2.2 g/cm^3:8 g/cm^3:201" --temperature "30000 K:101"
 
@@ -24,11 +24,11 @@ def tabulate(material: str, *, out: Out, density: str | None = None, temperature
     out
         File of the table.
     density
-        Least and greatest density, and how many densities in equal ratios, as LOW:HIGH:NUMBER; that at rest is among them.
-        Default: 0.8 to 3 times the density at rest, 151 of them.
+        Smallest and largest density, and the number of densities, in equal ratios, as LOW:HIGH:NUMBER; the density at rest is
+        among them. Default: 0.8 to 3 times the density at rest, 151 densities.
     temperature
-        Greatest temperature and how many temperatures from zero on, as HIGH:NUMBER; that at rest is among them. Default:
-        20000 K and 101.
+        Largest temperature and the number of temperatures from zero on, as HIGH:NUMBER; the temperature at rest is among them.
+        Default: 20000 K and 101.
     """
     from hydro2d.files import write_text
     from hydro2d.materials import library, sesame, tabulate
@@ -52,7 +52,7 @@ def tabulate(material: str, *, out: Out, density: str | None = None, temperature
 
 
 def lines(table, rest: float, T: float) -> list[str]:
-    """What a deck must say of a table that is at rest at a density, kg/m^3, and a temperature, K, and what it covers."""
+    """Lines with the range of a table, and with its density and temperature at rest, kg/m^3 and K, which a deck must give."""
     from eos import tabular
 
     row = tabular.row({"reference_density": rest, "reference_temperature": T}, table)
@@ -60,7 +60,7 @@ def lines(table, rest: float, T: float) -> list[str]:
 
 
 def _range(option: str, text: str | None, unit: str, ends: int) -> tuple[tuple[float, ...], int] | None:
-    """Ends and number of END:NUMBER or LOW:HIGH:NUMBER; None without a text."""
+    """Ends and number of HIGH:NUMBER or LOW:HIGH:NUMBER; None without a text."""
     if text is None:
         return None
     *given, number = text.split(":")

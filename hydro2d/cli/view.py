@@ -1,4 +1,4 @@
-"""The command `hydro2d view`: one or two runs as a page that shows them."""
+"""The command `hydro2d view`: a page that shows one or two runs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from cyclopts import Parameter
 from hydro2d.cli.base import Out, import_matplotlib
 from hydro2d.terminal import say
 
-#: what a browser with windows needs, one of them
+#: environment variables of which a browser with windows needs one
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 
 
@@ -25,7 +25,7 @@ def view(
 ) -> int:
     """Shows a run, or two side by side, in the browser: one HTML page with all dumps, which needs no server and no network.
 
-    A run that has not ended is shown as far as it has got; the same command again shows it anew.
+    A run that has not ended is shown as far as it has got; repeat the command to update the page.
 
     Example: hydro2d view runs/a runs/b -o both.html --fields pressure von_mises
 
@@ -36,12 +36,12 @@ def view(
     out
         The page; default: `view.html` in the first run directory.
     fields
-        Fields in the page beside material and volume fractions, as `hydro2d info` names them; default: all of the dumps.
+        Fields in the page, in addition to material and volume fractions, as `hydro2d info` names them; default: all.
     bits
         Bits of each value. With 8 the page is smallest, and numbers may be off by 0.2 % of the range of their field at a time;
-        with 14 by 0.003 %. The page says so.
+        with 14, by 0.003 %. The page states this.
     open_
-        Opens the page in the browser, where there is a display. `--no-open` only writes it.
+        Opens the page in the browser, if there is a display. `--no-open` only writes it.
     """
     import_matplotlib()
     from hydro2d.results.reading import Results
@@ -58,7 +58,7 @@ def view(
 
 
 def _open(file: Path) -> bool:
-    """Opens a page in a browser that has windows; False where there is none. One in the terminal could not show it."""
+    """Opens a page in a browser with windows; False if there is none. A browser in the terminal could not show it."""
     import webbrowser
 
     return any(os.environ.get(name) for name in DISPLAYS) and webbrowser.open(file.absolute().as_uri())

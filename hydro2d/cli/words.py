@@ -1,4 +1,4 @@
-"""Words that people use for what has another name in hydro2d, or that it does not have, for `hydro2d info`."""
+"""Common words for things that hydro2d names differently or does not have, for `hydro2d info`."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Word:
-    """What a word is in hydro2d.
+    """The meaning of a word in hydro2d.
 
     said : an answer in one or two sentences
-    names : what `hydro2d info` explains further
-    pages : of the documentation, below docs
+    names : names that `hydro2d info` explains further
+    pages : pages of the documentation, below docs
     command : to type, if there is one
     """
 
@@ -24,8 +24,8 @@ class Word:
 
 WORDS = {
     "anvil": Word(
-        "A rigid wall that only pushes: what touches it may leave it again. It is a kind of edge of the mesh, as in "
-        '[boundaries] z_min = "anvil"; an edge "wall" also holds what touches it.',
+        "A rigid wall that only pushes: a body that touches it may leave it again. It is a kind of edge of the mesh, as in "
+        '[boundaries] z_min = "anvil"; an edge "wall" also holds a body that touches it.',
         ("boundaries.z_min", "boundaries"), ("how-to/write-a-deck.md#choose-the-edges",), "hydro2d new taylor"),
     "ballistic limit": Word(
         'The velocity at which half of the shots perforate. A search with of = "perforation" in its [transition] finds it.',
@@ -35,51 +35,51 @@ WORDS = {
         '"contact" is the other way to let bodies slide.',
         ("sliding.method", "sliding.boundary_layer", "sliding.slip_layer"), ("explanation/sliding.md#the-slip-layer",)),
     "cavitation": Word(
-        'Void that opens in tension: where it exceeds the fracture_pressure of a material, with failure.tensile = "material". '
-        "Water of the library cavitates by its equation of state. The models of an expanding cavity are something else.",
+        'Void that opens where tension exceeds the fracture_pressure of a material, with failure.tensile = "material". Water '
+        "of the library cavitates by its equation of state. The models of an expanding cavity are unrelated.",
         ("failure.tensile", "fracture_pressure", "water_tillotson", "cavity"), ("explanation/fracture.md",)),
     "cfl": Word(
-        "The ratio of the time step to the time in which a wave crosses a cell is numerics.courant.",
+        "numerics.courant is the ratio of the time step to the time in which a wave crosses a cell.",
         ("numerics.courant", "numerics.shock_courant", "numerics.advective_courant")),
     "concrete": Word(
-        "There is none: neither a material nor a strength model that was made for it, and no shot into concrete has been "
-        "compared. The models of ceramics are not a substitute. A model of your own is a Python file; for a rigid projectile "
-        "there is a formula whose constants are fitted to measured depths.",
+        "There is no material and no strength model for concrete, and no shot into concrete has been compared. The models of "
+        "ceramics are not a substitute. A model of your own is a Python file; for a rigid projectile there is a formula whose "
+        "constants are fitted to measured depths.",
         ("poncelet",), ("how-to/add-a-model.md",)),
     "debris": Word(
-        "What flies behind a plate: targets.NAME.debris in summary.json has its mass, momentum, energy, velocities, cone and "
-        "fragments.", ("penetration.targets",), ("how-to/results.md#debris-behind-a-plate",),
+        "Material that flies off behind a plate: targets.NAME.debris in summary.json has its mass, momentum, energy, "
+        "velocities, cone and fragments.", ("penetration.targets",), ("how-to/results.md#debris-behind-a-plate",),
         "hydro2d plot RUN -o debris.png --kind debris"),
     "detonator": Word(
         "A [[source]] of kind = \"detonation\" whose points light an explosive, each [r, z, time].",
         ("source", "jwl", "TNT"), ("explanation/explosives.md",), "hydro2d new cylinder-test"),
     "erosion": Word(
-        "No cell is ever deleted: material flows through the mesh, and a rod becomes shorter as its head is used up. "
+        "No cell is ever deleted: material flows through the mesh, and a rod becomes shorter as its head is consumed. "
         '`regime` in summary.json says whether it was eroding; a search with of = "erosion" finds the velocity of the change.',
         ("sliding.method", "failure"), ("how-to/find-a-transition.md", "explanation/rigid-rod.md")),
     "gap": Word(
-        "Whatever no body covers is void, so a gap is the distance that the deck leaves between bodies. It may close, and it "
+        "Space that no body covers is void, so a gap is the distance that the deck leaves between bodies. It may close, and it "
         "opens again where the tension exceeds fracture_pressure. `hydro2d check` warns of gaps of less than a cell.",
         ("body", "failure.tensile", "penetration.targets"), ("how-to/perforate-a-plate.md", "how-to/hypervelocity.md")),
     "gravity": Word(
-        'There is none by default. A [[source]] of kind = "acceleration" with axial = "-9.81 m/s^2" gives it to a body.',
+        'There is no gravity by default. A [[source]] of kind = "acceleration" with axial = "-9.81 m/s^2" gives it to a body.',
         ("source",), ("how-to/write-a-deck.md",)),
     "principal": Word(
-        "The largest principal stress that a material bears is its fracture_stress; beyond it the material fails for good.",
+        "fracture_stress is the largest principal stress that a material bears; beyond it the material fails for good.",
         ("fracture_stress", "failure.tensile"), ("explanation/fracture.md#the-largest-principal-stress",)),
     "restitution": Word(
-        "There is no coefficient to set: how fast a body rebounds follows from the materials. stop.rebound ends a run at "
+        "There is no coefficient to set: the speed of rebound follows from the materials. stop.rebound ends a run at "
         "the rebound; for the ratio of the velocities give a formula, such as [derived] restitution = "
         "\"abs(velocity) / '300 m/s'\".",
         ("stop.rebound", "derived"), ("how-to/results.md",)),
     "rigid": Word(
-        "No body is rigid by decree; a high yield_stress comes near it. `regime` in summary.json says whether a rod stayed "
+        "No body can be declared rigid; a high yield_stress comes near it. `regime` in summary.json says whether a rod stayed "
         "rigid. A rigid wall is an edge of the mesh, \"wall\" or \"anvil\". Analytic models have rigid rods.",
         ("yield_stress", "boundaries", "rigid-axial", "forrestal", "chen-li"),
         ("reference/words.md", "explanation/rigid-rod.md", "how-to/find-a-transition.md")),
     "segmented": Word(
-        "A rod of segments is a [[body]] for each of them, one behind the other, with the velocity of the rod; `join` makes "
-        "those of one material a single body.",
+        "Each segment of a rod is a [[body]], one behind the other, with the velocity of the rod; `join` makes segments of one "
+        "material a single body.",
         ("body.rod", "join", "body.box"), ("how-to/write-a-deck.md",)),
     "spall": Word(
         'Tensile failure: fracture_pressure of the material with failure.tensile = "material", or cochran-banner, whose cracks '
@@ -91,7 +91,7 @@ WORDS = {
         'has numbers = "SI" at its top. Results are in SI units, which end the names of their columns.',
         ("numbers",), ("reference/units.md",)),
     "us-up": Word(
-        "The straight line between shock and particle velocity, Us = c0 + s up, is the equation of state mie-grueneisen: c0 is "
+        "Us = c0 + s up, the straight line between shock and particle velocity, is the equation of state mie-grueneisen: c0 is "
         "sound_speed, s is hugoniot_slope.",
         ("mie-grueneisen", "sound_speed", "hugoniot_slope"), ("explanation/equation-of-state.md",)),
 }  # fmt: skip
@@ -108,13 +108,13 @@ ALSO = {
 
 
 def plain(name: str) -> str:
-    """A word as it is looked up: small letters, one blank or hyphen between its parts."""
+    """A word in the form that is looked up: lower case, one blank or hyphen between its parts."""
     word = re.sub(r"[\s_]+", " ", name.strip().lower())
     return word if word in WORDS or word in ALSO else word.replace("-", " ")
 
 
 def page(name: str) -> str | None:
-    """What a word is called here, and where to read on; None for a word that is not known."""
+    """The meaning of a word here, and where to read on; None for an unknown word."""
     key = plain(name)
     key = key if key in WORDS else ALSO.get(key) or key.replace(" ", "-")
     word = WORDS.get(key)

@@ -1,4 +1,4 @@
-"""The options of all commands that run many cases: who works, and what becomes of runs that are already there."""
+"""Options of all commands that run many cases: the workers, and what happens to existing runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hydro2d.cli.base import Count, UsageError
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Workers:
-    """The options as given; their order is that of --help.
+    """The options as given, in the order of --help.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Workers:
     overwrite: bool = False
 
     def check(self) -> None:
-        """Raises UsageError for ways to get workers that exclude each other."""
+        """Raises UsageError for options that exclude each other."""
         if self.scheduler is not None and self.slurm is not None:
             raise UsageError("--scheduler joins workers and --slurm starts them: give one of them")
         if self.scheduler is not None and self.workers is not None:
@@ -47,7 +47,7 @@ class Workers:
 
     @property
     def anew(self) -> bool:
-        """Whether all cases start again, also those whose rows are kept."""
+        """Whether all cases start again, even those whose rows are kept."""
         return self.overwrite and not self.resume
 
     @property
@@ -58,7 +58,7 @@ class Workers:
         return self.workers or cluster.default_workers(self.threads)
 
     def connect(self, most: int):
-        """A dask client with these workers; on this machine at most `most`."""
+        """A dask client with these workers; on this machine, at most `most` of them."""
         from hydro2d.study import cluster
 
         if self.scheduler is not None:
@@ -68,5 +68,5 @@ class Workers:
         return cluster.local(cluster.needed(self.workers, self.threads, most), self.threads)
 
 
-#: the options where none is given
+#: the options if none are given
 DEFAULT = Workers()

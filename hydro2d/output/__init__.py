@@ -1,1 +1,1 @@
-"""What a run writes: quantities, histories, restart files, VTK."""
+"""The output of a run: quantities, histories, restart files, VTK."""

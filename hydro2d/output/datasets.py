@@ -2,8 +2,8 @@
 
 Dimensions are z and r, preceded by `body` for quantities of each body and followed by `component` for vectors. Dumps of a run
 have `time` as the first dimension and are read when their values are used. Coordinates are the centres of the cells in m, in
-the frame of the laboratory. On a mesh that follows a body z depends on time, shape (time, mesh_z), and the dimension along the
-axis is `mesh_z`, the z of the cell in the first dump: z = mesh_z + mesh_position.
+the laboratory frame. On a mesh that follows a body, z depends on time, shape (time, mesh_z), and the dimension along the axis
+is `mesh_z`, the z of the cell in the first dump: z = mesh_z + mesh_position.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ from hydro2d.output.vtk import Dump, VtkError, read_grid
 if TYPE_CHECKING:
     import xarray
 
-#: components of vectors; the third, which the files have for ParaView, is zero
+#: components of vectors; the third, which ParaView needs in the files, is zero
 COMPONENTS = ("r", "z")
-#: dimension along the axis of a mesh that travels
+#: dimension along the axis of a travelling mesh
 MESH_Z = "mesh_z"
 
 
 def _names(quantity: Quantity, dump: Dump) -> list[str]:
-    """Names in files of a quantity: one, or one for every body."""
+    """Names of a quantity in files: one, or one for each body."""
     return [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
 
 
 def _values(quantity: Quantity, dump: Dump) -> np.ndarray:
-    """The values of a quantity, shape ([body,] nz, nr[, component]); NaN where a body, or the dump, has none."""
+    """The values of a quantity, shape ([body,] nz, nr[, component]); NaN where a body or the dump has none."""
     names = _names(quantity, dump)
     like = next((dump.fields[name] for name in names if name in dump.fields), np.empty(dump.shape, np.float32))
-    found = [dump.fields[name] if name in dump.fields else np.full(like.shape, np.nan, np.float32) for name in names]
+    arrays = [dump.fields[name] if name in dump.fields else np.full(like.shape, np.nan, np.float32) for name in names]
     if quantity.per_body:
-        return np.stack(found)
-    return found[0][..., : len(COMPONENTS)] if like.ndim > 2 else found[0]
+        return np.stack(arrays)
+    return arrays[0][..., : len(COMPONENTS)] if like.ndim > 2 else arrays[0]
 
 
 def _dimensions(quantity: Quantity, values: np.ndarray) -> tuple[str, ...]:
@@ -64,18 +64,18 @@ def _coordinates(dump: Dump) -> dict:
 
 
 def quantities_of(*dumps: Dump) -> list[Quantity]:
-    """The quantities that one of the dumps holds, and internal variables of models from outside, which the table lacks."""
+    """The quantities in any of the dumps, including internal variables of outside models, which the table lacks."""
     table = [quantity for quantity in quantities.TABLE
              if any(name in dump.fields for dump in dumps for name in _names(quantity, dump))]
     known = {name for dump in dumps for quantity in table for name in _names(quantity, dump)}
-    further = [found for dump in dumps for name in dump.fields if name not in known
-               for found in quantities.from_name(name, dump.bodies)]
+    further = [each for dump in dumps for name in dump.fields if name not in known
+               for each in quantities.from_name(name, dump.bodies)]
     keys = {quantity.key for quantity in table}
     return table + list({each.key: each for each in further if each.key not in keys}.values())
 
 
 def of_state(dump: Dump) -> xarray.Dataset:
-    """A state as a dataset over z and r; the time in s is a coordinate without dimension. Raises MissingPackage."""
+    """A state as a dataset over z and r; the time in s is a scalar coordinate. Raises MissingPackage."""
     with from_extra("data", "a dataset of fields"):
         import xarray
 
@@ -88,7 +88,7 @@ def of_state(dump: Dump) -> xarray.Dataset:
 
 
 def _travelling(dimensions: tuple[str, ...]) -> tuple[str, ...]:
-    """Dimensions as they are named on a mesh that travels."""
+    """Dimensions as named on a travelling mesh."""
     return tuple(MESH_Z if name == "z" else name for name in dimensions)
 
 
@@ -96,7 +96,7 @@ def _read(path: Path, shape: tuple[int, ...]) -> Dump:
     """A dump whose mesh has this shape, (nz, nr). Raises VtkError."""
     dump = read_grid(path)
     if dump.shape != shape:
-        raise VtkError(f"{path} has another mesh than the dumps that were opened: the run was begun anew")
+        raise VtkError(f"{path} has another mesh than the dumps opened before: the run was started anew")
     return dump
 
 
@@ -105,12 +105,12 @@ def _travel(dump: Dump, start: float) -> np.ndarray:
 
 
 def of_dumps(dumps: Sequence[tuple[float, Path]], follows: bool = False) -> xarray.Dataset:
-    """All dumps of a run as one dataset over time, z and r, whose values are read from the files when they are needed.
+    """All dumps of a run as one dataset over time, z and r, whose values are read from the files when needed.
 
     dumps : times in s and files, at least one
-    follows : the mesh travels with a body; the dimensions are then time, `mesh_z` and r, and z depends on time
+    follows : whether the mesh travels with a body; if so, the dimensions are time, `mesh_z` and r, and z depends on time
 
-    Raises MissingPackage, and VtkError, also later where a file is damaged or gone.
+    Raises MissingPackage, and VtkError, also later if a file is damaged or gone.
     """
     import dask
     import dask.array
@@ -119,7 +119,7 @@ def of_dumps(dumps: Sequence[tuple[float, Path]], follows: bool = False) -> xarr
         import xarray
 
     first, last = read_grid(dumps[0][1]), read_grid(dumps[-1][1])
-    opened = [dask.delayed(_read)(path, first.shape) for _, path in dumps]  # all variables of a dump share one reading of it
+    opened = [dask.delayed(_read)(path, first.shape) for _, path in dumps]  # all variables of a dump share one read of its file
     variables = {}
     for quantity in quantities_of(first, last):
         like = _values(quantity, last)
@@ -139,7 +139,7 @@ def of_dumps(dumps: Sequence[tuple[float, Path]], follows: bool = False) -> xarr
 
 
 def _places(first: Dump, opened: list) -> dict:
-    """z of a mesh that travels, from its dumps as dask opens them, and the coordinate that stays the same."""
+    """z of a travelling mesh, from its dumps as dask opens them, and the coordinate that does not change."""
     import dask
     import dask.array
 

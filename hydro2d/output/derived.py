@@ -1,7 +1,7 @@
-"""Computes from the state the quantities that are written and drawn (`mesh/quantities.py`).
+"""Computes the written and drawn quantities (`mesh/quantities.py`) from the state.
 
 A quantity of the mixture has shape (nz, nr) or, for a vector (r, z, 0), (nz, nr, 3). A quantity per body has shape (m, nz, nr)
-and is written once for every body. Values are zero where there is no material.
+and is written once for each body. Values are zero where there is no material.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Cells:
 
     @functools.cached_property
     def _mass(self) -> tuple[np.ndarray, np.ndarray]:
-        """Mass per volume of every body, and of all bodies together; the latter is nowhere zero."""
+        """Mass per volume of each body, and of all bodies together; the latter is nowhere zero."""
         mass = self.vof * self.rho
         return mass, np.maximum(np.sum(mass, axis=0), TINY)
 
@@ -107,7 +107,7 @@ class Cells:
         return np.stack([u, v, np.zeros_like(u)], axis=-1)
 
     def centroid_r(self) -> np.ndarray:
-        """By how much the centroid of each body lies off that of the cell along r, m; 0 where it fills all or nothing."""
+        """Offset along r of the centroid of each body from that of the cell, m; 0 where it fills all or nothing."""
         grid, inner, outer = self._sim.grid, self._sim.grid.r_edges[:-1], self._sim.grid.r_edges[1:]
         offset = grid.interior(self._sim.state.centroid)[0]
         if not grid.cylindrical:
@@ -117,7 +117,7 @@ class Cells:
         return np.where(self._in_part, off, 0.0)
 
     def centroid_z(self) -> np.ndarray:
-        """The same along z."""
+        """Offset along z of the centroid of each body from that of the cell, m; 0 where it fills all or nothing."""
         offset = self._sim.grid.interior(self._sim.state.centroid)[1]
         return np.where(self._in_part, offset * np.diff(self._sim.grid.z_edges)[:, None], 0.0)
 
@@ -175,9 +175,9 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
 
 
 def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
-    """Name in the file and values of each quantity in `keys` and of those that are always written, one after the other.
+    """Yields the name in the file and the values of each quantity in `keys`, and of those that are always written.
 
-    Shapes are (nz, nr) or (nz, nr, 3). Quantities of a contact are left out if there is none. Raises FieldError.
+    Shapes are (nz, nr) or (nz, nr, 3). Contact quantities are omitted if there is no contact. Raises FieldError.
     """
     cells = Cells(sim)
     for quantity in (BY_KEY[key] for key in expand(keys)):
@@ -192,5 +192,5 @@ def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
 
 
 def evaluate(sim, keys=("all",)) -> dict[str, np.ndarray]:
-    """The same quantities all at once, by their names in the file."""
+    """All quantities of `evaluated` at once, by their names in the file."""
     return dict(evaluated(sim, keys))

@@ -1,4 +1,4 @@
-"""What files of a run must not do when they come from someone else: lead to other files, or claim more than they hold."""
+"""Checks files of a run that come from someone else: they must not lead to other files or claim more than they hold."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from hydro2d.errors import Error
 
 #: largest ratio of a value to its compressed size: that of gzip is 1032, that of LZ4 255
 RATIO = 1100
-#: bytes that any file may claim
+#: number of bytes that any file may claim
 FREE = 1 << 16
-#: bytes of a VTK file in which its description must end
+#: number of bytes at the start of a VTK file within which its description must end
 HEAD = 1 << 20
 _NAME = re.compile(r"[^/\\\0]+\.vt[rp]")
 _COUNTS = re.compile(rb"(?:NumberOf(?:Points|Lines|Verts|Strips|Polys|Tuples|Components))=\"([^\"]*)\"")
@@ -22,11 +22,11 @@ _EXTENT = re.compile(rb"(?:WholeExtent|Extent)=\"([^\"]*)\"")
 
 
 def check_names(files: Iterable[str | None], folder: str) -> None:
-    """Raises ValueError if a series names a file that is not a VTK file in a folder beside it."""
+    """Raises ValueError if a series names a file that is not a VTK file in the folder next to it."""
     for file in files:
         place, slash, name = (file or "").partition("/")
         if place != folder or not slash or not _NAME.fullmatch(name) or name.startswith("."):
-            raise ValueError(f"it names the file {file!r}; a series may name VTK files in {folder}/ alone")
+            raise ValueError(f"it names the file {file!r}; a series may name only VTK files in {folder}/")
 
 
 def check_xml(text: bytes) -> None:
@@ -38,9 +38,9 @@ def check_xml(text: bytes) -> None:
 def check_vtk(path: Path, error: type[Error]) -> None:
     """Raises `error` if a VTK file declares entities, or describes more values than its size can hold."""
     with open(path, "rb") as file:
-        head, found, _ = file.read(HEAD).partition(b"<AppendedData")
+        head, marker, _ = file.read(HEAD).partition(b"<AppendedData")
     try:
-        if not found:
+        if not marker:
             raise ValueError("its values are not appended to its description")
         check_xml(head)
         extents = [[int(word) for word in text.split()] for text in _EXTENT.findall(head)]
@@ -54,10 +54,10 @@ def check_vtk(path: Path, error: type[Error]) -> None:
 
 
 def _check_blocks(path: Path, head: bytes) -> None:
-    """Raises ValueError if a block of values is not where and as large as VTK expects, which it does not check itself.
+    """Raises ValueError if a block of values is not in the place or of the size that VTK expects without a check.
 
-    Each array begins with the number of its blocks, their size, the size of the last one if it is smaller, and what each takes
-    up in the file.
+    Each array begins with the number of its blocks, their size, the size of the last one if it is smaller, and the size of each
+    in the file.
     """
     if b'compressor="vtkLZ4DataCompressor"' not in head:
         raise ValueError("it is not compressed with LZ4")

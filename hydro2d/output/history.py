@@ -1,10 +1,10 @@
 """history.h5: one dataset per quantity against time and, at the end of a run, the holes in the targets.
 
-Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. Those of
-tracers and gauges have the station as a second dimension, see station_arrays.py. The hole in the first target is the group
-`crater`: its radius over its axial positions. Those in further targets are `crater_NAME`. What flies behind a target is the
-group `debris_NAME`: the mass of each body by axial speed and by angle, and a list of fragments. The whole file is written under
-a temporary name and renamed each time, so a run that is killed leaves the last complete file.
+Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. Datasets
+of tracers and gauges have the station as a second dimension, see station_arrays.py. The group `crater` is the hole in the first
+target, its radius over its axial positions; those of further targets are `crater_NAME`. The group `debris_NAME` is the debris
+behind a target: the mass of each body by axial speed and by angle, and a list of fragments. The whole file is written under a
+temporary name and renamed each time, so a run that is killed leaves the last complete file.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
 
     from hydro2d.solver.debris import Debris
 
-#: prefix of the groups of what flies behind a target
+#: prefix of the groups of debris behind targets
 DEBRIS = "debris"
-#: the group of the hole in the first target, which is also the prefix of the other groups, and its datasets
+#: group of the hole in the first target, also the prefix of the groups of others, and its datasets
 CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
 
 class HistoryError(Error):
@@ -80,7 +80,7 @@ class Columns:
         return self._columns["time"][-1] if self._rows else None
 
     def some(self, names: Iterable[str]) -> dict[str, np.ndarray]:
-        """Those of these columns that there are, as floats, shapes (rows,)."""
+        """Those of the named columns that exist, as floats, shapes (rows,)."""
         return {name: np.array(self._columns[name]) for name in names if name in self._columns}
 
     def append(self, row: dict[str, float | str | None]) -> None:
@@ -99,19 +99,19 @@ class Columns:
 
 
 class History(Columns):
-    """Columns that are written to history.h5.
+    """The columns of history.h5.
 
     Parameters
     ----------
-    path : where the file is or will be
+    path : the file, which need not exist
     rows : number of rows of the existing file to keep (a restart); 0 begins an empty one
-    unwritten : further rows that a file of an earlier process had not, as `unwritten` gave them
+    unwritten : further rows that the file of an earlier process lacks, as `unwritten` gave them
 
     Attributes
     ----------
-    craters : axial positions and radii of the hole in each target, m, by its name, to be written as well; empty before the end
-        of a run
-    debris : what flies behind each target, by its name, likewise
+    craters : axial positions and radii of the hole in each target, m, by its name, written as well; empty before the end of
+        a run
+    debris : debris behind each target, by its name, likewise
     """
 
     def __init__(self, path: Path, rows: int = 0, unwritten: dict[str, list[float]] | None = None):
@@ -129,7 +129,7 @@ class History(Columns):
             self.append({name: values[number] for name, values in further.items()})
 
     def unwritten(self, rows: int) -> dict[str, list[float]]:
-        """Those of the first rows that no file has yet, by column."""
+        """Those of the first rows that are not in a file yet, by column."""
         if self._written >= rows:
             return {}
         return {name: column[self._written : rows].tolist() for name, column in self._columns.items()}
@@ -144,9 +144,9 @@ class History(Columns):
             time = _dataset(file, "time", self._columns.get("time", []))
             time.make_scale("time")
             kept = {kind: stations(self._columns, kind) for kind in KINDS}
-            apart = {column for kind, names in kept.items() for name in names for column in of_station(kind, name)}
+            of_stations = {column for kind, names in kept.items() for name in names for column in of_station(kind, name)}
             for name, values in self._columns.items():
-                if name != "time" and name not in apart:
+                if name != "time" and name not in of_stations:
                     _dataset(file, name, values).dims[0].attach_scale(time)
             for kind, names in kept.items():
                 if names:
@@ -157,8 +157,8 @@ class History(Columns):
                 z, radius = (_dataset(group, *column) for column in zip(CRATER_COLUMNS, crater, strict=True))
                 z.make_scale(CRATER_COLUMNS[0])
                 radius.dims[0].attach_scale(z)
-            for number, (name, found) in enumerate(self.debris.items()):
-                _write_debris(file.create_group(f"{DEBRIS}_{name}"), name, number, found)
+            for number, (name, debris) in enumerate(self.debris.items()):
+                _write_debris(file.create_group(f"{DEBRIS}_{name}"), name, number, debris)
 
     def _write_stations(self, file, kind: str, names: list[str]) -> None:
         """Writes the columns of tracers or gauges as arrays over time and station."""
@@ -175,7 +175,7 @@ class History(Columns):
 
 
 def _write_debris(group, target: str, number: int, debris: Debris) -> None:
-    """Writes what flies behind a target: bins with the mass of each body in them, and the fragments."""
+    """Writes the debris behind a target: bins with the mass of each body in them, and the fragments."""
     import h5py
 
     group.attrs.update(target=target, number=number)
@@ -246,20 +246,20 @@ def _opened(path: Path):
 def read(path: Path) -> dict[str, np.ndarray]:
     """All columns by name, `time` first, shapes (rows,). Raises HistoryError."""
     with _opened(path) as file:
-        found = {file[name].attrs.get("long_name", name): file[name][...] for name in file.keys() - set(_groups(file, ""))}
+        datasets = {file[name].attrs.get("long_name", name): file[name][...] for name in file.keys() - set(_groups(file, ""))}
         for kind in KINDS:
-            if kind in found and found[kind].dtype == object:
-                found |= _taken_apart(found, kind)
-        columns = {name: found[name] for name in sorted(found, key=lambda name: (name != "time", name))}
+            if kind in datasets and datasets[kind].dtype == object:
+                datasets |= _pop_stations(datasets, kind)
+        columns = {name: datasets[name] for name in sorted(datasets, key=lambda name: (name != "time", name))}
         if any(column.shape != columns["time"].shape or column.dtype.kind not in "fi" for column in columns.values()):
             raise HistoryError(f"{path} is damaged: its columns differ in length")
         return columns
 
 
-def _taken_apart(found: dict[str, np.ndarray], kind: str) -> dict[str, np.ndarray]:
-    """The columns of tracers or gauges, shapes (rows,), from their arrays, shapes (rows, stations), which are taken out."""
-    names = [name.decode() for name in found.pop(kind)]
-    arrays = {key: np.ascontiguousarray(found.pop(f"{kind}_{key}").T) for key in KEYS}
+def _pop_stations(datasets: dict[str, np.ndarray], kind: str) -> dict[str, np.ndarray]:
+    """Removes the arrays of tracers or gauges, shapes (rows, stations), and returns them as columns, shapes (rows,)."""
+    names = [name.decode() for name in datasets.pop(kind)]
+    arrays = {key: np.ascontiguousarray(datasets.pop(f"{kind}_{key}").T) for key in KEYS}
     return {f"{kind}_{name}_{key}": column for key, columns in arrays.items()
             for name, column in zip(names, columns, strict=True)}  # fmt: skip
 
@@ -283,23 +283,23 @@ def read_craters(path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 
 def read_debris(path: Path) -> dict[str, dict[str, np.ndarray]]:
-    """What flies behind each target at the end, by the target's name; empty if there are none. Raises HistoryError.
+    """Debris behind each target at the end, by the target's name; empty if there are none. Raises HistoryError.
 
     body : names of the bodies;  speed_edges_m_s, angle_edges_rad (n + 1,) : bins;  mass_by_speed_kg, mass_by_angle_kg
     (n, bodies);  fragment_mass_kg, fragment_r_m, fragment_z_m, fragment_velocity_r_m_s, fragment_velocity_z_m_s and
     fragment_body, the number of its body, (k,)
     """
     with _opened(path) as file:
-        found = {}
+        debris = {}
         for name in _groups(file, f"{DEBRIS}_"):
             arrays = {key: file[name][key][...] for key in file[name]}
             arrays["body"] = np.array([body.decode() for body in arrays["body"]], dtype=str)
-            found[str(file[name].attrs.get("target", name))] = arrays
-        return found
+            debris[str(file[name].attrs.get("target", name))] = arrays
+        return debris
 
 
 def write_csv(columns: dict[str, np.ndarray], path: Path) -> None:
-    """Writes the columns as CSV with 17 digits; the header names quantity and unit."""
+    """Writes the columns as CSV with 17 digits; the header gives quantity and unit."""
     header = io.StringIO()
     csv.writer(header, lineterminator="").writerow(cell(f"{name} [{unit(name)}]") for name in columns)
     with replacing(path) as temporary:

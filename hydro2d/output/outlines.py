@@ -1,4 +1,4 @@
-"""Outlines of the bodies: lines along which a body fills half of a cell, and around what is narrower than a cell."""
+"""Outlines of bodies: lines along which a body fills half of a cell, and lines around parts narrower than a cell."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ import numpy as np
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 
-#: gap, in cells, across which the boxes of neighbouring cells are drawn as one, within a cut and from a cut to the next
+#: largest gap, in cells, at which the boxes of neighbouring cells are joined, within a cut and between cuts
 WITHIN, BESIDE = 0.2, 1.0
-#: codes of a matplotlib path: a point that begins a line, one that it leads to, and the last of a closed one
+#: codes of a matplotlib path: the first point of a line, a further one, and the last of a closed line
 MOVE, LINE, CLOSE = 1, 2, 79
 
 
 @dataclass(frozen=True)
 class Cut:
-    """What boxes in cells one behind the other leave of a line of cells, m.
+    """The part of a line of cells that the boxes of consecutive cells fill, m.
 
     low, high : its ends along the line;  first, last : its ends across it;  along, across : its centroid;  width : of the line
-    thickness : along the line, were it as thick all across;  cell : number of the last of the cells;  size : of it
+    thickness : along the line, averaged across it;  cell : number of the last cell;  size : of that cell
     """
 
     low: float
@@ -37,7 +37,7 @@ class Cut:
     size: float
 
     def with_next(self, other: Cut) -> Cut:
-        """Both as one."""
+        """This cut and the next one joined."""
         both = self.thickness + other.thickness
         along, across = ((mine * self.thickness + its * other.thickness) / both
                          for mine, its in ((self.along, other.along), (self.across, other.across)))
@@ -45,21 +45,21 @@ class Cut:
                        across=across, thickness=both)  # fmt: skip
 
     def near(self, other: Cut, gap: float) -> bool:
-        """Whether both overlap, or are no further apart than a gap in cells."""
+        """Whether the cuts overlap, or are no further apart than ``gap``, in cells."""
         return max(self.low, other.low) - min(self.high, other.high) <= gap * max(self.size, other.size)
 
     @property
     def half_at_an_end(self) -> float:
-        """Half of the thickness where it fills the line only from `first` to `last`."""
+        """Half of the thickness if the cut fills the line only from `first` to `last`."""
         return 0.5 * min(self.thickness * self.width / (self.last - self.first), self.high - self.low)
 
 
 @dataclass(frozen=True)
 class Filling:
-    """What a body, or several together, fill of the cells, and where it lies in those that it shares.
+    """The share of each cell that a body, or several together, fill, and its place in the cell.
 
-    r_edges (nr + 1,), z_edges (nz + 1,) in m; fraction (nz, nr); offsets (2, nz, nr): along r and z, by which its centroid lies
-    off that of the cell, m. Without them nothing is known of what is narrower than a cell.
+    r_edges (nr + 1,), z_edges (nz + 1,) in m; fraction (nz, nr); offsets (2, nz, nr) along r and z of its centroid from that of
+    the cell, m. Without offsets, parts narrower than a cell are not known.
     """
 
     r_edges: np.ndarray
@@ -69,7 +69,7 @@ class Filling:
 
     @cached_property
     def thin(self) -> np.ndarray:
-        """Cells (nz, nr) of something narrower than a cell: filled by CRUMB or more, and none of 5 x 5 around by FILLED."""
+        """Cells (nz, nr) of parts narrower than a cell: filled by CRUMB or more, and none of the 5 x 5 around by FILLED."""
         if self.offsets is None:
             return np.zeros(self.fraction.shape, dtype=bool)
         from scipy import ndimage
@@ -78,14 +78,14 @@ class Filling:
 
     @property
     def shown(self) -> np.ndarray:
-        """Cells (nz, nr) whose values are shown: filled by half, or of something narrower than a cell."""
+        """Cells (nz, nr) whose values are shown: filled by half, or of a part narrower than a cell."""
         return (self.fraction >= HALF) | self.thin
 
     def outlines(self, closed: bool = False) -> list[np.ndarray]:
-        """Contours of the fraction 1/2 through the cell centres, and closed lines around what is narrower than a cell.
+        """Contours of the fraction 1/2 through the cell centres, and closed lines around parts narrower than a cell.
 
-        The outermost values are carried on to the edges of the mesh, so that lines reach the axis and the boundary; `closed`
-        draws the lines on along the boundary, but for the inner one. Returns arrays (n, 2) of r, z.
+        The outermost values are extended to the edges of the mesh, so that lines reach the axis and the boundary; `closed`
+        continues the lines along the boundary, except the inner one. Returns arrays (n, 2) of r, z.
         """
         import contourpy
 
@@ -96,7 +96,7 @@ class Filling:
         return [*contourpy.contour_generator(r, z, values).lines(HALF), *self.around_thin]
 
     def regions(self) -> list[tuple[np.ndarray, np.ndarray]]:
-        """The areas that `outlines` and the edges of the mesh bound.
+        """The areas bounded by `outlines` and the edges of the mesh.
 
         Each is an array (n, 2) of r, z and the codes (n,) of a matplotlib path: an outline, and those of its holes.
         """
@@ -108,30 +108,30 @@ class Filling:
 
     @cached_property
     def around_thin(self) -> list[np.ndarray]:
-        """Closed lines (n, 2) of r, z around what is narrower than a cell, from its boxes (explanation/interfaces, equation 7).
+        """Closed lines (n, 2) of r, z around parts narrower than a cell, from their boxes (explanation/interfaces, equation 7).
 
-        What hangs together is cut along its shorter side, column by column if it lies and row by row if it stands, and the ends
-        of neighbouring cuts are joined.
+        Each connected part is cut along its shorter side, column by column if it is wide and row by row if it is tall, and the
+        ends of neighbouring cuts are joined.
         """
         if not self.thin.any():
             return []
         from scipy import ndimage
 
         labels, _ = ndimage.label(self.thin, np.ones((3, 3)))
-        found = []
+        lines = []
         for number, (rows, columns) in enumerate(ndimage.find_objects(labels), start=1):
             cells = np.argwhere(labels[rows, columns] == number) + (rows.start, columns.start)
             axis = int(columns.stop - columns.start >= rows.stop - rows.start)
-            found += [_around(chain)[:, ::1 if axis else -1] for chain in _chains(self._cuts(cells, axis))]
-        return found
+            lines += [_around(chain)[:, ::1 if axis else -1] for chain in _chains(self._cuts(cells, axis))]
+        return lines
 
     def _at_centres(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """r and z of the cell centres and of the edges of the mesh, and the fractions there, but for what is thin."""
+        """r and z of the cell centres and of the edges of the mesh, and the fractions there, without thin parts."""
         r, z = (np.concatenate([e[:1], 0.5 * (e[1:] + e[:-1]), e[-1:]]) for e in (self.r_edges, self.z_edges))
         return r, z, np.pad(np.where(self.thin, 0.0, self.fraction), 1, mode="edge")
 
     def _cuts(self, cells: np.ndarray, axis: int) -> Iterator[tuple[int, list[Cut]]]:
-        """(line, its cuts, the lowest first) of cells (n, 2), row and column, that are cut along r (axis 0) or z (1)."""
+        """Yields (line, its cuts, the lowest first) of cells (n, 2), row and column, cut along r (axis 0) or z (1)."""
         widths = np.diff((self.z_edges, self.r_edges)[axis])
         for line in np.unique(cells[:, axis]).tolist():
             cuts: list[Cut] = []
@@ -158,7 +158,7 @@ class Filling:
 
 
 def _chains(lines: Iterator[tuple[int, list[Cut]]]) -> list[list[Cut]]:
-    """Cuts that lie beside one another on lines one after the other, chain by chain."""
+    """Chains of neighbouring cuts on consecutive lines."""
     chains: list[list[Cut]] = []
     before: list[list[Cut]] = []
     last = -2
@@ -178,7 +178,7 @@ def _chains(lines: Iterator[tuple[int, list[Cut]]]) -> list[list[Cut]]:
 
 
 def _around(chain: list[Cut]) -> np.ndarray:
-    """Closed line (n, 2) around cuts: across the lines, and along them."""
+    """Closed line (n, 2) around cuts; points are across and along the lines of cells."""
     one, other = chain[0], chain[-1]
     if len(chain) == 1:
         places = [(one.first, one.low, one.high), (one.last, one.low, one.high)]
@@ -189,12 +189,12 @@ def _around(chain: list[Cut]) -> np.ndarray:
 
 
 def _end(cut: Cut, beside: Cut, at: float) -> tuple[float, float, float]:
-    """(across, low, high) of an end of a chain: of a cut that is drawn on to a place in its line, as the one beside it goes."""
+    """(across, low, high) at the end of a chain: a cut extended to a place in its line, in the direction from its neighbour."""
     slope = (beside.along - cut.along) / (beside.across - cut.across)
     middle = cut.along + slope * (at - cut.across)
     return at, middle - cut.half_at_an_end, middle + cut.half_at_an_end
 
 
 def _beyond(edge: float, inside: float) -> float:
-    """A point a hair outside of the mesh."""
+    """A point just outside the mesh."""
     return edge + 1e-6 * (edge - inside)

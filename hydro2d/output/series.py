@@ -1,4 +1,4 @@
-"""The dumps of a run directory as they are written: fields, outlines and tracers, and the lists of their times."""
+"""Writes the dumps of a run directory: fields, outlines and tracers, and the lists of their times."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from hydro2d.strange import own_folder
 
 
 def numbered(directory: Path, kind: str) -> list[tuple[int, Path]]:
-    """The dumps of a kind of vtk.SERIES in a run directory, with their numbers; other files in their folder are none."""
+    """The dumps of a kind of vtk.SERIES in a run directory, with their numbers; other files in the folder are ignored."""
     name = re.compile(rf"{kind}_([0-9]{{6,}})\.vt[rp]")
-    found = ((name.fullmatch(file.name), file) for file in (directory / vtk.FOLDER).glob(f"{kind}_*"))
-    return [(int(match.group(1)), file) for match, file in found if match]
+    files = ((name.fullmatch(file.name), file) for file in (directory / vtk.FOLDER).glob(f"{kind}_*"))
+    return [(int(match.group(1)), file) for match, file in files if match]
 
 
 class Series:
@@ -32,7 +32,7 @@ class Series:
 
     Attributes
     ----------
-    repaired : what was wrong with the existing series, whose times were then read from the dumps; empty if nothing was
+    repaired : the fault of the existing series, whose times were then read from the dumps; empty if there was none
     """
 
     def __init__(self, directory: Path, fields=("standard",), dumps: int = 0):

@@ -1,8 +1,8 @@
-"""restart.h5: everything that a run needs to continue with bitwise the same results.
+"""restart.h5: everything that a run needs to continue with bitwise identical results.
 
 The file holds every array of the state, the scalars of the simulation and of the run as JSON, and the text of the deck. A
-SHA-256 over all of them and the attribute `complete` are written last; that of the file itself follows its end. The previous
-file is kept as restart.previous.h5.
+SHA-256 of all these and the attribute `complete` are written last; the checksum of the file itself follows its end. The
+previous file is kept as restart.previous.h5.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ NAME, PREVIOUS = "restart.h5", "restart.previous.h5"
 
 
 class SnapshotError(Error):
-    """A restart file that is missing, truncated, altered or not from hydro2d; the message is one line for the user."""
+    """A restart file that is missing, truncated, altered or not of hydro2d; the message is one line for the user."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def _checksum(arrays: dict[str, np.ndarray], texts: dict[str, str]) -> str:
 
 
 def write(path: Path, snapshot: Snapshot) -> None:
-    """Writes a restart file. An existing one becomes the previous one."""
+    """Writes a restart file. An existing one is kept as the previous one."""
     path = Path(path)
     texts = snapshot.texts()
     with replacing(path) as temporary:
@@ -88,7 +88,7 @@ def write(path: Path, snapshot: Snapshot) -> None:
 
 
 def read(path: Path) -> Snapshot:
-    """Reads and verifies a restart file. Raises SnapshotError with one line for any wrong file."""
+    """Reads and verifies a restart file. Raises SnapshotError with one line for any faulty file."""
     import h5py
 
     path = own(Path(path))
@@ -98,9 +98,9 @@ def read(path: Path) -> Snapshot:
     try:
         with h5py.File(path, "r") as file:
             foreign.check_hdf5(file)
-            if (found := file.attrs.get("format")) != FORMAT:
-                raise SnapshotError(f'{path}: a restart file of another version ("{found}"; this one reads "{FORMAT}")'
-                                    if str(found).startswith(FORMAT[:-1]) else f"{path}: not a restart file of hydro2d")
+            if (version := file.attrs.get("format")) != FORMAT:
+                raise SnapshotError(f'{path}: a restart file of another version ("{version}"; this one reads "{FORMAT}")'
+                                    if str(version).startswith(FORMAT[:-1]) else f"{path}: not a restart file of hydro2d")
             if not file.attrs.get("complete", False):
                 raise SnapshotError(f"{path}: the restart file was never completed")
             arrays = {name: dataset[...] for name, dataset in file["arrays"].items()}
@@ -109,14 +109,14 @@ def read(path: Path) -> Snapshot:
     except (OSError, KeyError, ValueError, RuntimeError, AttributeError, TypeError) as error:
         raise SnapshotError(f"{path}: truncated or not a restart file ({error})") from None
     if _checksum(arrays, texts) != expected:
-        raise SnapshotError(f"{path}: the checksum does not fit, the file is damaged")
+        raise SnapshotError(f"{path}: the checksum does not match; the file is damaged")
     values = {name: text if name == "deck" else json.loads(text) for name, text in texts.items()}
     return Snapshot(arrays=arrays, **values)
 
 
 @contextmanager
 def fitting(directory: Path) -> Iterator[None]:
-    """Raises SnapshotError if the contents of a restart file do not fit the run into which they are loaded in this block."""
+    """Raises SnapshotError if the contents of a restart file do not fit the run that this block loads them into."""
     try:
         yield
     except (KeyError, TypeError, ValueError) as error:
@@ -125,7 +125,7 @@ def fitting(directory: Path) -> Iterator[None]:
 
 
 def read_latest(directory: Path) -> tuple[Snapshot, list[str]]:
-    """The newest readable restart file of a run directory, and what is wrong with a newer one.
+    """The newest readable restart file of a run directory, and the faults of a newer one.
 
     Raises SnapshotError if neither of the two files can be read.
     """

@@ -1,7 +1,7 @@
-"""Columns of tracers and gauges in a file: one array over time and station for each quantity, however many stations there are.
+"""Columns of tracers and gauges in a file: one array over time and station for each quantity.
 
 A file holds the columns `gauge_NAME_pressure_Pa` of all gauges as the dataset `gauge_pressure_Pa` over `time` and `gauge`, the
-names of the gauges; those of tracers likewise.
+names of the gauges; likewise for tracers.
 """
 
 from __future__ import annotations
@@ -10,15 +10,15 @@ from collections.abc import Collection, Iterator
 
 from hydro2d.mesh.station_columns import QUANTITIES
 
-#: kinds of stations, which are also the dimension scales with their names, and what the history has of each
+#: kinds of stations, also names of the dimension scales that hold their names, and the quantities of each in the history
 KINDS = ("tracer", "gauge")
 KEYS = ("r_m", "z_m", *QUANTITIES)
-#: names of datasets, which no other column may have
+#: names of datasets, reserved for them
 RESERVED = (*KINDS, *(f"{kind}_{key}" for kind in KINDS for key in KEYS))
 
 
 def stations(columns: Collection[str], kind: str) -> list[str]:
-    """Names of the stations of a kind for which there are columns of all quantities, in order."""
+    """Names of the stations of a kind that have columns of all quantities, in order."""
     first = f"_{KEYS[0]}"
     named = [name[len(kind) + 1 : -len(first)] for name in columns if name.startswith(f"{kind}_") and name.endswith(first)]
     return [name for name in named if name and all(column in columns for column in of_station(kind, name))]

@@ -1,4 +1,4 @@
-"""Fields as VTK files that ParaView opens with one click: one .vtr file per dump and a .pvd file with their times.
+"""Fields as VTK files that ParaView opens with one click: a .vtr file for each dump and a .pvd file with their times.
 
 In the files x = r and y = z. Values are float32, appended raw and compressed with LZ4. The outlines of the bodies and the
 tracers are separate series of .vtp files. Names and units: derived.py.
@@ -49,7 +49,7 @@ def _stamp(dataset, time: float) -> None:
 
 @contextmanager
 def _silence() -> Iterator[None]:
-    """Keeps VTK from printing what goes wrong, which is many coloured lines; an exception says it in one."""
+    """Keeps VTK from printing errors as many coloured lines; an exception reports them in one."""
     from vtkmodules.vtkCommonCore import vtkObject
 
     shown = vtkObject.GetGlobalWarningDisplay()
@@ -65,7 +65,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     for data in (dataset.GetCellData(), dataset.GetPointData()):
         for number in range(data.GetNumberOfArrays()):
             array = data.GetAbstractArray(number)
-            array.SetName(escape(array.GetName(), {'"': "&quot;"}))  # VTK writes names into its XML as they are
+            array.SetName(escape(array.GetName(), {'"': "&quot;"}))  # VTK writes names into its XML unescaped
     writer.SetInputData(dataset)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
@@ -79,7 +79,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
 
 
 def _write_error(code: int, path: Path) -> OSError:
-    """Why VTK could not write a file; codes below VTK's own are errors of the operating system."""
+    """The error for a file that VTK could not write; codes below VTK's own are errors of the operating system."""
     from vtkmodules.vtkCommonMisc import vtkErrorCode
 
     if code == vtkErrorCode.OutOfDiskSpaceError:
@@ -100,7 +100,7 @@ def _array(values: np.ndarray, name: str):
 
 
 def _coordinates(values, name: str):
-    """A float64 VTK array. It has a name, because VTK would otherwise write a memory address and no two files would match."""
+    """A float64 VTK array with a name; without one VTK would write a memory address and no two files would match."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
     array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
@@ -113,7 +113,7 @@ def write_grid(path: Path, r_edges, z_edges, fields: Iterable[tuple[str, np.ndar
 
     r_edges (nr + 1,), z_edges (nz + 1,) in m;  fields: names and values (nz, nr) or (nz, nr, 3);  time in s
 
-    The first vector is marked as the one that filters turn and mirror with the geometry.
+    The first vector is marked as the one that filters rotate and mirror with the geometry.
     """
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridWriter
 
@@ -190,22 +190,22 @@ def write_series(path: Path, entries: list[tuple[float, str]]) -> None:
 
 
 def read_series(path: Path) -> list[tuple[float, str]]:
-    """Times and file names of a .pvd file, all of them plain names in FOLDER. Raises VtkError, StrangeFile."""
+    """Times and file names of a .pvd file; all names must be plain ones in FOLDER. Raises VtkError, StrangeFile."""
     data = checksums.verified(path, VtkError)
     try:
         foreign.check_xml(data)
-        found = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(data).iter("DataSet")]
-        foreign.check_names((file for _, file in found), FOLDER)
-        return found
+        entries = [(float(e.get("timestep")), e.get("file")) for e in ElementTree.fromstring(data).iter("DataSet")]
+        foreign.check_names((file for _, file in entries), FOLDER)
+        return entries
     except (ElementTree.ParseError, TypeError, ValueError) as error:
         raise VtkError(f"{path} is not a series of VTK files: {error}") from None
 
 
 @dataclass(frozen=True)
 class Dump:
-    """A dump that was read: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s.
+    """A dump read from a file: r_edges (nr + 1,), z_edges (nz + 1,), fields by name (nz, nr[, 3]), time in s.
 
-    mirrored : whether pictures show the mirror image as well, see `boundary_conditions.halved`; no file says this
+    mirrored : whether pictures show the mirror image as well, see `boundary_conditions.halved`; not stored in files
     """
 
     r_edges: np.ndarray
@@ -240,22 +240,22 @@ class Dump:
         return self.filling(body).outlines()
 
     def filling(self, body: str | None = None) -> Filling:
-        """What a body, or all of them together, fill of the cells, and where. Raises VtkError."""
+        """The filling of the cells by a body, or by all bodies together. Raises VtkError."""
         if body is not None and body not in self.bodies:
             raise VtkError(unknown("body", body, self.bodies))
-        found = [self._filling(each) for each in (self.bodies if body is None else [body])]
-        if len(found) == 1:
-            return found[0]
-        fraction = sum(each.fraction for each in found)
-        if any(each.offsets is None for each in found):
+        fillings = [self._filling(each) for each in (self.bodies if body is None else [body])]
+        if len(fillings) == 1:
+            return fillings[0]
+        fraction = sum(each.fraction for each in fillings)
+        if any(each.offsets is None for each in fillings):
             return Filling(self.r_edges, self.z_edges, fraction)
-        moments = sum(each.fraction * each.offsets for each in found)
+        moments = sum(each.fraction * each.offsets for each in fillings)
         offsets = np.divide(moments, fraction, out=np.zeros_like(moments), where=fraction > 0.0)
         return Filling(self.r_edges, self.z_edges, fraction, offsets)
 
     def _filling(self, body: str) -> Filling:
         share, *places = (quantities.BY_KEY[key].name(body) for key in ("volume_fraction", "centroid_r", "centroid_z"))
-        known = all(each in self.fields for each in places)  # dumps of older versions have none
+        known = all(each in self.fields for each in places)  # dumps of older versions lack them
         offsets = np.stack([self.fields[each].astype(float) for each in places]) if known else None
         return Filling(self.r_edges, self.z_edges, self.fields[share].astype(float), offsets)
 
@@ -315,7 +315,7 @@ def check_lines(path: Path) -> None:
 
 
 def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
-    """Reads polylines from a .vtp file, as ``write_lines`` takes them: number of the body, r and z (n, 2). Raises VtkError."""
+    """Reads polylines from a .vtp file in the form of ``write_lines``: number of the body, r and z (n, 2). Raises VtkError."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
@@ -335,7 +335,7 @@ def read_lines(path: Path) -> list[tuple[int, np.ndarray]]:
 
 
 def pyvista_of(r_edges, z_edges, fields: Iterable[tuple[str, np.ndarray]], time: float):
-    """What `write_grid` would write, as a pyvista.RectilinearGrid."""
+    """The data of `write_grid` as a pyvista.RectilinearGrid."""
     import pyvista
 
     grid = _grid(r_edges, z_edges, fields)

@@ -3,7 +3,7 @@
 Normalised depths of long rods fall on one curve when plotted against a power of rho_p V^2 divided by the target's effective
 flow stress. That stress is close to the mean of the target's adiabatic stress-strain curve, here by the Johnson-Cook model.
 Anderson, Int. J. Impact Engng 108 (2017) 3, section 9.3, equations (64) and (65); Anderson & Riegel, Int. J. Impact Engng 80
-(2015) 24. The coefficients of the published curve are given only in a figure. Those used here are fitted to depths by
+(2015) 24. The published curve is given only as a figure. The coefficients here are fitted to depths by
 ``walker_anderson`` for four pairs of materials of that figure, not to experiments. explanation/penetration/anderson-riegel.
 """
 
@@ -62,16 +62,16 @@ def fit(x: Sequence[float], y: Sequence[float]) -> Curve:
 
     x, y = np.asarray(x, float), np.asarray(y, float)
     if x.size < 4 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
-        raise InputError("a curve of four coefficients needs at least four points that differ")
+        raise InputError("a curve with four coefficients needs at least four different points")
     guess = [y.min(), np.ptp(y), 3.0 / np.ptp(x), 0.5 * (x.min() + x.max())]
-    found, _ = curve_fit(lambda x, *a: a[0] + a[1] / (1.0 + 10.0 ** (a[2] * (a[3] - x))), x, y, guess, maxfev=20000)
-    return Curve(*(float(a) for a in found))
+    coefficients, _ = curve_fit(lambda x, *a: a[0] + a[1] / (1.0 + 10.0 ** (a[2] * (a[3] - x))), x, y, guess, maxfev=20000)
+    return Curve(*(float(a) for a in coefficients))
 
 
 def effective_flow_stress(*, yield_stress: float, hardening: float, exponent: float, rate_coefficient: float,
                           thermal_exponent: float, melt_temperature: float, density: float, specific_heat: float,
                           room_temperature: float = 298.0, strain: float = STRAIN, strain_rate: float = STRAIN_RATE) -> float:
-    """The mean of the adiabatic stress-strain curve of Johnson and Cook from no plastic strain to ``strain``, Pa.
+    """The mean of the adiabatic stress-strain curve of Johnson and Cook from zero plastic strain to ``strain``, Pa.
 
     sigma = (A + B eps^n)(1 + C ln(rate)) (1 - T*^m),  T* = (T - T_room)/(T_melt - T_room),  rho c_v dT = sigma deps
 
@@ -97,7 +97,7 @@ def effective_flow_stress(*, yield_stress: float, hardening: float, exponent: fl
 
 def stress_of(*, target_density: float, target_effective_flow_stress: float | None = None,
               **johnson_cook: float | None) -> float:
-    """The effective flow stress of the inputs, Pa: as given, or from Johnson and Cook's parameters."""
+    """The effective flow stress, Pa: as given, or from Johnson and Cook's parameters."""
     if target_effective_flow_stress is not None:
         return target_effective_flow_stress
     missing = [entry.name for entry in JOHNSON_COOK if johnson_cook.get(entry.keyword) is None]

@@ -1,4 +1,4 @@
-"""Every analytic model by its name. A new model needs one new file and one new entry in ``MODULES``."""
+"""Every analytic model by its name. A new model needs a file and an entry in ``MODULES``."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from hydro2d.penetration import (
 )
 from hydro2d.penetration.model import Model
 
-#: in the order of the review by Anderson (2017), followed by the others
+#: those of the review by Anderson (2017), in its order, then the others
 MODULES: tuple[ModuleType, ...] = (
     poncelet,
     hydrodynamic,

@@ -1,8 +1,8 @@
-"""A spherical cavity that grows at constant velocity V from nothing in an elastic-plastic solid: the stress at its wall.
+"""Stress at the wall of a spherical cavity that grows from zero radius at constant velocity V in an elastic-plastic solid.
 
-The radial stress at the wall is the pressure that models of rigid penetration put on a nose. Closed forms for an
-incompressible solid with linear or power-law hardening; for a compressible one with power-law hardening a similarity solution,
-and from it the coefficients of A Y + B rho V^2 and of A Y + B sqrt(rho Y) V + C rho V^2.
+The radial stress at the wall is the pressure that models of rigid penetration put on a nose. There are closed forms for an
+incompressible solid with linear or power-law hardening. For a compressible one with power-law hardening there is a similarity
+solution, from which the coefficients of A Y + B rho V^2 and of A Y + B sqrt(rho Y) V + C rho V^2 follow.
 explanation/penetration/cavity
 """
 
@@ -18,11 +18,11 @@ import numpy as np
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
 
-#: how far the solution is followed towards the wall: to exp(-DEEP) of the mass inside the plastic front
+#: the solution is integrated towards the wall, to exp(-DEEP) of the mass inside the plastic front
 DEEP = 32.0
-#: front velocities at which a curve is computed, over the bulk sound speed: slow ones in a geometric series, then even steps
+#: front velocities of the computed curve, over the bulk sound speed: a geometric series of slow ones, then even steps
 SLOW, FAST = (1e-3, 0.04, 6), (0.08, 1.0, 40)
-#: the weakest solid, as yield stress over Young's modulus, and the slowest cavity, m/s, that the numbers can resolve
+#: the weakest solid, as yield stress over Young's modulus, and the slowest cavity, m/s, that the numerics can resolve
 WEAKEST, SLOWEST = 1e-6, 1.0
 #: points of the least-squares fits, evenly spread over the velocities
 POINTS = 400
@@ -80,9 +80,9 @@ class Expansion:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Of the stress at the wall over Y: ``a`` + ``b`` x^2 and ``a`` + ``b_linear`` x + ``c`` x^2, with x = V sqrt(rho/Y).
+    """Fits of the wall stress over Y: ``a`` + ``b`` x^2 and ``a`` + ``b_linear`` x + ``c`` x^2, with x = V sqrt(rho/Y).
 
-    ``velocity`` is the largest of the fit, m/s. ``a`` is the quasi-static value; the others are least squares with ``a`` fixed.
+    ``velocity`` is the largest in the fit, m/s. ``a`` is the quasi-static value; the others are least squares with ``a`` fixed.
     """
 
     velocity: float
@@ -203,8 +203,8 @@ def quasi_static(solid: Solid) -> float:
 def _curve(solid: Solid) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Velocities of fronts and walls, and the stresses, from a slow front to the fastest."""
     fronts = np.concatenate([np.geomspace(*SLOW), np.linspace(*FAST)]) * solid.bulk_speed
-    found = [expansion_at_front(float(front), solid) for front in fronts]
-    return fronts, np.array([each.velocity for each in found]), np.array([each.stress for each in found])
+    expansions = [expansion_at_front(float(front), solid) for front in fronts]
+    return fronts, np.array([each.velocity for each in expansions]), np.array([each.stress for each in expansions])
 
 
 def _flow_stress(solid: Solid, hoop: float) -> tuple[float, float]:
@@ -230,14 +230,14 @@ def given_or_fitted(
     target_youngs_modulus: float | None, target_poisson_ratio: float | None, target_hardening_exponent: float,
     cavity_velocity: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """A and B as given; one that is None comes from ``coefficients``. InputError if that needs elastic constants not given."""
+    """A and B as given, or from ``coefficients`` where None. InputError if elastic constants needed for that are not given."""
     if cavity_a is not None and cavity_b is not None:
         return cavity_a, cavity_b
     if target_youngs_modulus is None or target_poisson_ratio is None:
         raise InputError("give cavity.a and cavity.b, or target.youngs_modulus and target.poisson_ratio to derive them")
     solid = Solid(target_density, target_youngs_modulus, target_poisson_ratio, target_strength, target_hardening_exponent)
-    found = coefficients(solid, cavity_velocity)
-    return found.a if cavity_a is None else cavity_a, found.b if cavity_b is None else cavity_b
+    fit = coefficients(solid, cavity_velocity)
+    return fit.a if cavity_a is None else cavity_a, fit.b if cavity_b is None else cavity_b
 
 
 def evaluate(
@@ -248,7 +248,7 @@ def evaluate(
     if cavity_solid == "compressible":
         solid = Solid(target_density, target_youngs_modulus, target_poisson_ratio, target_strength, target_hardening_exponent)
         fit = coefficients(solid, cavity_velocity)
-        found = expansion(velocity, solid) if velocity > 0.0 else Expansion(0.0, 0.0, fit.a * target_strength)
+        cavity = expansion(velocity, solid) if velocity > 0.0 else Expansion(0.0, 0.0, fit.a * target_strength)
     else:
         of_hardening = (target_hardening_exponent, incompressible_power_law)
         if cavity_solid == "incompressible-linear":
@@ -256,10 +256,10 @@ def evaluate(
         hardening, stress = of_hardening
         numbers = (target_density, target_youngs_modulus, target_strength, hardening)
         front = velocity * (2.0 * target_youngs_modulus / (3.0 * target_strength)) ** (1.0 / 3.0)
-        found = Expansion(velocity, front, stress(velocity, *numbers))
+        cavity = Expansion(velocity, front, stress(velocity, *numbers))
         fit = Coefficients(cavity_velocity, stress(0.0, *numbers) / target_strength, 1.5, 0.0, 1.5)
     return {
-        "cavity_stress": found.stress, "front_velocity": found.front,
+        "cavity_stress": cavity.stress, "front_velocity": cavity.front,
         "a": fit.a, "b": fit.b, "b_linear": fit.b_linear, "c": fit.c,
     }  # fmt: skip
 

@@ -1,7 +1,7 @@
-"""The centreline of a rod and its target: what the Walker-Anderson models integrate in time.
+"""Motion along the centreline of a rod and its target, which the Walker-Anderson models integrate in time.
 
-Velocity profiles are assumed along the axis, bilinear in the rod and a hemispherical plastic flow of radius alpha Rc in the
-target; the momentum equation between the tail of the rod and the edge of that flow then gives the velocity of the
+The velocity profiles along the axis are assumed: bilinear in the rod, a hemispherical plastic flow of radius alpha Rc in the
+target. The momentum equation between the tail of the rod and the edge of that flow then gives the velocity of the
 interface. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (54) to (57); explanation/penetration/walker-anderson.
 """
 
@@ -16,20 +16,20 @@ import numpy as np
 
 from hydro2d.penetration.model import NON_NEGATIVE, POSITIVE, InputError, complain, positive
 
-#: the penetration ends when the interface moves no faster than this, m/s, or than this share of its first velocity
+#: the penetration ends when the interface is no faster than this, m/s, or than this share of its initial velocity
 LAST_SPEED, LAST_SHARE = 1.0, 0.01
 #: the rod is used up when no more than this share of its length is left
 LAST_LENGTH = 1e-6
 #: relative tolerance of the integration; absolute ones for velocities and lengths are this times the impact's
 TOLERANCE = 1e-7
-#: longest penetration, in times that the rod needs to travel its length: far beyond any
+#: upper limit of the duration, in times in which the rod travels its length; no penetration lasts as long
 LONGEST = 1e4
-#: the most evaluations of the rates in one phase; a rod of 10 000 diameters needs 22 000
+#: largest number of evaluations of the rates in one phase; a rod of 10 000 diameters needs 22 000
 MOST_EVALUATIONS = 100_000
 
 
 class Checked:
-    """Numbers that must be positive (the slope of a Hugoniot: not negative); ``owner`` names them in a complaint."""
+    """Numbers that must be positive (the slope of a Hugoniot: not negative); ``owner`` names them in error messages."""
 
     owner = ""
 
@@ -66,10 +66,10 @@ class Target(Checked):
 
 @dataclass(frozen=True)
 class Track:
-    """One motion in time: ``states`` has the rows tail velocity, interface velocity, rod length, depth and what follows.
+    """One motion in time: ``states`` has the rows tail velocity, interface velocity, rod length, depth and any further ones.
 
-    ``eroding_depth`` is the depth at which the tail became as slow as the interface (the last depth where it did not), and
-    ``end`` the place in ``Centreline.ends`` of what ended the motion.
+    ``eroding_depth`` is the depth at which the tail became as slow as the interface (the last depth if it did not), and ``end``
+    the index in ``Centreline.ends`` of the condition that ended the motion.
     """
 
     times: np.ndarray
@@ -90,7 +90,7 @@ def crater_radius(velocity: float, diameter: float) -> float:
 
 
 def interface_velocity(velocity: float, rod: Rod, target: Target) -> float:
-    """The first velocity of the interface, m/s: equal pressures behind plane shocks in rod and target.
+    """The initial velocity of the interface, m/s, from equal pressures behind plane shocks in rod and target.
 
     rho_p (c_p + k_p (V - u)) (V - u) = rho_t (c_t + k_t u) u
     """
@@ -132,7 +132,7 @@ def plastic_extent(u: float, target: Target) -> tuple[float, float]:
 class Centreline:
     """The motion of one shot; the state is tail velocity v, interface velocity u, rod length L, depth, and ``more``."""
 
-    #: first values of what a subclass adds to the state
+    #: initial values of quantities that a subclass adds to the state
     more: tuple[float, ...] = ()
 
     def __init__(self, velocity: float, rod: Rod, target: Target, radius: float | None = None):
@@ -146,7 +146,7 @@ class Centreline:
         self.last = min(LAST_SPEED, LAST_SHARE * self.first)
 
     def check(self) -> None:
-        """InputError for materials that the equations cannot describe."""
+        """Raises InputError for materials that the equations cannot describe."""
         if self.target.strength >= 2.0 * self.target.shear_modulus:
             raise InputError("target.strength must be below 2 target.shear_modulus, or no plastic flow surrounds the crater")
         if self.target.sound_speed + (self.target.hugoniot_slope - 1.0) * self.velocity <= 0.0:
@@ -157,7 +157,7 @@ class Centreline:
         return 0.5 * self.target.density * u * u + 7.0 / 3.0 * self.target.strength * math.log(alpha)
 
     def further(self, u: float, alpha: float, state: list[float]) -> tuple[float, ...]:
-        """Rates of what the state holds beyond the depth."""
+        """Rates of the quantities that follow the depth in the state."""
         return ()
 
     def carried(self, u: float, alpha: float, alpha_u: float) -> float:
@@ -167,8 +167,8 @@ class Centreline:
     def eroding(self, time: float, state: np.ndarray) -> list[float]:
         """d(state)/dt of Anderson (2017), eqs. (54) to (56): two linear equations for dv/dt and du/dt.
 
-        (v - u)/s = 2 u/(Rc (1 - 1/alpha^2)) depends on u alone, so that nothing in (54) blows up where s vanishes, and
-        (55) is multiplied by L - s.
+        (v - u)/s = 2 u/(Rc (1 - 1/alpha^2)) depends on u alone, so that (54) stays finite where s vanishes; (55) is
+        multiplied by L - s.
         """
         values = state.tolist()
         v, u, length = values[:3]
@@ -189,9 +189,9 @@ class Centreline:
         return [*slowing, u - v, u, *self.further(u, alpha, values)]
 
     def rigid(self, time: float, state: np.ndarray) -> list[float]:
-        """d(state)/dt once v = u: eq. (54) with s = 0, rod and flow slowed as one.
+        """d(state)/dt once v = u: eq. (54) with s = 0; rod and flow slow down together.
 
-        Not beyond what the rod's waves allow by (55): v can only meet u from above where they suffice.
+        The deceleration never exceeds that by the rod's waves, (55), because v can meet u from above only where they suffice.
         """
         values = state.tolist()
         u, length = values[1:3]
@@ -206,11 +206,11 @@ class Centreline:
         return 0.5 * self.radius * (v / u - 1.0) * (1.0 - plastic_extent(u, self.target)[0] ** -2)
 
     def inside(self, u: float, length: float) -> bool:
-        """Whether the equations hold; where a trial step left them, the integrator takes a shorter one."""
+        """Whether the equations hold; if a trial step leaves their range, the integrator takes a shorter one."""
         return 0.0 < u < 2.0 * self.velocity and length > 0.0
 
     def ends(self) -> list[Callable]:
-        """What ends the motion, each by falling through zero: the interface comes to rest, or the rod is used up."""
+        """Functions whose fall through zero ends the motion: the interface comes to rest, or the rod is used up."""
         return [lambda time, state: state[1] - self.last, lambda time, state: state[2] - LAST_LENGTH * self.rod.length]
 
     def solve(self) -> Track:
@@ -231,7 +231,7 @@ class Centreline:
 
         def counted(time: float, state: np.ndarray) -> list[float]:
             if next(count) == MOST_EVALUATIONS:
-                raise InputError(f"the Walker-Anderson equations are not at an end after {MOST_EVALUATIONS} "
+                raise InputError(f"the Walker-Anderson equations have not ended after {MOST_EVALUATIONS} "
                                  "evaluations: the rod is too slender, or the resistance too small, for them")
             return rates(time, state)
 
@@ -240,11 +240,11 @@ class Centreline:
         scale = np.full(state.size, self.rod.length)
         scale[:2] = self.velocity
         longest = LONGEST * self.rod.length / self.velocity
-        found = solve_ivp(
+        phase = solve_ivp(
             counted, (time, time + longest), state, "DOP853", events=events, rtol=TOLERANCE, atol=TOLERANCE * scale)
-        if found.status != 1:
-            raise InputError(f"the Walker-Anderson equations do not come to an end for these values ({found.message})")
-        return found
+        if phase.status != 1:
+            raise InputError(f"the Walker-Anderson equations do not come to an end for these values ({phase.message})")
+        return phase
 
 
 def _end(phase) -> int:

@@ -1,7 +1,7 @@
 """Chen-Li: rigid penetration by two dimensionless numbers, and the velocity at which the rod stops being rigid.
 
-The impact function I weighs the rod's energy against the target's static resistance, and the geometry function N weighs the
-rod's slenderness against the bluntness of its nose. The depth for every nose is one function of the two. Chen & Li, Int. J.
+The impact function I relates the rod's energy to the target's static resistance, and the geometry function N relates the
+rod's slenderness to the bluntness of its nose. The depth for every nose is one function of the two. Chen & Li, Int. J.
 Impact Engng 27 (2002) 619 and J. Engng Mech. 130 (2004) 123, both recalled: see explanation/penetration/chen-li.
 """
 
@@ -44,8 +44,8 @@ def numbers(velocity: float, mass: float, nose: Nose, target: Target) -> Numbers
 def transition_velocity(strength: float, nose: Nose, target: Target) -> float | None:
     """The impact velocity at which the mean pressure on the nose reaches the rod's ``strength`` (Pa), m/s.
 
-    sqrt[(Y_p - A Y N1)/(B rho N2)]; explanation/penetration/chen-li, equation 4. 0 where the static pressure is above the
-    strength already; None where the pressure does not grow with velocity.
+    sqrt[(Y_p - A Y N1)/(B rho N2)]; explanation/penetration/chen-li, equation 4. 0 if the static pressure already exceeds the
+    strength; None if the pressure does not grow with velocity.
     """
     positive(strength=strength)
     n1, n2 = nose.factors()
@@ -58,14 +58,14 @@ def transition_velocity(strength: float, nose: Nose, target: Target) -> float | 
 def evaluate(velocity, *, rod_mass, rod_strength, **shot):
     """Depth of the rigid rod, and whether it stays rigid; keywords are those of ``MODEL.inputs``, in SI."""
     nose, target = of_inputs(**shot)
-    found = numbers(velocity, rod_mass, nose, target)
-    if not math.isfinite(found.geometry):
+    ratios = numbers(velocity, rod_mass, nose, target)
+    if not math.isfinite(ratios.geometry):
         raise InputError("cavity.b = 0: the geometry function needs a pressure that grows with velocity")
     limit = transition_velocity(rod_strength, nose, target)
     return {
-        "depth": found.depth * nose.diameter,
-        "impact_function": found.impact,
-        "geometry_function": found.geometry,
+        "depth": ratios.depth * nose.diameter,
+        "impact_function": ratios.impact,
+        "geometry_function": ratios.geometry,
         "regime": "rigid" if velocity <= limit else "semi-hydrodynamic",
         "transition_velocity": limit,
     }

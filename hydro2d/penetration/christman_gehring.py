@@ -1,6 +1,6 @@
 """Christman-Gehring: hydrodynamic penetration by all but one diameter of a rod's length, and the crater of that last diameter.
 
-P = (L - D) sqrt(rho_p/rho_t) + P_c, where P_c is the depth that a rod as long as wide reaches at the same velocity. P_c is
+P = (L - D) sqrt(rho_p/rho_t) + P_c, where P_c is the depth of a rod as long as wide at the same velocity. P_c is
 measured or comes from a correlation with energy and hardness. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (15) and
 (16); Christman & Gehring, J. Appl. Phys. 37 (1966) 1579. The units of the correlation's coefficient are not known:
 explanation/penetration/christman-gehring.
@@ -14,7 +14,7 @@ from types import MappingProxyType
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output, positive
 
-#: coefficient of eq. (16) as printed, here of a correlation in consistent units
+#: coefficient of eq. (16) as printed, used here in consistent units
 CRATER_COEFFICIENT = 0.13
 
 

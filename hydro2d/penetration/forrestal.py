@@ -19,7 +19,7 @@ from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
 from hydro2d.penetration.model import Example, Input, Model, Motion, Output, non_negative, positive
 from hydro2d.penetration.surface import SHAPES, checked_half_angle, nose_length, radius_of_ogive
 
-#: points of a motion under the force on the whole nose
+#: number of points of a motion under the force on the whole nose
 POINTS = 33
 
 
@@ -42,7 +42,7 @@ class Nose:
         return nose_length(self.shape, self.diameter, self.crh, self.half_angle)
 
     def factors(self, immersed: float = math.inf) -> tuple[float, float]:
-        """N1 and N2 of what lies within ``immersed`` (m) of the tip; explanation/penetration/forrestal, equations 3 to 6."""
+        """N1 and N2 of the part within ``immersed`` (m) of the tip; explanation/penetration/forrestal, equations 3 to 6."""
         if immersed <= 0.0 and self.shape != "flat":
             return 0.0, 0.0
         if self.shape == "flat":
@@ -63,11 +63,11 @@ class Nose:
         waterline = math.asin(min(max(self.length - immersed, 0.0) / radius, 1.0))
         scale = 2.0 * (radius / half) ** 2
         top, low = _integrals(tip, k, self.friction), _integrals(waterline, k, self.friction)
-        return tuple(scale * max(a - b, 0.0) for a, b in zip(top, low, strict=True))  # at the tip less than round-off
+        return tuple(scale * max(a - b, 0.0) for a, b in zip(top, low, strict=True))  # negative only by round-off, at the tip
 
 
 def _integrals(theta: float, k: float, friction: float) -> tuple[float, float]:
-    """Antiderivatives of (cos - k)(sin + mu cos) and of the same times sin^2."""
+    """Antiderivatives of (cos - k)(sin + mu cos) and of (cos - k)(sin + mu cos) sin^2."""
     sine, cosine = math.sin(theta), math.cos(theta)
     first = 0.5 * sine**2 + k * cosine + friction * (0.5 * (theta + sine * cosine) - k * sine)
     plain = 0.25 * sine**4 + k * (cosine - cosine**3 / 3.0)
@@ -121,7 +121,7 @@ def entering(velocity: float, mass: float, nose: Nose, target: Target) -> tuple[
 
 
 def immersion(velocity: float, mass: float, nose: Nose, target: Target) -> np.ndarray:
-    """Times (s), depths (m) and velocities (m/s) until the nose is inside or, with a last velocity of 0, the rod at rest."""
+    """Times (s), depths (m) and velocities (m/s) until the nose is inside or the rod at rest (last velocity 0)."""
     from scipy.integrate import solve_ivp
 
     def slopes(_, state):
@@ -189,7 +189,7 @@ NOSE_ENTRY = Input(
     "nose.entry", "", "whether the force acts in full from first touch, or on the part of the nose that is inside",
     default="ignored", choices=("ignored", "resisted"),
 )  # fmt: skip
-#: what the rigid models share: see ``of_inputs``
+#: inputs that the rigid models share: see ``of_inputs``
 SHOT = (
     inputs.ROD_DIAMETER, inputs.NOSE_SHAPE.but(choices=SHAPES), inputs.NOSE_CRH, inputs.NOSE_HALF_ANGLE, inputs.FRICTION,
     inputs.TARGET_DENSITY, inputs.TARGET_STRENGTH, inputs.CAVITY_A, inputs.CAVITY_B,

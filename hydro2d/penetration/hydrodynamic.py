@@ -1,11 +1,11 @@
 """Steady penetration of fluids: hydrodynamic theory, and its modification by the strength of target and jet.
 
-With the interface at rest the two streams stagnate at one pressure,
+In the frame of the interface both streams stagnate at the same pressure,
 
     rho_p (v - u)^2/2 = rho_t u^2/2 + sigma,
 
-with sigma = 0 in the hydrodynamic theory. Eichelberger takes the difference of the two strengths for sigma, and Allen and
-Rogers a dynamic yield strength of the target alone. The whole rod is consumed at one velocity: P = L u/(v - u). Anderson, Int.
+with sigma = 0 in the hydrodynamic theory. Eichelberger uses the difference of the two strengths as sigma, Allen and Rogers a
+dynamic yield strength of the target alone. The whole rod is consumed at one velocity: P = L u/(v - u). Anderson, Int.
 J. Impact Engng 108 (2017) 3, equations (10) to (14). explanation/penetration/hydrodynamic.
 """
 
@@ -40,8 +40,8 @@ def penetration_velocity(velocity: float, *, rod_density: float, target_density:
     """Velocity u of the interface, m/s: eq. (14) of Anderson (2017); for no difference eq. (11), v/(1 + sqrt(rho_t/rho_p)).
 
     velocity v (m/s) of the rod; densities (kg/m^3); strength_difference sigma (Pa), positive if the target is the stronger. The
-    result is 0 up to the velocity sqrt(2 sigma/rho_p), below which the jet does not enter. InputError where a rod stronger than
-    the target would not be consumed. explanation/penetration/hydrodynamic, equation 4
+    result is 0 up to the velocity sqrt(2 sigma/rho_p), below which the jet does not penetrate. InputError where a rod stronger
+    than the target would not be consumed. explanation/penetration/hydrodynamic, equation 4
     """
     positive(rod_density=rod_density, target_density=target_density)
     non_negative(velocity=velocity)
@@ -62,7 +62,7 @@ def interface_velocity(
 ) -> float | np.ndarray:
     """The root u of eq. (14) at velocities at which a rod erodes and penetrates, m/s: Anderson (2017), eq. (32).
 
-    difference: R_t - Y_p, or sigma, Pa. In a form that also holds for equal densities, where eq. (32) is 0/0:
+    difference: R_t - Y_p, or sigma, Pa. The form used also holds for equal densities, where eq. (32) is 0/0:
     explanation/penetration/hydrodynamic, equation 4.
     """
     mu = math.sqrt(target_density / rod_density)

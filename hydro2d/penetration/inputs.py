@@ -1,4 +1,4 @@
-"""The vocabulary of inputs that the models share. A model changes a default with ``but``."""
+"""Inputs that the models share. A model changes a default with ``but``."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ CAVITY_B = Input("cavity.b", "1", "B of the cavity pressure A Y + B rho V^2; fro
                  sign=NON_NEGATIVE)
 OBLIQUITY = Input("obliquity", "rad", "angle between the line of flight and the target's normal", "beta", default=0.0, sign=ANY)
 
-#: what the material library can give for each, by the last part of the name
+#: inputs that the material library can give, by the last part of the name
 FROM_LIBRARY = (
     "density", "strength", "ultimate_strength", "hardening_exponent", "youngs_modulus", "poisson_ratio", "shear_modulus",
     "sound_speed", "hugoniot_slope",

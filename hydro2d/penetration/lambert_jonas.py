@@ -17,7 +17,7 @@ import numpy as np
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 from hydro2d.penetration.recht_ipson import LIMIT_VELOCITY
 
-#: exponents from which a fit starts, and the range that it stays in; p = 1 would be a straight line
+#: exponents from which a fit starts, and its allowed range; p = 1 would be a straight line
 STARTS, EXPONENTS = (1.5, 2.0, 3.0, 5.0), (1.0, 20.0)
 
 
@@ -25,7 +25,7 @@ STARTS, EXPONENTS = (1.5, 2.0, 3.0, 5.0), (1.0, 20.0)
 class Fit:
     """Constants from shots: ``a``, ``p``, ``limit_velocity`` v_bl (m/s), ``standard_error`` of v_r (m/s), number of ``shots``.
 
-    The standard error is the root of the sum of squares over shots less fitted constants.
+    The standard error is the root of the sum of squares over the number of shots minus that of fitted constants.
     """
 
     a: float
@@ -48,7 +48,7 @@ def residual_velocity(velocity: float, *, limit_velocity: float, a: float = 1.0,
 
 
 def fit(velocities: Sequence[float], residual_velocities: Sequence[float], *, p: float | None = None) -> Fit:
-    """Least-squares a, p and v_bl from impact and residual velocities of shots in m/s; the residual is 0 for a plate that held.
+    """Least-squares a, p and v_bl from impact and residual velocities of shots in m/s; the residual is 0 if the plate held.
 
     a lies in 0 to 1, p in 1 to 20 unless it is given; v_bl below the slowest shot that perforated. InputError for fewer
     perforations than constants.
@@ -57,11 +57,11 @@ def fit(velocities: Sequence[float], residual_velocities: Sequence[float], *, p:
     if p is not None:
         positive(p=p)
     fits = [_fit_from(start, v, left, p) for start in (STARTS if p is None else (p,))]
-    return min(fits, key=lambda found: found.standard_error)
+    return min(fits, key=lambda each: each.standard_error)
 
 
 def _fit_from(start: float, v: np.ndarray, left: np.ndarray, p: float | None) -> Fit:
-    """The fit from one exponent on; the limit is sought as a share of the slowest velocity that perforated."""
+    """The fit that starts from one exponent; the limit is sought as a share of the lowest velocity that perforated."""
     from scipy.optimize import least_squares
 
     slowest = float(v[left > 0.0].min())
@@ -73,10 +73,10 @@ def _fit_from(start: float, v: np.ndarray, left: np.ndarray, p: float | None) ->
     low, high, first = [1e-6, 1e-6], [1.0, 1.0], [0.95, 0.9]
     if p is None:
         low, high, first = [*low, EXPONENTS[0]], [*high, EXPONENTS[1]], [*first, start]
-    found = least_squares(lambda x: (curve(x) - left) / slowest, first, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14)
-    error = slowest * math.sqrt(2.0 * float(found.cost) / max(1, v.size - len(first)))
-    exponent = float(found.x[2]) if p is None else p
-    return Fit(float(found.x[1]), exponent, float(found.x[0]) * slowest, error, int(v.size))
+    best = least_squares(lambda x: (curve(x) - left) / slowest, first, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    error = slowest * math.sqrt(2.0 * float(best.cost) / max(1, v.size - len(first)))
+    exponent = float(best.x[2]) if p is None else p
+    return Fit(float(best.x[1]), exponent, float(best.x[0]) * slowest, error, int(v.size))
 
 
 def _shots(velocities: Sequence[float], residuals: Sequence[float], constants: int) -> tuple[np.ndarray, np.ndarray]:
@@ -84,9 +84,9 @@ def _shots(velocities: Sequence[float], residuals: Sequence[float], constants: i
     if v.ndim != 1 or v.shape != left.shape:
         raise InputError("a fit needs as many residual velocities as impact velocities")
     if not (np.all(np.isfinite(v)) and np.all(np.isfinite(left)) and np.all(v > 0.0) and np.all((left >= 0.0) & (left <= v))):
-        raise InputError("a fit needs shots with a positive velocity and a residual one from 0 up to it")
+        raise InputError("a fit needs shots with a positive velocity and a residual velocity from 0 up to it")
     if np.unique(v[left > 0.0]).size < constants:
-        raise InputError(f"a fit of {constants} constants needs perforations at {constants} velocities at least")
+        raise InputError(f"a fit of {constants} constants needs perforations at {constants} or more velocities")
     return v, left
 
 

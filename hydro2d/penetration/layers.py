@@ -1,4 +1,4 @@
-"""A target of plane layers; each has its own cavity pressure and resists only between its two free faces."""
+"""A target of plane layers, each with its own cavity pressure, which acts only between its two free faces."""
 
 from __future__ import annotations
 
@@ -71,10 +71,10 @@ class Target:
 def stack(layers: Sequence[Layer]) -> Target:
     """The target of these layers, the first one struck. InputError for none, or for one behind a half space."""
     if not layers:
-        raise InputError("layers: a target has at least one")
+        raise InputError("layers: a target needs at least one")
     thickness = [layer.thickness for layer in layers]
     if math.inf in thickness[:-1]:
-        raise InputError("layers: nothing can lie behind a layer without end")
+        raise InputError("layers: nothing can lie behind a half space")
     if thickness[-1] == math.inf and layers[-1].static == 0.0:
         raise InputError("layers: a half space without strength never stops a rod")
     faces = np.concatenate([[0.0], np.cumsum(thickness)])

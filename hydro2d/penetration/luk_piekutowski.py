@@ -1,7 +1,7 @@
 """Eroding long rods above 2 km/s, after Luk & Piekutowski, Int. J. Impact Engng 11 (1991) 323.
 
 A rod mushrooms (transient stage), its head penetrates while the rod is turned into a tube of ejecta (primary stage), and
-what is left of rod and ejecta goes on as a rigid body (secondary stage). The head's area, the penetration velocity and
+the rest of rod and ejecta continues as a rigid body (secondary stage). The head's area, the penetration velocity and
 the ejecta's area follow from an energy balance of the transient stage and from the conservation of mass, momentum and energy
 of the primary stage, with the pressure of cavity expansion on the head. The printed equations are damaged in places; the page
 gives the reading used here. explanation/penetration/luk-piekutowski
@@ -20,15 +20,15 @@ from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output
 from hydro2d.penetration.mushroom import Head, Rod, Target, at_velocity, fold, head
 
-#: degree of the polynomials in lambda that carry the primary stage
+#: degree of the polynomials in lambda that represent the primary stage
 DEGREE = 40
 
 
 @dataclass(frozen=True)
 class Penetration:
-    """What a rod does: cavity diameter, the parts d1 to d4 of the depth (m), the primary stage's length in time (s).
+    """The penetration of a rod: cavity diameter, parts d1 to d4 of the depth (m), duration of the primary stage (s).
 
-    ``regime`` is "slowed" where the rod falls below the critical velocity, "consumed" where it is used up before.
+    ``regime`` is "slowed" if the rod falls below the critical velocity, "consumed" if it is used up before.
     """
 
     first: Head
@@ -48,7 +48,7 @@ class Penetration:
 
 
 def penetrate(rod: Rod, target: Target, velocity: float, critical: float | None = None) -> Penetration:
-    """All stages of a rod of impact ``velocity``; ``critical`` (m/s) ends the primary stage, the fold where not given."""
+    """All stages of a rod at an impact ``velocity``; ``critical`` (m/s) ends the primary stage; default: the fold."""
     first = at_velocity(rod, target, velocity)
     lowest = fold(rod, target) if critical is None else at_velocity(rod, target, critical)
     if velocity < lowest.rod:
@@ -72,11 +72,11 @@ def penetrate(rod: Rod, target: Target, velocity: float, critical: float | None 
 
 
 def _primary(rod: Rod, target: Target, first: Head, lowest: Head) -> tuple[Head, float, float, float, str]:
-    """Where the primary stage ends: head, length of rod, depth d1, duration, regime.
+    """The end of the primary stage: head, length of rod, depth d1, duration, regime.
 
     rho_p L dV/dt = -Yp and dL/dt = -(V - U), Luk & Piekutowski (1991), eqs. (18) and (19), with lambda instead of time:
-    ln L is an integral over the branch, time and depth are integrals of L. The branch is smooth in lambda, also at its
-    fold, and polynomials in lambda carry it to round-off. explanation/penetration/luk-piekutowski, equations 12 to 14
+    ln L is an integral over the branch, time and depth are integrals of L. The branch is smooth in lambda, even at its
+    fold, and polynomials in lambda represent it to round-off. explanation/penetration/luk-piekutowski, equations 12 to 14
     """
     from numpy.polynomial import Chebyshev
     from scipy.optimize import brentq
@@ -106,7 +106,7 @@ def _rigid(mass: float, area: float, velocity: float, target: Target) -> float:
 
 
 def _growth(rod: Rod, target: Target, last: Head) -> float:
-    """Depth by the cavity's own growth under a consumed rod, m: Luk & Piekutowski (1991), eq. (30c)."""
+    """Depth by which the cavity grows on after the rod is consumed, m: Luk & Piekutowski (1991), eq. (30c)."""
     diameter = rod.diameter * math.sqrt(last.spread)
     return 0.5 * diameter * last.penetration * math.sqrt(target.density / target.plain_strength)
 
@@ -123,20 +123,20 @@ def pair_of(
 
 
 def transition(*, critical_velocity: float | None, **values: float | None) -> float:
-    """The velocity below which no mushroom head is stable and the rod is taken as rigid, m/s: given, or the fold's."""
+    """The velocity below which no mushroom head is stable and the rod counts as rigid, m/s: given, or the fold's."""
     return fold(*pair_of(**values)).rod if critical_velocity is None else critical_velocity
 
 
 def evaluate(velocity: float, *, critical_velocity: float | None, **values: float | None) -> dict[str, float | str]:
-    """All stages of a rod of impact ``velocity``; keywords are those of ``MODEL.inputs``, in SI."""
+    """All stages of a rod at an impact ``velocity``; keywords are those of ``MODEL.inputs``, in SI."""
     rod, target = pair_of(**values)
-    found = penetrate(rod, target, velocity, critical_velocity)
+    shot = penetrate(rod, target, velocity, critical_velocity)
     return {
-        "depth": found.depth, "depth_over_length": found.depth / rod.length, "cavity_diameter": found.cavity_diameter,
-        "penetration_velocity": found.first.penetration, "ejecta_velocity": found.first.ejecta,
-        "primary_depth": found.primary, "rod_depth": found.rod, "ejecta_depth": found.ejecta, "growth_depth": found.growth,
-        "duration": found.duration, "residual_length": found.residual_length, "limit_velocity": fold(rod, target).rod,
-        "regime": found.regime,
+        "depth": shot.depth, "depth_over_length": shot.depth / rod.length, "cavity_diameter": shot.cavity_diameter,
+        "penetration_velocity": shot.first.penetration, "ejecta_velocity": shot.first.ejecta,
+        "primary_depth": shot.primary, "rod_depth": shot.rod, "ejecta_depth": shot.ejecta, "growth_depth": shot.growth,
+        "duration": shot.duration, "residual_length": shot.residual_length, "limit_velocity": fold(rod, target).rod,
+        "regime": shot.regime,
     }  # fmt: skip
 
 
@@ -167,7 +167,7 @@ MODEL = Model(
         Output("penetration_velocity", "m/s", "velocity of the head just after impact", "u"),
         Output("ejecta_velocity", "m/s", "velocity of the ejecta just after impact, positive against the flight", "v_e"),
         Output("primary_depth", "m", "depth of the primary stage", "d_1"),
-        Output("rod_depth", "m", "depth of what is left of the rod", "d_2"),
+        Output("rod_depth", "m", "depth by the remaining rod", "d_2"),
         Output("ejecta_depth", "m", "depth by the ejecta", "d_3"),
         Output("growth_depth", "m", "depth by which the cavity grows after the rod is used up", "d_4"),
         Output("duration", "s", "time of the primary stage", "t_1"),

@@ -1,4 +1,4 @@
-"""What an analytic model says about itself: its inputs, its outputs, and how it is evaluated."""
+"""The description of an analytic model: its inputs, its outputs, and how it is evaluated."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class InputError(ValueError):
 
 
 class Required:
-    """The default of an input that has none."""
+    """The default of an input that must be given."""
 
     def __repr__(self) -> str:
         return "required"
@@ -33,7 +33,7 @@ T = TypeVar("T")
 
 #: allowed range of an input by its unit: the ranges of decks, and that of pure numbers
 REACH = {**units.REACH, "1": (1e-18, 1e18, "no pure number of an impact is so small or so large")}
-#: why a model gives no number although it accepts each of its inputs
+#: the reason why a model gives no number although it accepts each of its inputs
 BEYOND = "each of these inputs is possible, but together they are beyond what the model can compute"
 
 
@@ -96,7 +96,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Motion:
-    """A rod from the first touch to the end of its penetration, float64[n] each.
+    """The motion of a rod from first contact to the end of its penetration, arrays float64[n].
 
     ``time`` (s), ``velocity`` of its tail (m/s), ``depth`` of penetration (m), ``length`` of the rod (m), None if it is not an
     input of the model.
@@ -110,7 +110,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Example:
-    """A shot that illustrates the model: names from the material library, and whatever else the figure on its page uses."""
+    """A shot that illustrates the model: names from the material library, and all else that the figure on its page uses."""
 
     rod: str
     target: str
@@ -124,9 +124,9 @@ class Model:
     """An analytic model, for the command line, the pages and the comparison with runs.
 
     ``evaluate(velocity, **values)`` takes the impact velocity in m/s and every input by keyword, in SI, and gives a
-    mapping with the outputs by name. ``main`` is the output that a figure shows. ``transition(**values)``, where there
-    is one, gives the impact velocity above which the rod no longer stays rigid, m/s, or None where it always does.
-    ``motion``, with the arguments of ``evaluate``, gives the rod in time, where the model has that.
+    mapping with the outputs by name. ``main`` is the output that a figure shows. ``transition(**values)``, if there is
+    one, gives the impact velocity above which the rod no longer stays rigid, m/s, or None if it always does. ``motion``, if
+    there is one, takes the arguments of ``evaluate`` and gives the rod as a function of time.
     """
 
     name: str
@@ -147,42 +147,42 @@ class Model:
         for name in values:
             if name not in known:
                 raise InputError(f"{self.name}: no input is named {name!r}{_near(name, known)} (known: {', '.join(known)})")
-        found = {}
+        collected = {}
         for name, entry in known.items():
             value = values.get(name, entry.default)
             if isinstance(value, Required):
                 unit = "" if entry.unit in ("", "1") else f", {entry.unit}"
                 raise InputError(f"{self.name}: {name} is missing ({entry.description}{unit})")
             try:
-                found[entry.keyword] = entry.check(value)
+                collected[entry.keyword] = entry.check(value)
             except InputError as error:
                 raise InputError(f"{self.name}: {error}") from None
-        return found
+        return collected
 
     def __call__(self, velocity: float, values: Mapping[str, Value]) -> dict[str, float | str]:
-        """The outputs at one impact velocity; InputError for what the model cannot take."""
+        """The outputs at one impact velocity; InputError for values outside the model's range."""
         complain("velocity", velocity, NON_NEGATIVE)
         _within("velocity", velocity, "m/s")
         given = self.collect(values)
-        found = self._computed(lambda: dict(self.evaluate(velocity, **given)))
-        lost = [name for name, value in found.items() if isinstance(value, float) and math.isnan(value)]
+        outputs = self._computed(lambda: dict(self.evaluate(velocity, **given)))
+        lost = [name for name, value in outputs.items() if isinstance(value, float) and math.isnan(value)]
         if lost:
             raise InputError(f"{self.name}: {lost[0]} is not a number: {BEYOND}")
-        return found
+        return outputs
 
     def limit(self, values: Mapping[str, Value]) -> float | None:
-        """``transition`` of these inputs by name; InputError for what the model cannot take."""
+        """``transition`` of these inputs by name; InputError for values outside the model's range."""
         given = self.collect(values)
         return self._computed(lambda: self.transition(**given))
 
     def moves(self, velocity: float, values: Mapping[str, Value]) -> Motion:
-        """``motion`` at one impact velocity, with inputs by name; InputError for what the model cannot take."""
+        """``motion`` at one impact velocity, with inputs by name; InputError for values outside the model's range."""
         complain("velocity", velocity)
         given = self.collect(values)
         return self._computed(lambda: self.motion(velocity, **given))
 
     def _computed(self, evaluation: Callable[[], T]) -> T:
-        """The result of the equations. Where they have none, as when numbers overflow, this is an InputError or nan."""
+        """The result of the equations. If there is none, for example because numbers overflow: InputError or nan."""
         try:
             with np.errstate(all="ignore"):
                 return evaluation()
@@ -200,7 +200,7 @@ def _within(name: str, number: float, unit: str) -> float:
 
 
 def complain(name: str, number: float, sign: str = POSITIVE) -> None:
-    """InputError where a number is not finite or outside its range."""
+    """Raises InputError if a number is not finite or outside its range."""
     if not math.isfinite(number):
         raise InputError(f"{name} = {number}: not a finite number")
     bad = {
@@ -215,13 +215,13 @@ def complain(name: str, number: float, sign: str = POSITIVE) -> None:
 
 
 def positive(**numbers: float) -> None:
-    """InputError for the first number that is not finite and positive."""
+    """Raises InputError for the first number that is not finite and positive."""
     for name, number in numbers.items():
         complain(name, number, POSITIVE)
 
 
 def non_negative(**numbers: float) -> None:
-    """InputError for the first number that is not finite and non-negative."""
+    """Raises InputError for the first number that is not finite and non-negative."""
     for name, number in numbers.items():
         complain(name, number, NON_NEGATIVE)
 

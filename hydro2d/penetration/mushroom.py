@@ -1,8 +1,8 @@
 """The mushroomed head of an eroding rod: its area, its velocity and its ejecta, after Luk & Piekutowski (1991).
 
-An energy balance of the head's growth and the conservation of mass, momentum and energy across the steady head, with the
-pressure of cavity expansion on it. Two or three solutions exist at a rod velocity; ``at_velocity`` follows the branch
-that grows from the fold. explanation/penetration/luk-piekutowski, equations 1 to 11
+They follow from an energy balance of the head's growth and the conservation of mass, momentum and energy across the steady
+head, with the pressure of cavity expansion on it. Two or three solutions exist at a rod velocity; ``at_velocity`` follows
+the branch that grows from the fold. explanation/penetration/luk-piekutowski, equations 1 to 11
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class Rod:
 class Target:
     """Cavity pressure ``a`` Y + ``b`` rho V^2 with ``friction``; SI.
 
-    ``plain_strength`` is the yield stress of the same target taken as perfectly plastic.
+    ``plain_strength`` is the yield stress of the target if it is treated as perfectly plastic.
     """
 
     density: float
@@ -92,7 +92,7 @@ class Target:
 class Head:
     """A steady head: lambda = Am/Ap, eta = Ae/Ap, and the velocities (m/s) of rod, head and ejecta.
 
-    The ejecta velocity is positive against the direction of flight, so it is negative if the ejecta follow the head.
+    The ejecta velocity is positive against the direction of flight, hence negative if the ejecta follow the head.
     """
 
     spread: float
@@ -108,9 +108,9 @@ class Head:
 def head(rod: Rod, target: Target, spread: float) -> Head:
     """The steady head of area ``spread`` = lambda times the rod's: the first root eta > 1 of the flow equation.
 
-    For given lambda and eta, V - U follows from the energy and U from the momentum; what is left is one equation for
-    eta. Its first root has the large U; the others penetrate too slowly to be the solution that the paper follows.
-    explanation/penetration/luk-piekutowski, equations 6 to 9. InputError where there is none.
+    For given lambda and eta, V - U follows from the energy and U from the momentum; one equation for eta remains. Its first
+    root has the large U; the others penetrate too slowly to be the solution that the paper follows.
+    explanation/penetration/luk-piekutowski, equations 6 to 9. InputError if there is none.
     """
     from scipy.optimize import brentq
 
@@ -134,18 +134,18 @@ def _velocities(rod: Rod, target: Target, spread: float, thinning):
 
 
 def _flow(rod: Rod, target: Target, spread: float, thinning):
-    """Energy that the rod brings less what head and target take, Pa: Luk & Piekutowski (1991), eq. (7)."""
+    """Energy that the rod supplies minus that which head and target take up, Pa: Luk & Piekutowski (1991), eq. (7)."""
     slip, u = _velocities(rod, target, spread, thinning)
     v = u + slip
-    taken = rod.elastic_limit * np.log(1.0 + spread) + target.static + target.dynamic * u * u
-    return rod.density * (v * v - u * u) - u / v * (1.0 + spread) * taken
+    resistance = rod.elastic_limit * np.log(1.0 + spread) + target.static + target.dynamic * u * u
+    return rod.density * (v * v - u * u) - u / v * (1.0 + spread) * resistance
 
 
 @functools.lru_cache(maxsize=64)
 def fold(rod: Rod, target: Target) -> Head:
     """The slowest steady head: two solutions meet there, and below its rod velocity there is none.
 
-    InputError where no head is slowest, so that the model has nothing to follow.
+    InputError if no head is slowest, so that there is no branch to follow.
     """
     from scipy.optimize import minimize_scalar
 
@@ -160,8 +160,8 @@ def fold(rod: Rod, target: Target) -> Head:
     if not np.all(np.isfinite(speeds[slowest : slowest + 3])):
         raise InputError("this rod and target have no lowest velocity of erosion, so the model does not apply")
     around = SPREADS[slowest - 1], SPREADS[slowest + 1]
-    found = minimize_scalar(speed, bounds=around, method="bounded", options={"xatol": 1e-8})
-    return head(rod, target, float(found.x))
+    minimum = minimize_scalar(speed, bounds=around, method="bounded", options={"xatol": 1e-8})
+    return head(rod, target, float(minimum.x))
 
 
 def at_velocity(rod: Rod, target: Target, velocity: float) -> Head:
@@ -174,12 +174,12 @@ def at_velocity(rod: Rod, target: Target, velocity: float) -> Head:
         raise InputError(f"velocity = {velocity:g}: the model has no eroding solution below its critical {least.rod:.4g} m/s")
     if velocity == least.rod:
         return least
-    low, high = _climb(rod, target, lambda found: found.rod >= velocity)
+    low, high = _climb(rod, target, lambda candidate: candidate.rod >= velocity)
     return head(rod, target, brentq(lambda s: head(rod, target, s).rod - velocity, low, high, xtol=1e-12, rtol=1e-13))
 
 
 def _climb(rod: Rod, target: Target, reached) -> tuple[float, float]:
-    """Two lambda of the branch above the fold between which a head has ``reached`` something. InputError where none has."""
+    """Two lambda of the branch above the fold, between which ``reached`` becomes true. InputError if it never does."""
     low = fold(rod, target).spread
     while low < LARGEST:
         if reached(head(rod, target, GROWTH * low)):
@@ -194,19 +194,19 @@ def critical_velocity(rod: Rod, target: Target) -> float:
 
 
 def reversal_velocity(rod: Rod, target: Target) -> float:
-    """The impact velocity at which the ejecta stand still, m/s: slower rods' ejecta follow the head."""
+    """The impact velocity at which the ejecta are at rest, m/s; the ejecta of slower rods follow the head."""
     from scipy.optimize import brentq
 
     if fold(rod, target).ejecta >= 0.0:
         raise InputError("the ejecta never follow the head of this rod in this target")
-    bracket = _climb(rod, target, lambda found: found.ejecta >= 0.0)
+    bracket = _climb(rod, target, lambda candidate: candidate.ejecta >= 0.0)
     return head(rod, target, brentq(lambda s: head(rod, target, s).ejecta, *bracket, xtol=1e-12)).rod
 
 
 def hypervelocity(rod: Rod, target: Target, velocity: float) -> float:
     """Penetration velocity of the limit eta = 1, m/s: Luk & Piekutowski (1991), eq. (29a), the largest root.
 
-    Meant for some 4 to 7 km/s. InputError where it has no root, which is so at low and at very high velocity.
+    Meant for about 4 to 7 km/s. InputError if it has no root, as at low and at very high velocity.
     """
     from scipy.optimize import brentq
 

@@ -24,7 +24,8 @@ NO_DRAG = 1e-12
 class Fit:
     """Constants of the resisting stress from measured depths.
 
-    ``a`` (Pa), ``b`` (kg/m^3), ``standard_error`` of P/L: the root of the sum of squares over shots less fitted constants.
+    ``a`` (Pa), ``b`` (kg/m^3), ``standard_error`` of P/L: the root of the sum of squares over the number of shots
+    minus that of fitted constants.
     """
 
     a: float
@@ -37,7 +38,7 @@ def depth_over_length(velocity: float, *, rod_density: float, a: float, b: float
     """P/L = rho_p/(2 b) ln(1 + b V^2/a), Anderson (2017), eq. (4); with b = 0 eq. (5), rho_p V^2/(2 a).
 
     velocity V (m/s) at impact; rod_density rho_p (kg/m^3); a (Pa); b (kg/m^3), not negative. L is the length of a cylinder
-    of the projectile's mass and diameter. For a projectile that does not deform, deep enough that its nose does not matter.
+    of the projectile's mass and diameter. For a projectile that does not deform and goes so deep that its nose does not matter.
     """
     positive(rod_density=rod_density, a=a)
     non_negative(velocity=velocity, b=b)
@@ -94,7 +95,7 @@ def duration(velocity: float, *, rod_density: float, rod_length: float, a: float
 def fit(velocities: Sequence[float], depths_over_length: Sequence[float], *, rod_density: float, b: float | None = None) -> Fit:
     """Least-squares a and b of measured P/L over impact velocities in m/s; a alone where b (kg/m^3) is given.
 
-    b is kept from being negative. InputError for too few shots or shots without depth or velocity.
+    b is not allowed to be negative. InputError for too few shots or shots without depth or velocity.
     """
     from scipy.optimize import least_squares
 
@@ -113,10 +114,10 @@ def fit(velocities: Sequence[float], depths_over_length: Sequence[float], *, rod
         return [depth_over_length(one, rod_density=rod_density, a=found_a, b=found_b) for one in v] - measured
 
     start, low = ([0.0, 0.1], [-np.inf, 0.0]) if b is None else ([0.0], [-np.inf])
-    found = least_squares(residuals, start, bounds=(low, np.inf), xtol=1e-14, ftol=1e-14, gtol=1e-14, x_scale="jac")
+    solution = least_squares(residuals, start, bounds=(low, np.inf), xtol=1e-14, ftol=1e-14, gtol=1e-14, x_scale="jac")
     free = max(1, v.size - len(start))
-    best_a, best_b = constants(found.x)
-    return Fit(float(best_a), float(best_b), math.sqrt(2.0 * float(found.cost) / free), int(v.size))
+    best_a, best_b = constants(solution.x)
+    return Fit(float(best_a), float(best_b), math.sqrt(2.0 * float(solution.cost) / free), int(v.size))
 
 
 def _shots(velocities: Sequence[float], depths: Sequence[float], fewest: int) -> tuple[np.ndarray, np.ndarray]:

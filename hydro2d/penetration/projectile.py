@@ -15,7 +15,7 @@ from hydro2d.penetration.layers import Target
 from hydro2d.penetration.model import InputError, positive
 from hydro2d.penetration.surface import Surface, body_surface, nose_length, nose_surface
 
-#: how far a surface may be from closed: resultant of a uniform pressure over the largest section
+#: largest gap of a closed surface: resultant of a uniform pressure over the largest section
 OPEN = 1e-9
 
 
@@ -39,7 +39,7 @@ class Body:
 
     @property
     def outline(self) -> np.ndarray:
-        """The points [3, n] that say where the body is: every facet's, and the tip."""
+        """The points [3, n] that mark the body: those of all facets, and the tip."""
         return np.concatenate([self.points.reshape(3, -1), [[0.0], [0.0], [self.tip]]], axis=1)
 
     @property
@@ -97,8 +97,8 @@ def load(body: Body, target: Target, friction: float, touch: float, depth: float
     """Force (N) and torque about the centre of mass (N m), in the body's frame.
 
     ``depth`` of the centre of mass (m), ``inward`` unit vector of growing depth, ``velocity`` (m/s) and angular
-    velocity ``spin`` (rad/s), all in the body's frame. ``touch`` (m/s) is the closing speed at which the static
-    pressure on the flank is fully there.
+    velocity ``spin`` (rad/s), all in the body's frame. ``touch`` (m/s) is the closing speed from which on the static
+    pressure on the flank is fully developed.
     """
     x, y, z = body.points
     index = target.locate(depth + (inward[0] * x + inward[1] * y + inward[2] * z))
@@ -131,14 +131,14 @@ def _rubbed(traction, drag, motion, closing, normals):
 
 
 def _total(facets: np.ndarray) -> float:
-    """The sum, opposite sectors first: what is odd in the axis cancels to the last bit."""
+    """The sum, opposite sectors first, so that odd parts about the axis cancel to the last bit."""
     half = facets.shape[1] // 2
     return float(np.sum(facets[:, :half] + facets[:, half:]))
 
 
 def _mirrored(vectors: np.ndarray, sectors: int) -> np.ndarray:
     """[3, rings, sectors] of the facets' vectors (n, 3), the second half turn an exact image of the first."""
-    found = np.ascontiguousarray(vectors.T).reshape(3, -1, sectors)
+    arranged = np.ascontiguousarray(vectors.T).reshape(3, -1, sectors)
     half = sectors // 2
-    found[:2, :, half:] = -found[:2, :, :half]
-    return found
+    arranged[:2, :, half:] = -arranged[:2, :, :half]
+    return arranged

@@ -1,10 +1,10 @@
-"""Ravid-Bodner: the first stage of a rigid blunt rod's way through a plate, by an upper bound on the plastic work.
+"""Ravid-Bodner: the first stage of a rigid blunt rod's passage through a plate, by an upper bound on the plastic work.
 
 Ravid & Bodner, Int. J. Engng Sci. 21 (1983) 577, divide perforation into penetration, bulge formation, bulge advancement,
 plug formation, and exit. Anderson, Int. J. Impact Engng 108 (2017) 3, section 8, says what each stage assumes but prints
-no equations. Stage one can be built from that description: three moving zones in a plate at rest, velocities that fit
-together and conserve volume, an extent of the zones that makes the plastic work least, and an energy balance for the rod.
-The velocity field here is ours and is the simplest that does so. The later stages need the shape of the bulge, the law by
+no equations. Stage one can be built from that description: three moving zones in a plate at rest, matching velocities
+that conserve volume, an extent of the zones that minimises the plastic work, and an energy balance for the rod. The velocity
+field here is ours and is the simplest of this kind. The later stages need the shape of the bulge, the law by
 which its radius stops growing, and the failure criteria, none of which is printed: the model ends where the plastic flow
 reaches the rear surface, and gives neither a residual velocity nor a ballistic limit. explanation/penetration/ravid-bodner.
 """
@@ -23,7 +23,7 @@ from hydro2d.penetration.model import Example, Model, Output, positive
 
 #: shear yield stress over yield stress, von Mises
 SHEAR = 1.0 / math.sqrt(3.0)
-#: where the radial extent is looked for, and how many depths a plate is divided into
+#: range in which the radial extent is sought, and number of depths into which a plate is divided
 NARROWEST, WIDEST, STEPS = 1.0 + 1e-6, 100.0, 100
 
 
@@ -43,7 +43,7 @@ class Flow:
 
 @dataclass(frozen=True)
 class Stage:
-    """Where stage one ends: at rest, or (``bulges``) with the plastic flow at the rear surface; SI.
+    """The end of stage one: at rest, or (``bulges``) with the plastic flow at the rear surface; SI.
 
     Resistances are the power of plastic work over the rod's area and speed, at the surface and at the end.
     """
@@ -71,7 +71,7 @@ def annulus_work(alpha: float) -> float:
 
 
 def axial_extent(alpha: float) -> float:
-    """eta of least power at a given alpha: explanation/penetration/ravid-bodner, equation 8."""
+    """eta of minimum power at a given alpha: explanation/penetration/ravid-bodner, equation 8."""
     side = alpha / (alpha - 1.0)
     return math.sqrt(_ends(alpha) / side)
 
@@ -100,7 +100,7 @@ def inertia(alpha: float, eta: float, depth: float) -> float:
 
 
 def flow(depth: float) -> Flow:
-    """The flow of least plastic power at a depth in radii."""
+    """The flow of minimum plastic power at a depth in radii."""
     from scipy.optimize import minimize_scalar
 
     best = minimize_scalar(pressure, args=(depth,), bounds=(NARROWEST, WIDEST), method="bounded", options={"xatol": 1e-10})
@@ -135,8 +135,8 @@ def first_stage(velocity: float, *, rod_density: float, rod_diameter: float, rod
                 target_strength: float, target_thickness: float) -> Stage:
     """Stage one of a rigid cylinder at an impact velocity in m/s; SI.
 
-    (M + rho R^3 kappa(x)) v^2/2 = M V^2/2 - pi R^3 Y times the integral of p(x): the rod's and the flow's kinetic energy
-    are what plastic work has left of the impact's. explanation/penetration/ravid-bodner, equation 10
+    (M + rho R^3 kappa(x)) v^2/2 = M V^2/2 - pi R^3 Y times the integral of p(x): the kinetic energies of rod and flow are
+    the impact energy minus the plastic work. explanation/penetration/ravid-bodner, equation 10
     """
     from scipy.optimize import brentq
 
@@ -177,7 +177,7 @@ def evaluate(velocity: float, **values: float) -> dict[str, float | str]:
 MODEL = Model(
     name="ravid-bodner",
     title="Ravid-Bodner, stage one: a rigid blunt rod until the plastic flow reaches the rear of the plate",
-    source="Ravid & Bodner (1983), as told by Anderson, Int. J. Impact Engng 108 (2017) 3, section 8; velocity field: ours",
+    source="Ravid & Bodner (1983), as reported by Anderson, Int. J. Impact Engng 108 (2017) 3, section 8; velocity field: ours",
     validity="rigid flat-nosed rods, ductile plates of a few calibres; no perforation, as later stages are not printed",
     inputs=(
         inputs.ROD_DENSITY,

@@ -1,7 +1,7 @@
 """Recht-Ipson: the velocity left after perforating a plate, from momentum and energy and one measured limit velocity.
 
-A chunky projectile drives out a plug that leaves with it; an armour-piercing bullet drives out none. In both cases the work
-that the plate takes up is that at the ballistic limit V50. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (17) to (25);
+A chunky projectile drives out a plug that leaves with it; an armour-piercing bullet drives out none. In both cases the plate
+takes up the same work as at the ballistic limit V50. Anderson, Int. J. Impact Engng 108 (2017) 3, equations (17) to (25);
 Recht & Ipson, J. Appl. Mech. 30 (1963) 384. explanation/penetration/recht-ipson.
 """
 
@@ -17,7 +17,7 @@ from hydro2d.penetration.model import Example, Input, Model, Output, non_negativ
 
 @dataclass(frozen=True)
 class Budget:
-    """Where the kinetic energy of the projectile goes, J: eqs. (18) to (20).
+    """The parts of the kinetic energy of the projectile, J: eqs. (18) to (20).
 
     ``residual`` of projectile and plug, ``deformation`` and heat of the inelastic collision, ``shear`` work of the plug.
     """

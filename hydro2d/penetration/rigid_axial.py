@@ -1,7 +1,7 @@
 """A rigid rod on its axis: the area force law on the rings of its nose, stepped by explicit central differences.
 
-Every ring of the nose that is below the struck face feels the pressure of cavity expansion at its surface velocity: the normal
-component of the rod's velocity, or, as one paper's printed depths follow, all of it. Ahmad Zaidi, Md Yusof, Ghazali &
+Every ring of the nose below the struck face feels the pressure of cavity expansion at its surface velocity: the normal
+component of the rod's velocity or, to match the printed depths of one paper, all of it. Ahmad Zaidi, Md Yusof, Ghazali &
 Mohammad, Simulations of the penetration of 6061-T6511 aluminum alloy targets by semi spherical-nosed rigid projectiles,
 equations [1.0] to [1.5]. explanation/penetration/rigid-axial
 """
@@ -23,7 +23,7 @@ from hydro2d.penetration.surface import Surface, nose_surface
 
 #: a step carries the rod by no more than this share of its diameter, and a shot has about this many steps or more
 STRIDE, LEAST_STEPS = 0.01, 100
-#: how many rings the command gives a nose
+#: number of rings of a nose on the command line
 RINGS = 100
 #: a rod slower than this share of the impact velocity has stopped, and the number of steps that a shot may take
 REST, MOST_STEPS = 1e-6, 200_000
@@ -51,8 +51,8 @@ class Pressure:
 class Flight:
     """Depth of the tip (m) and time (s) at rest; ``history`` has rows of time, depth of the tip, velocity and force (N).
 
-    A row is what the force of its step was computed from, so velocities lag by half a step. ``work`` is what the forces
-    have done over the mean velocities of their steps, J: to round-off the kinetic energy that was lost.
+    A row has the values from which the force of its step was computed, so velocities lag by half a step. ``work`` of the
+    forces, J, uses the mean velocities of the steps; it equals the lost kinetic energy to round-off.
     """
 
     depth: float
@@ -90,7 +90,7 @@ def penetrate(
     surface: Surface, mass: float, velocity: float, pressure: Pressure, *, friction: float = 0.0,
     surface_velocity: str = "normal", entry: bool = True, time_step: float | None = None,
 ) -> Flight:  # fmt: skip
-    """From first touch at ``velocity`` (m/s) to rest.
+    """The motion from first touch at ``velocity`` (m/s) to rest.
 
     V(i+1/2) = V(i-1/2) - dt F/M with the force at V(i-1/2) and the depth U(i), then U(i+1) = U(i) + dt V(i+1/2); the
     first push lasts half a step. Of first order in ``time_step`` (s). Without ``entry`` the whole nose counts from first

@@ -2,7 +2,7 @@
 
 The rod keeps its shape. Every facet of its surface that lies inside a layer and moves into it feels the pressure
 A Y + B rho Vn^2 of that layer's cavity expansion, and friction; force and torque move the body, which may pitch, yaw,
-spin, slow down and stop, pass through and come out with what velocity is left, or glance off. The framework is that of
+spin, stop, pass through with a residual velocity, or glance off. The framework is that of
 Ahmad Zaidi, Li & Yusof, Penetration depth prediction in mesh-less metal targets (2008), who followed the axis alone.
 explanation/penetration/rigid-body
 """
@@ -25,7 +25,8 @@ from hydro2d.penetration.rotation import coast, matrix, pointing
 
 #: a step carries the rod by no more than this share of its diameter
 STRIDE = 0.04
-#: the flank's static pressure is whole at this share of the impact velocity, and stable at this share of its own stiffness
+#: share of the impact velocity from which on the flank's static pressure is full, and largest stable time step over the
+#: ratio of mass to the flank's stiffness
 TOUCH, STIFFNESS = 0.005, 1.0
 #: a rod slower than this share of the impact velocity has stopped, and the number of steps that a shot may take
 REST, MOST_STEPS = 1e-6, 100_000
@@ -35,7 +36,7 @@ FORECAST = 2.0
 
 @dataclass(frozen=True)
 class Motion:
-    """Where the body is, how it moves and how it points, in the fixed frame: z is depth, x lies in the plane of obliquity.
+    """Position, velocity and attitude of the body in the fixed frame: z is depth, x lies in the plane of obliquity.
 
     ``position`` (m) and ``velocity`` (m/s) of the centre of mass, angular ``momentum`` about it (kg m^2/s),
     ``attitude`` from the body's frame to the fixed one.
@@ -51,7 +52,7 @@ class Motion:
 class Shot:
     """The outcome of a shot. ``regime`` is "embedded", "perforated" or "ricochet"; SI, angles in rad.
 
-    ``depth`` is the deepest that any part of the rod has been in the target, ``drift`` the distance of the
+    ``depth`` is the largest depth in the target of any part of the rod, ``drift`` the distance of the
     centre of mass from the line of flight before impact, ``pitch`` and ``yaw`` the angles of the rod's axis with that
     line, in the plane of obliquity and out of it. ``history`` has rows of time, depth of the tip, speed and kinetic
     energy with its rotational part.
@@ -104,7 +105,7 @@ def launch(body: Body, velocity: float, pitch: float, yaw: float, spin: float, o
 
 
 def step(body: Body, target: Target, velocity: float, touch: float) -> float:
-    """The default time step, s: a stride of the rod, or what the flank's stiffness allows where that is less.
+    """The default time step, s: that of one stride of the rod, or the largest that the flank's stiffness allows, if less.
 
     ``touch`` is infinite for a rod whose flank never pushes.
     """
@@ -168,7 +169,7 @@ def _fly(body, target, friction, touch, dt, motion):
 
 
 def _refuse_a_long_way(body: Body, target: Target, friction: float, touch: float, motion: Motion, dt: float) -> None:
-    """InputError where the rod, slowed by a + b v^2 as it is now, would take more than ``MOST_STEPS`` to stop or to leave.
+    """InputError if the rod, slowed by a + b v^2 as it is now, would need more than ``MOST_STEPS`` steps to stop or leave.
 
     It stops after M/sqrt(a b) arctan(v sqrt(b/a)); a and b follow from the force at this velocity and at half of it.
     """
@@ -185,7 +186,7 @@ def _refuse_a_long_way(body: Body, target: Target, friction: float, touch: float
     to_leave = (target.back - motion.position[2]) / speed
     if min(to_rest, to_leave) > MOST_STEPS * dt:
         raise InputError(f"the target hardly resists: the rod would be in motion for {min(to_rest, to_leave):.3g} s, "
-                         f"which is more than {MOST_STEPS} of this model's steps; a plate needs target.thickness")
+                         f"more than {MOST_STEPS} steps of this model; a plate needs target.thickness")
 
 
 def _stopped(before: np.ndarray, after: np.ndarray, rest: float) -> bool:
@@ -201,7 +202,7 @@ def _halt(before: Motion, after: Motion, time: float, dt: float) -> tuple[Motion
 
 
 def _left(depths: np.ndarray, motion: Motion, target: Target) -> str:
-    """How the whole rod has left the target, or nothing."""
+    """The way in which the whole rod has left the target; empty if it has not."""
     if np.min(depths) >= target.back:
         return "perforated"
     return "ricochet" if np.max(depths) <= 0.0 and motion.velocity[2] < 0.0 else ""
@@ -233,7 +234,7 @@ def evaluate(
     velocity, *, rod_mass, rod_diameter, rod_length, nose_shape, nose_crh, nose_half_angle, friction, target_density,
     target_strength, target_thickness, pitch, yaw, spin, obliquity, **cavity,
 ):  # fmt: skip
-    """A rod of the named nose into one plate, or a half space where no thickness is given; keywords as in ``MODEL.inputs``."""
+    """A rod with the named nose into one plate, or a half space if no thickness is given; keywords as in ``MODEL.inputs``."""
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **cavity)
     body = projectile(nose_shape, rod_mass, rod_diameter, rod_length, nose_crh, nose_half_angle)
     layer = Layer(math.inf if target_thickness is None else target_thickness, target_density, target_strength, a, b)
@@ -263,7 +264,7 @@ MODEL = Model(
         PITCH, YAW, SPIN, inputs.OBLIQUITY,
     ),
     outputs=(
-        Output("depth", "m", "the deepest that the rod has been in the target", "P"),
+        Output("depth", "m", "largest depth of the rod in the target", "P"),
         Output("residual_velocity", "m/s", "speed of the centre of mass at the end", "V_r"),
         Output("duration", "s", "time from touch to rest, or until the whole rod has left"),
         Output("pitch", "rad", "angle of the axis with the first line of flight at the end, in the plane of obliquity"),

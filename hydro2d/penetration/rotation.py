@@ -54,7 +54,7 @@ def pointing(pitch: float, yaw: float) -> np.ndarray:
 def coast(q: np.ndarray, momentum: np.ndarray, axial: float, transverse: float, time: float) -> np.ndarray:
     """The attitude after ``time`` s free of torque, of a body with the moments of inertia ``axial`` and ``transverse``.
 
-    Exact: Euler's equations for two equal moments are solved by a turn about the fixed angular ``momentum``
+    Exact: for two equal moments Euler's equations are solved by a turn about the fixed angular ``momentum``
     (kg m^2/s, fixed frame) at the rate L/I_t and a turn about the body's own axis at the rate
     (1/I_a - 1/I_t) L_axis. The result is scaled to unit length.
     """

@@ -1,7 +1,7 @@
 """Secondary penetration: eroded rod material that hits the bottom of the crater again.
 
-The debris of an eroding rod leaves the interface at 2 u - v. Where that points into the target, and its stagnation pressure
-exceeds the resistance, it deepens the crater. Anderson, Int. J. Impact Engng 108 (2017) 3, equation (37), with u by ``tate``;
+The debris of an eroding rod leaves the interface at 2 u - v. It deepens the crater if this points into the target and its
+stagnation pressure exceeds the resistance. Anderson, Int. J. Impact Engng 108 (2017) 3, equation (37), with u by ``tate``;
 Allen & Rogers, J. Franklin Inst. 272 (1961) 275. The criterion says whether the crater deepens, not by how much.
 explanation/penetration/secondary-penetration.
 """
@@ -29,16 +29,16 @@ def debris_velocity(velocity: float, *, rod_density: float, rod_strength: float,
 
 def debris_pressure(velocity: float, *, rod_density: float, rod_strength: float, target_density: float,
                     resistance: float) -> float:
-    """rho_p (2 u - v)^2/2 of debris that flies into the target, Pa; 0 of other debris. Anderson (2017), eq. (37)."""
+    """rho_p (2 u - v)^2/2 of debris that flies into the target, Pa; 0 for other debris. Anderson (2017), eq. (37)."""
     debris = debris_velocity(
         velocity, rod_density=rod_density, rod_strength=rod_strength, target_density=target_density, resistance=resistance)
     return 0.5 * rod_density * max(0.0, debris) ** 2
 
 
 def onset_velocity(*, rod_density: float, rod_strength: float, target_density: float, resistance: float) -> float | None:
-    """The impact velocity above which debris penetrates at all velocities, m/s; None for a rod no denser than the target.
+    """The impact velocity above which debris always penetrates, m/s; None for a rod no denser than the target.
 
-    The larger root of rho_p (2 u - v)^2/2 = R_t, or the transition velocity where there is none above it:
+    The larger root of rho_p (2 u - v)^2/2 = R_t, or the transition velocity if there is no root above it:
     explanation/penetration/secondary-penetration, equation 4
     """
     pair = tate.Pair(rod_density, rod_strength, target_density, resistance)

@@ -2,7 +2,7 @@
 
 Body frame: the tip of the nose is the origin and z runs along the axis in the direction of flight, so that the body lies at
 z <= 0 and the normals of the nose have a positive z component. A round nose is an arc of radius S about a point in the plane
-of its base, of distance b behind the tip:
+of its base, at a distance b behind the tip:
 
     r = a - S + S cos(theta),   z = -b + S sin(theta),   normal (r, z) = (cos(theta), sin(theta))
 
@@ -10,7 +10,7 @@ with S = a for a hemisphere and S = 2 a psi for an ogive of caliber-radius-head 
 
 Each ring has its exact area and the exact projection of that area along the axis, pi (r_outer^2 - r_inner^2). Their ratio is
 the axial component of the surface's normal at one point of the ring (mean value theorem); the ring's normal and position are
-those of that point. Projections therefore telescope: those of a nose sum to pi a^2 to round-off, and a uniform pressure
+those of that point. Projections therefore telescope: on a nose they sum to pi a^2 to round-off, and a uniform pressure
 on the whole body has no resultant. explanation/penetration/rigid-axial, equations 4 and 5
 """
 

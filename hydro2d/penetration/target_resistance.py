@@ -3,7 +3,7 @@
 Five closed forms for an elastic, perfectly plastic target: a spherical or a cylindrical cavity that opens slowly in an
 incompressible or a compressible solid, and the flow of Tate, shaped like the field of a solenoid. Anderson, Int. J. Impact
 Engng 108 (2017) 3, Table 1. All give 3 to 6 times the yield stress of a metal. No form contains the velocity, although
-the resistance found in experiments depends on it. explanation/penetration/target-resistance.
+the measured resistance depends on it. explanation/penetration/target-resistance.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def cylindrical_compressible(*, strength: float, youngs_modulus: float, poisson_
 def solenoidal(*, strength: float, youngs_modulus: float, dynamic_factor: float = DYNAMIC_FACTOR) -> float:
     """R_t = Y [2/3 + ln(2 E/((4 - exp(-lambda)) Y))], Pa; explanation/penetration/target-resistance, equation 5.
 
-    lambda: share of dynamic effects in the flow stress; 0.7 by Tate makes the argument of the logarithm 0.57 E/Y.
+    lambda: share of dynamic effects in the flow stress; Tate's 0.7 makes the argument of the logarithm 0.57 E/Y.
     """
     positive(strength=strength, youngs_modulus=youngs_modulus)
     complain("dynamic_factor", dynamic_factor, NON_NEGATIVE)
@@ -62,7 +62,7 @@ def solenoidal(*, strength: float, youngs_modulus: float, dynamic_factor: float 
     return _checked(strength * (2.0 / 3.0 + math.log(ratio)))
 
 
-#: the forms by name, and what each needs beside strength and Young's modulus
+#: the forms by name, and the input that each needs in addition to strength and Young's modulus
 FORMS = {
     "spherical-incompressible": (spherical_incompressible, None),
     "cylindrical-incompressible": (cylindrical_incompressible, None),
@@ -74,7 +74,7 @@ FORMS = {
 
 def _checked(resistance: float) -> float:
     if resistance <= 0.0:
-        raise InputError("target.strength is no longer small beside target.youngs_modulus: no form of cavity expansion holds")
+        raise InputError("target.strength is not small compared with target.youngs_modulus: no form of cavity expansion holds")
     return resistance
 
 
@@ -83,7 +83,7 @@ def resistance_of(
     target_youngs_modulus: float | None = None, target_poisson_ratio: float | None = None,
     target_dynamic_factor: float = DYNAMIC_FACTOR,
 ) -> float:
-    """The resistance of the inputs, Pa: as given, or from the chosen form. InputError names what the form misses."""
+    """The resistance, Pa: as given, or from the chosen form. InputError names the inputs that the form lacks."""
     if target_resistance is not None:
         return target_resistance
     form, extra = FORMS[target_resistance_form]
@@ -103,17 +103,17 @@ def evaluate(velocity: float, *, target_strength: float, target_youngs_modulus: 
         "strength": target_strength, "youngs_modulus": target_youngs_modulus,
         "poisson_ratio": target_poisson_ratio, "dynamic_factor": target_dynamic_factor,
     }  # fmt: skip
-    found = {}
+    resistances = {}
     for name, (form, extra) in FORMS.items():
         needed = ("strength", "youngs_modulus") + ((extra,) if extra else ())
-        found[name.replace("-", "_")] = form(**{key: given[key] for key in needed})
-    return found
+        resistances[name.replace("-", "_")] = form(**{key: given[key] for key in needed})
+    return resistances
 
 
 DYNAMIC_FACTOR_INPUT = Input(
     "target.dynamic_factor", "1", "share of dynamic effects in the target's flow stress, of the solenoidal form", "lambda",
     default=DYNAMIC_FACTOR, sign=NON_NEGATIVE)
-#: for models whose resistance may be given or come from a form; their keywords are those of ``resistance_of``
+#: inputs of models whose resistance is given or comes from a form; keywords of ``resistance_of``
 RESISTANCE_INPUTS = (
     inputs.TARGET_RESISTANCE.but(description="resistance of the target; from target.resistance_form where not given"),
     Input("target.resistance_form", "", "the form that gives the resistance from strength and stiffness", "",

@@ -1,13 +1,13 @@
-"""Tate-Alekseevskii: a long rod that erodes, stays rigid, or first erodes and then goes on as a rigid body.
+"""Tate-Alekseevskii: a long rod that erodes, stays rigid, or first erodes and then continues as a rigid body.
 
-The stress on both sides of the interface, with a strength Y_p of the rod and a resistance R_t of the target, the slowing of
-the rod behind it, and its shortening:
+The equations give the stress on both sides of the interface, with a strength Y_p of the rod and a resistance R_t of the
+target, the deceleration of the rod behind it, and its shortening:
 
     rho_p (v - u)^2/2 + Y_p = rho_t u^2/2 + R_t,    rho_p l dv/dt = -Y_p,    dl/dt = -(v - u).
 
 Anderson, Int. J. Impact Engng 108 (2017) 3, equations (28) to (36); Tate, J. Mech. Phys. Solids 15 (1967) 387, 17 (1969) 141;
-Alekseevskii, Combust. Explos. Shock Waves 2 (1966) 63. The length left is a closed form of the velocity, so that depth and time
-are quadratures over the velocity. explanation/penetration/tate.
+Alekseevskii, Combust. Explos. Shock Waves 2 (1966) 63. The remaining length is a closed form of the velocity, so that depth and
+time are quadratures over the velocity. explanation/penetration/tate.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, Model, Motio
 from hydro2d.penetration.target_resistance import RESISTANCE_INPUTS, resistance_of
 
 NO_PENETRATION, RIGID, ERODING, ERODING_THEN_RIGID = "no penetration", "rigid", "eroding", "eroding, then rigid"
-#: -ln(l/L) at which nothing is left of a rod
+#: -ln(l/L) at which a rod counts as consumed
 CONSUMED = 60.0
 #: nodes of a panel of the quadrature over the velocity, and points of a track while the rod is rigid
 NODES, RIGID_POINTS = 12, 17
@@ -58,7 +58,7 @@ class Pair:
         return math.sqrt(max(0.0, -2.0 * self.difference) / self.target_density)
 
     def regime(self, velocity: float) -> str:
-        """What an impact at a velocity (m/s) leads to."""
+        """The regime of an impact at a velocity (m/s)."""
         if self.rod_strength > self.resistance:
             return RIGID if velocity <= self.transition_velocity else ERODING_THEN_RIGID
         return NO_PENETRATION if velocity <= self.critical_velocity else ERODING
@@ -119,9 +119,9 @@ def penetrate(velocity: float, *, rod_density: float, rod_length: float, rod_str
               resistance: float) -> Track:
     """The penetration of a semi-infinite target at an impact velocity in m/s.
 
-    rod_length (m); densities (kg/m^3); rod_strength Y_p and resistance R_t (Pa). While the rod erodes eqs. (28), (30) and (31)
-    of Anderson (2017), from the transition velocity down eq. (35). A rod that does not penetrate has a track of one instant;
-    the length that it loses on the surface is not followed. Accurate to 1e-10.
+    rod_length (m); densities (kg/m^3); rod_strength Y_p and resistance R_t (Pa). Solves eqs. (28), (30) and (31) of Anderson
+    (2017) while the rod erodes, and eq. (35) from the transition velocity down. A rod that does not penetrate has a track of
+    one instant; the length that it loses on the surface is not computed. Accurate to 1e-10.
     """
     non_negative(velocity=velocity)
     positive(rod_length=rod_length)
@@ -223,7 +223,7 @@ def transition(*, rod_length: float | None = None, **values: float | str | None)
     return pair_of(**values).transition_velocity
 
 
-#: what ``pair_of`` takes
+#: inputs of ``pair_of``
 PAIR_INPUTS = (
     inputs.ROD_DENSITY,
     inputs.ROD_STRENGTH,

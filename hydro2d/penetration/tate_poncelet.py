@@ -1,7 +1,7 @@
 """Tate-Poncelet: a rigid rod against the stress R_t + rho_t v^2/2 of the modified Bernoulli equation.
 
-Poncelet's equation with a = R_t and b = rho_t/2, hence with constants that are properties of the target: Anderson, Int. J.
-Impact Engng 108 (2017) 3, equations (35) and (36). It is the rigid regime of ``tate``, carried beyond the rod's strength.
+Poncelet's equation with a = R_t and b = rho_t/2, so that its constants are properties of the target: Anderson, Int. J.
+Impact Engng 108 (2017) 3, equations (35) and (36). It is the rigid regime of ``tate``, extended beyond the rod's strength.
 explanation/penetration/tate-poncelet.
 """
 
@@ -19,8 +19,8 @@ from hydro2d.penetration.target_resistance import RESISTANCE_INPUTS, resistance_
 def depth_over_length(velocity: float, *, rod_density: float, target_density: float, resistance: float) -> float:
     """P/L = (rho_p/rho_t) ln(1 + rho_t V^2/(2 R_t)), Anderson (2017), eq. (36).
 
-    velocity V (m/s) at impact; densities (kg/m^3); resistance R_t (Pa), of a target that offers the same at all velocities
-    and to all noses. For a rod that neither deforms nor erodes.
+    velocity V (m/s) at impact; densities (kg/m^3); resistance R_t (Pa), the same at all velocities and for all
+    noses. For a rod that neither deforms nor erodes.
     """
     positive(target_density=target_density, resistance=resistance)
     return poncelet.depth_over_length(velocity, rod_density=rod_density, a=resistance, b=0.5 * target_density)

@@ -1,8 +1,8 @@
 """Walker-Anderson: momentum along the centreline of a long rod and a semi-infinite target.
 
-No resistance is fitted: what Tate calls Rt comes out as (7/3) Yt ln(alpha), with the plastic flow's radius alpha from a
-dynamic cavity expansion. The radius of the crater as a function of the impact velocity is the one empirical input.
-Walker & Anderson, Int. J. Impact Engng 16 (1995) 19, as written by Anderson, Int. J. Impact Engng 108 (2017) 3, equations
+No resistance is fitted: Tate's Rt results as (7/3) Yt ln(alpha), with the plastic flow's radius alpha from a dynamic
+cavity expansion. The radius of the crater as a function of the impact velocity is the one empirical input.
+Walker & Anderson, Int. J. Impact Engng 16 (1995) 19, as given by Anderson, Int. J. Impact Engng 108 (2017) 3, equations
 (54) to (58). ``centreline`` has the equations of motion; explanation/penetration/walker-anderson.
 """
 
@@ -16,7 +16,7 @@ from hydro2d.penetration import inputs
 from hydro2d.penetration.centreline import LAST_SPEED, Centreline, Rod, Target, Track, plastic_extent
 from hydro2d.penetration.model import Example, Input, Model, Motion, Output
 
-#: highest impact velocity at which a transition is looked for, and the step of the search, m/s
+#: highest impact velocity in the search for a transition, and its step, m/s
 FASTEST, SEARCH_STEP = 6000.0, 50.0
 
 
@@ -27,14 +27,14 @@ def resistance(u: float, target: Target) -> float:
 
 def penetrate(velocity: float, rod: Rod, target: Target, radius: float | None = None) -> Track:
     """The penetration of a semi-infinite target at an impact velocity in m/s; ``radius`` of the crater, m, by default
-    ``crater_radius``. InputError for what the model cannot take."""
+    ``crater_radius``. InputError for values outside the model's range."""
     return Centreline(velocity, rod, target, radius).solve()
 
 
 def rigid_stress(velocity: float, rod: Rod, target: Target, radius: float | None = None) -> float:
     """The stress on the nose of a rod that penetrates without eroding, Pa: its share of the resistance of eq. (54).
 
-    With s = 0 and dv/dt = du/dt the target's flow takes part in the slowing:
+    With s = 0 and dv/dt = du/dt the target's flow decelerates with the rod:
     q = (rho_t u^2/2 + (7/3) Yt ln(alpha)) rho_p L/(rho_p L + carried mass). explanation/penetration/walker-anderson, equation 9
     """
     motion = Centreline(velocity, rod, target, radius)
@@ -44,8 +44,8 @@ def rigid_stress(velocity: float, rod: Rod, target: Target, radius: float | None
 
 
 def transition_velocity(rod: Rod, target: Target, radius: float | None = None) -> float | None:
-    """The lowest velocity at which ``rigid_stress`` exceeds the rod's strength, m/s: 0 where a rod at rest would already
-    erode, None where none up to 6 km/s does. The shock of the impact, which erodes a little of any rod, is left out."""
+    """The lowest velocity at which ``rigid_stress`` exceeds the rod's strength, m/s: 0 if a rod at rest would already
+    erode, None if none up to 6 km/s does. The shock of the impact, which erodes a little of any rod, is ignored."""
     from scipy.optimize import brentq
 
     def excess(velocity):
@@ -70,7 +70,7 @@ def materials(values: Mapping[str, float]) -> tuple[Rod, Target, float | None]:
 
 
 def evaluate(velocity: float, **values: float) -> dict[str, float | str]:
-    """Depth and the quantities behind it at an impact velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
+    """Depth and related quantities at an impact velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
     rod, target, radius = materials(values)
     motion = Centreline(velocity, rod, target, radius)
     track = motion.solve()

@@ -1,8 +1,8 @@
 """Walker-Anderson through a plate: the rear surface bulges, and the plate fails at a strain of its centreline.
 
-The motion is that of ``walker_anderson`` until the plastic flow ahead of the crater reaches the rear surface. From there
-the flow is a blend of the deep one and of simple shear, the resistance falls with the material that is left, and the rear
-surface moves. Its strain grows; where it reaches the plate's failure strain, the rod is through. Anderson, Int. J. Impact
+The motion is that of ``walker_anderson`` until the plastic flow ahead of the crater reaches the rear surface. From then
+on the flow is a blend of the deep flow and simple shear, the resistance falls with the remaining material, and the rear
+surface moves. The rod perforates when the strain of this surface reaches the plate's failure strain. Anderson, Int. J. Impact
 Engng 108 (2017) 3, equations (59) to (63), after Walker (1999) and Chocron, Anderson & Walker (1999);
 explanation/penetration/walker-anderson-finite.
 """
@@ -20,9 +20,9 @@ from hydro2d.penetration.centreline import Centreline, Rod, Target
 from hydro2d.penetration.model import Example, Input, Model, Output, positive
 from hydro2d.penetration.walker_anderson import CRATER_RADIUS, ROD_INPUTS, TARGET_INPUTS, materials
 
-#: the rear surface is reached where no more than this share of the plate is left ahead of the rod
+#: share of the plate left ahead of the rod at which the rear surface counts as reached
 LAST_SHARE_OF_PLATE = 1e-6
-#: the search for a ballistic limit: first and last velocity, m/s, growth of the step, and how narrow the bracket ends, m/s
+#: the search for a ballistic limit: first and last velocity, m/s, growth of the step, and final width of the bracket, m/s
 SLOWEST, FASTEST, GROWTH, BRACKET = 100.0, 6000.0, 1.25, 0.01
 #: a failure strain that nothing reaches
 UNBREAKABLE = 1e9
@@ -30,7 +30,7 @@ UNBREAKABLE = 1e9
 
 @dataclass(frozen=True)
 class Exit:
-    """What a shot leaves: ``residual_velocity`` is the mean over the rod, 0 where it stops; SI."""
+    """The result of a shot: ``residual_velocity`` is the mean over the rod, 0 if it stops; SI."""
 
     perforated: bool
     depth: float
@@ -45,7 +45,7 @@ class Exit:
 def blend(share: float) -> float:
     """beta = (3/2) x^2 - x^3/2 of the deep flow, x = h/((alpha - 1) Rc): Anderson (2017), eq. (60).
 
-    Volume of the plastic hemisphere that the rear surface leaves, over the whole; 1 where it is not reached.
+    Share of the plastic hemisphere's volume on this side of the rear surface; 1 if that is not reached.
     """
     share = min(max(share, 0.0), 1.0)
     return share * share * (1.5 - 0.5 * share)
@@ -54,8 +54,8 @@ def blend(share: float) -> float:
 def rear_velocity(u: float, alpha: float, ahead: float, radius: float) -> float:
     """Velocity of the rear surface on the centreline, m/s, with h = ``ahead`` of the plate left in front of the rod.
 
-    u [((alpha Rc/(Rc + h))^2 - 1)/(alpha^2 - 1)]^beta, which is what the product of the potentials, Anderson (2017),
-    eq. (59), gives on the axis: explanation/penetration/walker-anderson-finite, equation 4
+    u [((alpha Rc/(Rc + h))^2 - 1)/(alpha^2 - 1)]^beta, which follows from the product of the potentials, Anderson
+    (2017), eq. (59), on the axis: explanation/penetration/walker-anderson-finite, equation 4
     """
     reach = (alpha - 1.0) * radius
     if ahead >= reach:
@@ -71,7 +71,7 @@ def strain_rate(u: float, ahead: float, radius: float) -> float:
 
 
 class Plate(Centreline):
-    """A shot at a plate: the state has, beyond the depth, the displacement of the rear surface and its strain."""
+    """A shot at a plate: in the state, the displacement of the rear surface and its strain follow the depth."""
 
     more = (0.0, 0.0)
 
@@ -100,7 +100,7 @@ class Plate(Centreline):
         return self.thickness + state[4] - state[3]
 
     def ends(self) -> list[Callable]:
-        """Those of a thick target, then: the rear surface fails; nothing of the plate is left."""
+        """The ends for a thick target, failure of the rear surface, and no plate left ahead."""
         return [
             *super().ends(),
             lambda time, state: self.failure_strain - state[5],
@@ -139,15 +139,15 @@ def limit_velocity(rod: Rod, target: Target, thickness: float, failure_strain: f
 
 
 def calibrate(limit: float, rod: Rod, target: Target, thickness: float, radius: float | None = None) -> float:
-    """The failure strain that makes a measured ballistic limit, m/s, that of the model: the strain of a shot at that
-    velocity that nothing breaks. InputError where the plastic flow of such a shot does not reach the rear surface."""
+    """The failure strain with which the model has a measured ballistic limit, m/s: the strain of a shot at that velocity if
+    the plate cannot fail. InputError if the plastic flow of such a shot does not reach the rear surface."""
     strain = shoot(limit, rod, target, thickness, UNBREAKABLE, radius).strain
     positive(**{"target.failure_strain": strain})
     return strain
 
 
 def evaluate(velocity: float, **values: float) -> dict[str, float | str]:
-    """What a shot at an impact velocity in m/s leaves; keywords are those of ``MODEL.inputs``, in SI."""
+    """The result of a shot at an impact velocity in m/s; keywords are those of ``MODEL.inputs``, in SI."""
     rod, target, radius = materials(values)
     plate = values["target_thickness"], values["target_failure_strain"], radius
     shot = shoot(velocity, rod, target, *plate)
@@ -176,7 +176,7 @@ MODEL = Model(
         CRATER_RADIUS,
     ),
     outputs=(
-        Output("residual_velocity", "m/s", "mean velocity of what is left of the rod; 0 where it stops", "V_r"),
+        Output("residual_velocity", "m/s", "mean velocity of the remaining rod; 0 if it stops", "V_r"),
         Output("residual_length", "m", "length of rod that is left"),
         Output("limit_velocity", "m/s", "lowest impact velocity that perforates; infinite where 6 km/s does not", "V_50"),
         Output("depth", "m", "depth of the interface below the original front face when it stops or the plate fails", "P"),

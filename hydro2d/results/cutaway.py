@@ -1,6 +1,6 @@
-"""A three-dimensional picture of a run: the bodies turned about the axis, with a quarter cut out, drawn with pyvista.
+"""A three-dimensional picture of a run: the bodies rotated about the axis, with a quarter cut out, drawn with pyvista.
 
-It is rendered in a separate process, so that a failing graphics driver cannot take anything else down with it.
+It is rendered in a separate process, so that a failing graphics driver does no other harm.
 """
 
 from __future__ import annotations

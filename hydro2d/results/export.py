@@ -1,4 +1,4 @@
-"""Exports a run: a VTK series with chosen fields, or the state of the restart file, and the history as CSV."""
+"""Exports a run: a VTK series with chosen fields, or the state in the restart file, and the history as CSV."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ def names(dump: vtk.Dump, keys) -> list[str]:
     """Names in a dump of the quantities `keys` (or groups of quantities.GROUPS), and of those that are always written."""
     wanted = []
     for quantity in (quantities.BY_KEY[key] for key in quantities.expand(keys)):
-        found = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
-        wanted += [name for name in found if name in dump.fields]
+        candidates = [quantity.name(body) for body in dump.bodies] if quantity.per_body else [quantity.name()]
+        wanted += [name for name in candidates if name in dump.fields]
     return wanted
 
 
 def export(run: Results, out: Path, keys=("all",)) -> list[Path]:
     """Writes `out`/series.pvd with the dumps of a run, and `out`/history.csv. Returns the files to open.
 
-    keys : quantities of quantities.TABLE to export. For a run without dumps, the state of its restart file is written.
+    keys : quantities of quantities.TABLE to export. For a run without dumps, the state in its restart file is written.
 
     Raises ResultsError, FieldError, SnapshotError, StrangeFile (a symbolic link in one of the two directories).
     """

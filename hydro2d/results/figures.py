@@ -22,7 +22,7 @@ from hydro2d.output.vtk import Dump
 from hydro2d.results.scales import LINEAR, FigureError, Scale
 from hydro2d.terminal import shown
 
-#: the units that readers use: the name of each, and how many of them make one SI unit
+#: units for the reader: name, and how many of them make one SI unit
 READER = {
     "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm$^3$", 1e-3), "m": ("mm", 1e3), "s": ("µs", 1e6),
     "kg": ("g", 1e3), "J": ("kJ", 1e-3),
@@ -31,9 +31,9 @@ BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60"
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
 VECTORS = ("velocity", "velocity_hard", "velocity_soft")
-#: file endings of films, which are not pictures
+#: file endings of films
 FILMS = ("gif", "mp4", "avi", "mov", "webm")
-#: greatest height and least width of a panel, inches
+#: largest height and smallest width of a panel, inches
 TALLEST, NARROWEST = 9.0, 2.5
 
 
@@ -53,7 +53,7 @@ class Shown:
 
 
 def reader_unit(unit: str) -> tuple[str, float]:
-    """The unit that readers use for an SI unit, and the factor that converts to it."""
+    """The reader's unit for an SI unit, and the factor that converts to it."""
     return READER.get(unit, (unit, 1.0))
 
 
@@ -85,7 +85,7 @@ def chosen(dump: Dump, field: str) -> Shown:
 
 
 def verbatim(text: str) -> str:
-    """A name from a file as matplotlib draws it letter by letter: a dollar sign begins no formula."""
+    """A name from a file such that matplotlib draws it literally: a dollar sign does not begin a formula."""
     return shown(text).replace("$", r"\$")
 
 
@@ -97,8 +97,8 @@ def body_colours(count: int):
 
 
 def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, float], scale: Scale):
-    """Draws the colours of one half, in mm, up to the outlines; sign is +1 above the axis, -1 below. Returns what a colour bar
-    needs."""
+    """Draws the colours of one half, in mm, up to the outlines; sign is +1 above the axis, -1 below. Returns the mappable
+    for a colour bar."""
     z, r = dump.z_edges * 1e3, sign * dump.r_edges * 1e3
     if field == "material":
         values, drawn = dump.fields["Material"].astype(float), {"cmap": body_colours(len(dump.bodies))}
@@ -119,7 +119,7 @@ def _draw_half(axes, dump: Dump, field: str, sign: int, limits: tuple[float, flo
 
 
 def _solid(dump: Dump, field: str) -> Filling | None:
-    """To whose outline a field is drawn: that of its body, or of all; None for a volume fraction."""
+    """The filling whose outline bounds a drawn field: that of its body, or of all; None for a volume fraction."""
     key, _, part = field.partition(":")
     if key == "volume_fraction":
         return None
@@ -127,7 +127,7 @@ def _solid(dump: Dump, field: str) -> Filling | None:
 
 
 def _widened(values: np.ndarray) -> np.ndarray:
-    """Values (nz, nr) with one row of cells more around what is not NaN, each the mean of its neighbours."""
+    """Values (nz, nr) extended by one row of cells around those that are not NaN, each the mean of its neighbours."""
     around = np.pad(values, 1, constant_values=np.nan)
     shifted = np.stack([around[1 + dj : around.shape[0] - 1 + dj, 1 + di : around.shape[1] - 1 + di]
                         for dj in (-1, 0, 1) for di in (-1, 0, 1)])  # fmt: skip
@@ -140,11 +140,11 @@ def _path(filling: Filling, sign: int):
     """The areas of `Filling.regions` as a path in mm of z and r."""
     from matplotlib.path import Path as Outline
 
-    found = filling.regions()
-    if not found:
+    regions = filling.regions()
+    if not regions:
         return Outline(np.zeros((1, 2)))
-    points = np.concatenate([np.column_stack([each[:, 1], sign * each[:, 0]]) for each, _ in found]) * 1e3
-    return Outline(points, np.concatenate([codes for _, codes in found]))
+    points = np.concatenate([np.column_stack([each[:, 1], sign * each[:, 0]]) for each, _ in regions]) * 1e3
+    return Outline(points, np.concatenate([codes for _, codes in regions]))
 
 
 def _fill(axes, path, colour: str) -> None:
@@ -166,7 +166,7 @@ def _draw_outlines(axes, dump: Dump) -> None:
 
 
 def _legend(axes, dump: Dump, half: str) -> None:
-    """The names of the bodies; half : the half of the section that shows them ("upper" or "lower"), "" for all of it."""
+    """Adds the names of the bodies; half : the half of the section that shows them ("upper" or "lower"), "" for all of it."""
     from matplotlib.patches import Patch
 
     patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=verbatim(body)) for m, body in enumerate(dump.bodies)]
@@ -182,7 +182,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same field)
     limits : (low, high) per word in the reader's unit; by default from the data
     depth_line : axial position of the experiment's depth, m
-    window : (z0, z1, r1) in m, the part that is shown and that sets the limits; by default the whole mesh
+    window : (z0, z1, r1) in m, the part that is shown and sets the limits; by default the whole mesh
     scale : of the colours
 
     Returns [(word, mappable)] for `colour_bars`. Raises FigureError.
@@ -199,7 +199,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     if "material" in halves:
         _legend(axes, dump, halves["material"])
     if depth_line is not None:
-        below = "material" in halves and halves["material"] != "lower"  # where no legend covers it
+        below = "material" in halves and halves["material"] != "lower"  # the half that no legend covers
         axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
         word = axes.text(depth_line * 1e3, 0.02 if below else 0.98, "experiment", transform=axes.get_xaxis_transform(),
                          color="crimson", fontsize=7, rotation=90, ha="right", va="bottom" if below else "top",
@@ -229,9 +229,9 @@ def _of_half(half: str) -> str:
 
 
 def colour_bars(axes, dump: Dump, drawn: list) -> None:
-    """Adds a colour bar for every field that `section` has drawn; ``axes`` is one or an array that share the bars.
+    """Adds a colour bar for each field that `section` has drawn; ``axes`` is one, or an array that shares the bars.
 
-    Where the halves show different fields, a bar says which half it belongs to.
+    If the halves show different fields, a bar names its half.
     """
     figure, halves = np.ravel(axes)[0].figure, _halves(drawn)
     for word, mappable in dict(drawn).items():
@@ -250,7 +250,7 @@ def _ends(dump: Dump, window: tuple[float, float, float] | None) -> tuple[float,
 
 
 def _panel_size(width: float, dump: Dump, window: tuple[float, float, float] | None) -> tuple[float, float]:
-    """Width and height in inches of a panel with a title that shows a window at equal scales, as wide as given at most."""
+    """Width and height in inches of a panel with a title that shows a window at equal scales; ``width`` is the largest."""
     z0, z1, low, high = _ends(dump, window)
     height = width * (high - low) / (z1 - z0)
     if height > TALLEST:
@@ -259,7 +259,7 @@ def _panel_size(width: float, dump: Dump, window: tuple[float, float, float] | N
 
 
 def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width: float = 8.0):
-    """Axes of a new pyplot figure in the shape of a section, which a notebook shows by itself; width in inches."""
+    """Axes of a new pyplot figure in the shape of a section, which a notebook shows automatically; width in inches."""
     from matplotlib import pyplot
 
     width, height = _panel_size(width, dump, window)
@@ -281,8 +281,8 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
                   scale: Scale = LINEAR):  # fmt: skip
     """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
 
-    window : (z0, z1, r1) in m, or a function that returns it for a dump; by default each panel shows the whole mesh where it
-        was at that time
+    window : (z0, z1, r1) in m, or a function that returns it for a dump; by default each panel shows the whole mesh at its
+        place at that time
     limits : colour ranges by field, in the reader's unit; by default from what is shown
     scale : of the colours
     figure : a figure that this function returned earlier, to be redrawn; by default a new one
@@ -324,7 +324,7 @@ def cropped(dump: Dump, window) -> Dump:
     inner = max(int(np.searchsorted(dump.r_edges, -r1, "right")) - 1, 0)
     outer = min(int(np.searchsorted(dump.r_edges, r1, "left")), len(dump.r_edges) - 1)
     if low >= high or inner >= outer:
-        raise FigureError(f"the window z {z0:g} to {z1:g} m, r to {r1:g} m shows nothing of the mesh")
+        raise FigureError(f"the window z {z0:g} to {z1:g} m, r to {r1:g} m shows no part of the mesh")
     fields = {name: values[low:high, inner:outer] for name, values in dump.fields.items()}
     return replace(dump, r_edges=dump.r_edges[inner : outer + 1], z_edges=dump.z_edges[low : high + 1], fields=fields)
 

@@ -1,4 +1,4 @@
-"""Figures along a line through the mesh, at some times or over place and time; and of the debris behind plates."""
+"""Figures of fields along a line through the mesh, at some times or over place and time, and of debris behind plates."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.scales import LINEAR, FigureError, Scale
 
-#: points of a line in a diagram of place and time
+#: number of points on a line in a diagram of place and time
 POINTS = 800
 #: share of the debris in a bin, or of a fragment in the debris, below which nothing is drawn
 LEAST = 1e-9
 
 
 class Line(NamedTuple):
-    """A straight line from (r0, z0) to (r1, z1), m, in the frame of the laboratory."""
+    """A straight line from (r0, z0) to (r1, z1), m, in the laboratory frame."""
 
     r0: float
     z0: float
@@ -27,7 +27,7 @@ class Line(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What is measured along it: z or r where it is parallel to one, else the distance from its first point."""
+        """The coordinate along the line: z or r if it is parallel to one, else the distance from its first point."""
         return "z" if self.r0 == self.r1 else "r" if self.z0 == self.z1 else "distance"
 
     def at(self, shares: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -38,7 +38,7 @@ class Line(NamedTuple):
 
 
 def axis_of(run) -> Line:
-    """The line along the inner edge of the mesh, over all that its dumps cover."""
+    """The line along the inner edge of the mesh, over the whole range of the dumps."""
     if not run.dumps:
         return Line(0.0, 0.0, 0.0, 1.0)
     ends = [run.dump(time) for time, _ in (run.dumps[0], run.dumps[-1])]
@@ -125,10 +125,10 @@ def space_time(runs: list, field: str, line: Line | None = None, *, limits: tupl
     The outlines of the bodies are lines. Raises FigureError if a run has fewer than two dumps.
     """
     panels = [_panel(run, field, line or axis_of(run)) for run in runs]
-    limits = limits or scale.limits([found for _, _, found, _, _ in panels])
+    limits = limits or scale.limits([values for _, _, values, _, _ in panels])
     figure, axes = figures.new_figure(7.0, 4.6 * len(runs), len(runs), 1)
-    for (place,), run, (along, times, found, bodies, label) in zip(axes, runs, panels, strict=True):
-        drawn = place.pcolormesh(along * 1e3, times * 1e6, np.ma.masked_invalid(found), shading="nearest", rasterized=True,
+    for (place,), run, (along, times, values, bodies, label) in zip(axes, runs, panels, strict=True):
+        drawn = place.pcolormesh(along * 1e3, times * 1e6, np.ma.masked_invalid(values), shading="nearest", rasterized=True,
                                  **scale.drawn(limits))  # fmt: skip
         for fraction in bodies:
             if fraction.min() < 0.5 < fraction.max():
@@ -145,7 +145,7 @@ def _panel(run, field: str, line: Line):
     """Coordinates (n,), times (k,), values (k, n) and the volume fractions of the bodies, each (k, n); and the label."""
     files = run.dumps
     if len(files) < 2:
-        raise FigureError(f"{run.directory} has {len(files)} dumps; a diagram of place and time needs two at least")
+        raise FigureError(f"{run.directory} has {len(files)} dumps; a diagram of place and time needs at least two")
     r, z, along = line.at((np.arange(POINTS) + 0.5) / POINTS)
     rows, shares, label = [], [], ""
     for time, _ in files:
@@ -156,20 +156,20 @@ def _panel(run, field: str, line: Line):
         shares.append([np.where(inside, dump.fields[f"Volume Fraction for {body}"][j, i], 0.0) for body in dump.bodies])
         label = shown.label
     if not np.isfinite(rows).any():
-        raise FigureError(f"{run.directory}: nothing of {field} lies on the line")
+        raise FigureError(f"{run.directory}: no values of {field} lie on the line")
     return along, np.array([time for time, _ in files]), np.array(rows), np.array(shares).swapaxes(0, 1), label
 
 
 def debris(runs: list):
-    """What flies behind every target at the end: mass by axial speed, mass by angle, and how many fragments are so heavy.
+    """Debris behind each target at the end: mass by axial speed, mass by angle, and number of fragments by mass.
 
-    A row for each run (results.Results) and target. Raises ResultsError, and FigureError where nothing flies.
+    A row for each run (results.Results) and target. Raises ResultsError, and FigureError if there is no debris.
     """
-    found = [(run, name, each) for run in runs for name, each in run.debris.items() if len(each["body"])]
-    if not found:
+    clouds = [(run, name, each) for run in runs for name, each in run.debris.items() if len(each["body"])]
+    if not clouds:
         raise FigureError("nothing flies behind a target at the end of these runs")
-    figure, axes = figures.new_figure(13.0, 3.4 * len(found), len(found), 3)
-    for row, (run, name, each) in zip(axes, found, strict=True):
+    figure, axes = figures.new_figure(13.0, 3.4 * len(clouds), len(clouds), 3)
+    for row, (run, name, each) in zip(axes, clouds, strict=True):
         row[1].set_title(figures.verbatim(f"{run.label}: behind {name}"), fontsize=9)
         for place, what, edges, label in ((row[0], "speed", each["speed_edges_m_s"], "axial velocity [m/s]"),
                                           (row[1], "angle", np.degrees(each["angle_edges_rad"]), "angle to the axis [°]")):
@@ -183,7 +183,7 @@ def debris(runs: list):
         masses = np.sort(each["fragment_mass_kg"])[::-1] * 1e3
         row[2].plot(masses, np.arange(1, len(masses) + 1), "o-", markersize=3, linewidth=1.0, color="black")
         row[2].set_xscale("log")
-        _labels(row[2], "mass of a fragment [g]", "number of fragments as heavy")
+        _labels(row[2], "mass of a fragment [g]", "number of fragments at least as heavy")
         row[2].grid(alpha=0.3)
     return figure
 

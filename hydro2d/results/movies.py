@@ -13,7 +13,7 @@ from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.scales import LINEAR, FigureError, balanced
 
-#: endings of films, and what writes each
+#: file endings of films, and the writer of each
 FORMATS = {".gif": "pillow", ".mp4": "ffmpeg"}
 DPI = 110
 
@@ -23,7 +23,7 @@ Window = tuple[float, float, float] | None
 def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None = None, window: Window = None,
          follow: str | None = None, limits: tuple[float, float] | None = None, rate: float = 10.0,
          beside: bool = False, dpi: float = DPI) -> int:  # fmt: skip
-    """Writes a film of runs (results.Results): one frame for each dump of the run with most dumps, the nearest of the others.
+    """Writes a film of runs (results.Results): a frame for each dump of the run with most, and the nearest of the others.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _refuse(path: Path, runs: list, window: Window, follow: str | None) -> None:
 
 
 def has_ffmpeg() -> bool:
-    """Whether films can be MP4: ffmpeg is installed, or imageio-ffmpeg brings one."""
+    """Whether films can be MP4: ffmpeg is installed, or imageio-ffmpeg provides it."""
     from matplotlib import animation, rcParams
 
     if animation.FFMpegWriter.isAvailable():
@@ -120,7 +120,7 @@ class _Window:
         return isinstance(axial, (int, float)) and axial < 0.0
 
     def of(self, run, dump: Dump) -> Window:
-        """The window of a run at the time of a dump; the last one if nothing of the body is left."""
+        """The window of a run at the time of a dump; the last one if the body is gone."""
         if self.follow is None:
             return self.window
         fraction = dump.fields[f"Volume Fraction for {self.follow}"]
@@ -140,7 +140,7 @@ def _ranges(runs: list, times: list[float], words: list[str], shown: _Window) ->
         low, high = LINEAR.limits([figures.chosen(dump, word).values])
         before = ranges.get(word, (low, high))
         ranges[word] = (min(low, before[0]), max(high, before[1]))
-    return {word: balanced(*found) for word, found in ranges.items()}
+    return {word: balanced(*ends) for word, ends in ranges.items()}
 
 
 def _seen(runs: list, times: list[float], words: list[str], shown: _Window) -> Iterator[tuple[str, Dump]]:

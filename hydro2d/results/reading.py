@@ -36,14 +36,14 @@ if TYPE_CHECKING:
     from hydro2d.results.viewer.page import View
     from hydro2d.solver.simulation import Simulation
 
-#: the largest number of a deck that is believed
+#: largest number of a deck that is accepted
 LARGEST = 1e12
-#: a velocity in the name of a directory, which can have no slash
+#: a velocity in the name of a directory, which cannot have a slash
 VELOCITY = re.compile(r"(?<=\d) ?(km|m|cm|mm|in|ft)-(s|ms|us|µs)(?![A-Za-z0-9])")
 
 
 class ResultsError(Error):
-    """A directory that holds no run, or not the requested data; the message is for the user."""
+    """A directory without a run or without the requested data; the message is for the user."""
 
 
 class Results:
@@ -53,11 +53,11 @@ class Results:
     ----------
     directory : Path
     tables : dict
-        The resolved deck as nested dicts and lists, SI units, as it stands in the directory.
+        The resolved deck as nested dicts and lists, in SI units, as in the directory.
     summary : dict
         The contents of summary.json; empty until the run has ended.
     trust : bool
-        Whether the code of models from outside that the deck carries may be run, which only `simulation` and `state` need.
+        Whether the code of outside models in the deck may be executed, which only `simulation` and `state` need.
     """
 
     def __init__(self, directory: Path | str, *, trust: bool = False):
@@ -85,12 +85,12 @@ class Results:
 
     @property
     def label(self) -> str:
-        """The name of the run in figures: that of its directory, in which 1086m-s stands for 1086 m/s."""
+        """The name of the run in figures: that of its directory, with 1086m-s written as 1086 m/s."""
         return VELOCITY.sub(r" \1/\2", self.directory.resolve().name)
 
     @property
     def history(self) -> dict[str, np.ndarray]:
-        """Columns of the history by name, shapes (rows,); read again where a run that is under way has written more.
+        """Columns of the history by name, shapes (rows,); read again if a run in progress has written more.
 
         Raises HistoryError.
         """
@@ -114,21 +114,21 @@ class Results:
     @property
     def craters(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """The holes in all targets by name, in the order in which the projectile reaches them. Raises what `crater` does."""
-        found = history.read_craters(self.directory / HISTORY)
-        if not found:
+        craters = history.read_craters(self.directory / HISTORY)
+        if not craters:
             raise ResultsError(f"{self.directory} has no crater: the run has not ended, or has no projectile and target")
-        return found
+        return craters
 
     @property
     def debris(self) -> dict[str, dict[str, np.ndarray]]:
-        """What flies behind each target at the end, by its name: mass by speed and by angle, fragments; `history.read_debris`.
+        """Debris behind each target at the end, by its name: mass by speed and by angle, fragments; see `history.read_debris`.
 
         Raises HistoryError, and ResultsError if the run has not ended or has no projectile and target.
         """
-        found = history.read_debris(self.directory / HISTORY)
-        if not found:
+        debris = history.read_debris(self.directory / HISTORY)
+        if not debris:
             raise ResultsError(f"{self.directory} has no debris: the run has not ended, or has no projectile and target")
-        return found
+        return debris
 
     def to_pandas(self) -> pandas.DataFrame:
         """The history as a pandas.DataFrame with the time in s as index and the regime in words.
@@ -145,8 +145,8 @@ class Results:
     def fields(self) -> xarray.Dataset:
         """The fields of all dumps as one dataset over time, z and r, read from the files when their values are used.
 
-        On a mesh that follows a body the dimension along the axis is `mesh_z`, the z of a cell in the first dump, and the
-        coordinate z, the place in the laboratory, has the shape (time, mesh_z). See `output/datasets.py`.
+        On a mesh that follows a body, the dimension along the axis is `mesh_z`, the z of a cell in the first dump, and the
+        coordinate z in the laboratory frame has the shape (time, mesh_z). See `output/datasets.py`.
 
         Raises ResultsError if no dump was written, VtkError if one is damaged.
         """
@@ -185,9 +185,9 @@ class Results:
 
         saved, _ = snapshot.read_latest(self.directory)
         text = toml.dumps(keys.renewed(tomllib.loads(saved.deck)))
-        deck = decks.loads(text, trust=self.trust)  # before the kernels are loaded: it may have models from outside
+        deck = decks.loads(text, trust=self.trust)  # before the kernels are loaded: it may have outside models
         for material in deck.materials.values():
-            material.from_outside()  # refuses what is not trusted
+            material.from_outside()  # refuses models that are not trusted
         from hydro2d.solver.simulation import Simulation
 
         sim = Simulation(deck)
@@ -206,7 +206,7 @@ class Results:
         """Draws a section of the dump nearest to a time in s, or of the last dump, in matplotlib axes and returns them.
 
         field, mirror : fields of the upper and the lower half, such as "pressure", "velocity:z", "body_temperature:plate"
-            or "material"; mirror None: the same field, and the only choice for a section that has no mirror image
+            or "material"; mirror None: the same field, the only choice for a section without a mirror image
         axes : the axes to draw in; None: a new figure
         limits : colour range (low, high) by field, in the unit of the colour bar; None: the range of the data
         window : (z0, z1, r1) in m, the part to show; None: the whole mesh
@@ -226,10 +226,10 @@ class Results:
         return axes
 
     def view(self, beside: Results | None = None, *, fields: Sequence[str] = ("all",), bits: int = DEFAULT_BITS) -> View:
-        """The page of `hydro2d view`, which a notebook shows where a cell ends with it and which `save` writes to a file.
+        """The page of `hydro2d view`, which a notebook shows at the end of a cell and `save` writes to a file.
 
-        beside : another run, to be shown beside this one
-        fields : the fields in the page, beside material and volume fractions, as `hydro2d info` names them
+        beside : another run, shown side by side with this one
+        fields : the fields in the page, in addition to material and volume fractions, as `hydro2d info` names them
         bits : of each value in the page, 8, 10, 12, 14 or 16
 
         Raises ViewError if there are no dumps, or none has a field, FieldError, VtkError and HistoryError.
@@ -254,7 +254,7 @@ class Results:
         return _number(_table(self.tables, "penetration"), "surface")
 
     def surface_at(self, time: float) -> float | None:
-        """Where that surface would be by then had nothing touched the target, which moves with its own velocity, m."""
+        """Axial position that this surface would have at a time if the target moved on undisturbed, m."""
         target = _table(self.tables, "penetration").get("target")
         velocity = next((body.get("velocity") for body in self.bodies if body["name"] == target), None)
         axial = velocity[-1] if isinstance(velocity, list) and velocity else velocity
@@ -270,14 +270,14 @@ class Results:
 
     @property
     def bodies(self) -> list[dict]:
-        """The tables of those bodies of the deck that have a name."""
-        found = self.tables.get("body")
-        bodies = [body for body in found if isinstance(body, dict)] if isinstance(found, list) else []
+        """The tables of all bodies of the deck that have a name."""
+        entries = self.tables.get("body")
+        bodies = [body for body in entries if isinstance(body, dict)] if isinstance(entries, list) else []
         return [body for body in bodies if isinstance(body.get("name"), str)]
 
     @property
     def stop(self) -> dict:
-        """The stop conditions of the deck, without what is of the wrong kind."""
+        """The stop conditions of the deck, without values of the wrong kind."""
         table = _table(self.tables, "stop")
         numbers = {key: _number(table, key) for key in ("time", "cycles", "speed_below")}
         others = {key: table[key] for key, kind in (("body", str), ("rebound", bool), ("perforation", bool))
@@ -286,7 +286,7 @@ class Results:
 
     @property
     def projectile(self) -> str:
-        """Name of the body that is measured as the projectile; "projectile" without one."""
+        """Name of the body that is the projectile; "projectile" if there is none."""
         return str(_table(self.tables, "penetration").get("rod") or "projectile")
 
     @property
@@ -332,22 +332,22 @@ class Results:
 
 
 def mirrored(deck: dict) -> bool:
-    """Whether pictures of a run complete the meshed half of it by its mirror image; deck: as resolved."""
+    """Whether pictures of a run add the mirror image of the meshed half; deck: resolved."""
     mesh, edges = _table(deck, "mesh"), _table(deck, "boundaries")
     return halved(mesh.get("geometry", "cylindrical"), mesh.get("r_start", 0.0), str(edges.get("r_min", "wall")))
 
 
 def _table(tables: dict, name: str) -> dict:
-    found = tables.get(name)
-    return found if isinstance(found, dict) else {}
+    table = tables.get(name)
+    return table if isinstance(table, dict) else {}
 
 
 def _number(table: dict, key: str) -> float | None:
-    """A number of a table that may hold anything; None if it is missing, or of another kind, or beyond all bounds."""
-    found = table.get(key)
-    if not isinstance(found, (int, float)) or isinstance(found, bool):
+    """A number of an unchecked table; None if it is missing, of another kind, or too large."""
+    number = table.get(key)
+    if not isinstance(number, (int, float)) or isinstance(number, bool):
         return None
-    return found if abs(found) <= LARGEST else None
+    return number if abs(number) <= LARGEST else None
 
 
 def _millimetres(length: float | None) -> str:
@@ -355,7 +355,7 @@ def _millimetres(length: float | None) -> str:
 
 
 def _no_run(directory: Path) -> str:
-    """Why a directory without a deck is not a run, and how to read it if it is a study or holds runs."""
+    """The message for a directory without a deck: not a run, and how to read it if it is a study or holds runs."""
     said = f"{directory} is not a run directory: it has no {DECK}"
     if (directory / STUDY).is_file():
         return f"{said}; it is a study, whose runs are in {directory / 'cases'}; in Python, hydro2d.open_study reads it"

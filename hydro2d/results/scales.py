@@ -9,7 +9,7 @@ import numpy as np
 
 from hydro2d.errors import Error, unknown
 
-#: powers of ten that a logarithmic scale spans at most, unless its range is given
+#: largest number of powers of ten on a logarithmic scale, unless its range is given
 DECADES = 6
 
 
@@ -28,10 +28,10 @@ class Scale:
     """How values become colours.
 
     clip : per cent of the cells whose values may lie beyond each end of the range
-    log : a logarithmic scale; what is not positive has no colour
+    log : a logarithmic scale; values that are not positive have no colour
     colours : name of a colour map of matplotlib; None: viridis, and blue to red for fields with negative values
 
-    Raises FigureError for a clip that leaves nothing, and for a colour map that there is not.
+    Raises FigureError for a clip that leaves nothing, and for an unknown colour map.
     """
 
     clip: float = 0.0
@@ -64,7 +64,7 @@ class Scale:
         return (low, high) if high > low else (low, low + 1.0)
 
     def drawn(self, limits: tuple[float, float]) -> dict:
-        """Arguments `cmap` and `norm` of a matplotlib artist for a range. Raises FigureError for a range that has no log."""
+        """Arguments `cmap` and `norm` of a matplotlib artist for a range. Raises FigureError if a range has no logarithm."""
         from matplotlib.colors import LogNorm, Normalize
 
         if self.log and limits[0] <= 0.0:

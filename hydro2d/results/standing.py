@@ -12,14 +12,14 @@ from hydro2d.terminal import duration
 
 
 def lines(run, status: str, message: str, progress: dict) -> list[str]:
-    """What there is to say of a run (results.Results), one line for each thing.
+    """The state of a run (results.Results), a line for each item.
 
-    status, message, progress : of its directory, as study.layout.Case has them
+    status, message, progress : of its directory, as in study.layout.Case
 
     Raises HistoryError, VtkError.
     """
     columns = run.history if (run.directory / HISTORY).exists() else {}
-    summary = {} if progress else run.summary  # that of a run that is being continued is out of date
+    summary = {} if progress else run.summary  # the summary of a run that is being continued is out of date
     now = _last(columns) | {name: value for name, value in (summary or progress).items() if value is not None}
     said = {"run": run.tables.get("title") or run.label, "state": status + (f": {message}" if message else "")}
     if summary:
@@ -46,22 +46,22 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
 
 
 def _last(columns: dict[str, np.ndarray]) -> dict:
-    """The last row of the history by the names that summary.json has."""
+    """The last row of the history, by the names in summary.json."""
     if not columns or not len(columns["time"]):
         return {}
     row = {name: values[-1].item() for name, values in columns.items()}
     regime = row.pop("regime", -1)
-    found = {"time_s": row["time"], "cycles": row.get("cycle", 0), "regime": REGIMES[regime] if regime >= 0 else None}
-    return found | {name: row[name] for name in ("penetration_depth_m", "rod_length_m") if np.isfinite(row.get(name, np.nan))}
+    last = {"time_s": row["time"], "cycles": row.get("cycle", 0), "regime": REGIMES[regime] if regime >= 0 else None}
+    return last | {name: row[name] for name in ("penetration_depth_m", "rod_length_m") if np.isfinite(row.get(name, np.nan))}
 
 
 def _end(stop: dict, columns: dict[str, np.ndarray], now: dict, progress: dict, projectile: str) -> str:
     """The condition that is likely to end a run, and how long that will take at the present pace."""
     first, time = ending.first(stop, columns), now.get("time_s", 0.0)
     if first is None:
-        return "not known: no stop condition can be foreseen"
+        return "not known: no stop condition can be predicted"
     share, left = progress.get("fraction"), progress.get("left_s")
     said = f"should stop at {moment(first.time)} ({first.reason})"
-    if share and left is not None and 0.0 < time <= first.time:  # left_s is the rest of the time that `fraction` is a share of
+    if share and left is not None and 0.0 < time <= first.time:  # left_s is for the rest, 1 - `fraction`
         said += f", {duration(left * share / (1.0 - share) * (first.time - time) / time)} from now" if share < 1.0 else ""
     return said + (f", unless the {projectile} perforates first" if stop.get("perforation") else "")

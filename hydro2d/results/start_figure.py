@@ -1,4 +1,4 @@
-"""The picture of a deck before it runs: materials above the axis, the mesh below it, tracers and gauges in their places."""
+"""The picture of a deck before a run: materials above the axis, the mesh below it, tracers and gauges in place."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 
-#: fewest pixels between lines of the mesh that can be told apart, and pixels of an inch
+#: smallest distance of distinguishable mesh lines, pixels, and pixels per inch
 PIXELS, PER_INCH = 4.0, 160.0
-#: most stations whose names are written
+#: largest number of stations whose names are written
 NAMED = 20
 
 
 def draw(dump: Dump, deck):
     """A figure of the initial state of a deck (deck.deck.Deck).
 
-    A mesh that is too fine for the picture is drawn by every second, third ... line, as its caption says. The picture of a
-    mesh that is not mirrored has the lines over the materials.
+    If the mesh is too fine for the picture, only every second, third ... line is drawn, as the caption says. Without a mirror
+    image the lines are drawn over the materials.
     """
     figure = figures.draw_sections([[(dump, deck.name, None)]], "material")
     axes = figure.axes[0]
@@ -31,7 +31,7 @@ def draw(dump: Dump, deck):
 
 
 def _draw_mesh(axes, dump: Dump, pixels: np.ndarray) -> int:
-    """Draws lines of the mesh in a picture of so many pixels, wide and high. Returns how many lines each stands for."""
+    """Draws lines of the mesh in a picture of a size in pixels. Returns the number of lines that each drawn one stands for."""
     from matplotlib.collections import LineCollection
 
     r, z = dump.r_edges * 1e3, dump.z_edges * 1e3
@@ -45,7 +45,7 @@ def _draw_mesh(axes, dump: Dump, pixels: np.ndarray) -> int:
 
 
 def _draw_stations(axes, deck) -> None:
-    """Tracers as dots and gauges as crosses, with their names where they are few."""
+    """Draws tracers as dots and gauges as crosses, with their names if there are few."""
     kinds = [("o", "#c1121f", [(entry.name, (entry.r, entry.z)) for entry in deck.tracer]),
              ("x", "#005f99", [place for entry in deck.gauge for place in entry.places()])]  # fmt: skip
     few = sum(len(places) for *_, places in kinds) <= NAMED

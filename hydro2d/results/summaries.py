@@ -1,6 +1,6 @@
 """Reads summary.json, which may have been changed: values of the right kind are used, and the others reported.
 
-progress.json, which has some of the same keys, is judged in the same way.
+progress.json, which has some of the same keys, is checked in the same way.
 """
 
 from __future__ import annotations
@@ -12,24 +12,24 @@ from hydro2d.errors import Error
 from hydro2d.files import read_json
 from hydro2d.running.run import DECK, PROGRESS, SUMMARY, deck_hash
 
-#: keys that hold words, lists of words, tables, and yes or no
+#: keys with words, lists of words, tables, and yes or no
 WORDS = ("deck", "title", "deck_sha256", "version", "method", "status", "stop_reason", "regime", "qualifier",
          "source", "body", "host")
 TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
           "bodies", "stations", "targets", "projectile", "debris", "derived", "off_course_cells")
 YES_OR_NO = ("trustworthy", "git_dirty")
-#: keys that hold numbers, and what the names of others end in that do
+#: keys with numbers, and endings of the names of other keys with numbers
 NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain",
            "max_plastic_strain", "penetration_over_length", "efficiency", "fragments", "fraction", "process")
 UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K", "_Pa", "_rad")
-#: tables that hold numbers alone, or tables alone, whatever their keys are
+#: tables with only numbers, or only tables, under any keys
 OF_NUMBERS, OF_TABLES = ("mass", "derived", "off_course_cells"), ("sinks", "contact_transfers", "bodies", "stations", "targets")
 
 
 def summary_of(directory: Path, deck: str, error: type[Error]) -> tuple[dict, list[str]]:
-    """The summary of a run directory, empty if there is none, and the dotted keys of what is of the wrong kind in it.
+    """The summary of a run directory, empty if there is none, and the dotted keys of its values of the wrong kind.
 
-    deck : the text of the directory's deck; that the summary is of another one is among the faults that it is given
+    deck : the text of the directory's deck; a summary of another deck gets this as a fault
 
     Raises `error`.
     """
@@ -41,7 +41,7 @@ def summary_of(directory: Path, deck: str, error: type[Error]) -> tuple[dict, li
 
 
 def progress_of(directory: Path, error: type[Error]) -> dict:
-    """The progress of a run directory, without what is of the wrong kind; empty if there is none. Raises `error`."""
+    """The progress of a run directory, without values of the wrong kind; empty if there is none. Raises `error`."""
     return plausible(table_of(directory / PROGRESS, error))[0]
 
 
@@ -56,7 +56,7 @@ def table_of(file: Path, error: type[Error]) -> dict:
 
 
 def plausible(summary: dict) -> tuple[dict, list[str]]:
-    """The summary without values of the wrong kind, and their dotted keys. Numbers that are not finite count as wrong."""
+    """The summary without values of the wrong kind, and their dotted keys. Non-finite numbers count as wrong."""
     odd: list[str] = []
     return _checked(summary, (), odd), odd
 

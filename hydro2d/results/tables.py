@@ -1,6 +1,6 @@
 """The numbers of pictures as tables for CSV files: lines through the mesh, histories and holes.
 
-A table is long: a row belongs to one run, and in a line-out to one time. Heads name the units, which are those of the pictures.
+A table is in long form: each row belongs to one run, and in a line-out to one time. Heads give the units, as in the pictures.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Table(NamedTuple):
 
 
 def head(title: str, unit: str) -> str:
-    """The head of a column, "pressure [GPa]", in letters that every spreadsheet reads."""
+    """The head of a column, "pressure [GPa]", in characters that every spreadsheet reads."""
     plain = unit.replace("$", "").replace("µ", "u")
     return f"{shown(title)} [{plain}]" if plain not in ("", "1") else shown(title)
 
@@ -78,7 +78,7 @@ def craters(runs: list) -> Table:
 
 
 def _cells(row: Iterable) -> list[str]:
-    """A row as a file has it: numbers with ten digits, nothing for NaN."""
+    """A row as written to a file: numbers with ten digits, NaN as an empty cell."""
     return [cell(shown(value)) if isinstance(value, str) else "" if math.isnan(value) else f"{value:.10g}" for value in row]
 
 

@@ -1,4 +1,4 @@
-"""Histories drawn with characters, for `hydro2d status` in a terminal. They need plotext, which hydro2d does not bring."""
+"""Histories drawn with characters, for `hydro2d status` in a terminal. They need plotext, not installed with hydro2d."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from hydro2d.output import history
 from hydro2d.results.figures import reader_unit
 from hydro2d.terminal import shown
 
-#: what is drawn of a run with a projectile and a target, and of the first body of any other
+#: columns drawn for a run with a projectile and a target, and for the first body of any other run
 OF_PROJECTILE, OF_BODY = ("penetration_depth_m", "rod_tail_velocity_m_s"), ("velocity_m_s", "z_max_m")
-#: lines of a chart, and the fewest and most characters in one
+#: height of a chart in lines, and its smallest and largest width in characters
 LINES, LEAST, MOST = 12, 40, 100
 MISSING = "a history in the terminal needs plotext 5, which is not installed: pip install 'hydro2d[terminal]'"
 
@@ -31,18 +31,18 @@ def available() -> bool:
 
 
 def chosen(run) -> list[str]:
-    """The columns that are drawn of a run (results.Results) if nothing else is asked for."""
-    found = [name for name in OF_PROJECTILE if np.isfinite(run.history.get(name, np.nan)).any()]
+    """The columns of a run (results.Results) that are drawn by default."""
+    columns = [name for name in OF_PROJECTILE if np.isfinite(run.history.get(name, np.nan)).any()]
     bodies = [body["name"] for body in run.bodies if "join" not in body]
-    return found or [f"body_{bodies[0]}_{key}" for key in OF_BODY if bodies and f"body_{bodies[0]}_{key}" in run.history]
+    return columns or [f"body_{bodies[0]}_{key}" for key in OF_BODY if bodies and f"body_{bodies[0]}_{key}" in run.history]
 
 
 def charts(run, names: list[str], width: int) -> list[str]:
-    """Lines of text that show columns of the history of a run over time, one below the other.
+    """Lines of text with charts of history columns of a run over time, one below the other.
 
     width : of the terminal, characters
 
-    Raises ChartError without plotext, and for a column that there is not.
+    Raises ChartError without plotext, and for an unknown column.
     """
     if not available():
         raise ChartError(MISSING)

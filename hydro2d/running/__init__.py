@@ -1,1 +1,1 @@
-"""A run as a process: its directory, its progress, where it comes from; checks and timings of decks."""
+"""A run as a process: its directory, its progress, its provenance; checks and timings of decks."""

@@ -1,4 +1,4 @@
-"""`hydro2d bench`: time per cell and cycle, phase by phase, beside a triad measured in the same run.
+"""`hydro2d bench`: time per cell and cycle, phase by phase, compared with a triad measured in the same run.
 
 A triad update moves 24 bytes (two reads, one write of a double). The bandwidth of a shared machine drifts. It is therefore
 measured before and after every case, and the case is compared with the mean of both. Cases run on the whole mesh, with the
@@ -31,12 +31,12 @@ from hydro2d.terminal import duration, say, several
 DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
 BYTES_PER_UPDATE = 24
-#: a case takes a multiple of this number of cycles: slip zones are updated every few, and the order of the sweeps alternates
+#: a case takes a multiple of this number of cycles: slip zones are updated every few, and the order of sweeps alternates
 CYCLES = 10
-#: warm-up cycles on the mesh of the deck; most measured cell-cycles; most measured cycles per warm-up cycle
+#: warm-up cycles on the mesh of the deck; largest number of measured cell-cycles, and of measured cycles per warm-up cycle
 WARM_CYCLES, TIMED_WORK, TIMED_OVER_WARM = 60, 16e6, 2
 WHOLE_SHOT = "whole shot"
-#: kernels that only outputs and stop checks call
+#: kernels called only by outputs and stop checks
 OF_OUTPUTS = ("pressures_and_temperatures", "body_sums", "body_totals", "vertex_totals", "velocities")
 
 SHOT = """
@@ -95,7 +95,7 @@ thickness = "{thickness!r} m"
 
 
 def layered(layers: int) -> str:
-    """The shot with a plate of this many layers. Each is a body of the same material, so only the number of bodies differs."""
+    """The shot with a plate of this many layers. Each is a body of the same material; only the number of bodies differs."""
     thickness = 0.5334 / layers
     names = ["plate", *(f"plate {n}" for n in range(2, layers + 1))]
     return SHOT + "".join(LAYER.format(name=name, front=n * thickness, thickness=thickness) for n, name in enumerate(names))
@@ -115,7 +115,7 @@ class Case:
 
 
 def refined(name: str, factor: float) -> Case:
-    """The shot with factor^2 times as many cells, as nearly as whole cells allow, measured at about the same simulated time."""
+    """The shot with about factor^2 times as many cells, as whole cells allow, measured at about the same simulated time."""
     near, behind, ahead = (round(cells * factor) for cells in (40, 252, 1293))
     mesh = MESH.format(near=near, behind=behind, ahead=ahead, ratio=1.05 ** (1 / factor))
     return Case(name, SHOT + mesh, warm=CYCLES * round(WARM_CYCLES * factor / CYCLES))
@@ -164,7 +164,7 @@ class Bandwidth:
 
 
 def timed_cycles(case: Case, cells: int) -> int:
-    """Cycles that are measured, a multiple of CYCLES."""
+    """Number of measured cycles, a multiple of CYCLES."""
     most = TIMED_OVER_WARM * case.warm
     return CYCLES * max(1, round(min(TIMED_WORK / cells, most) / CYCLES))
 
@@ -172,7 +172,7 @@ def timed_cycles(case: Case, cells: int) -> int:
 def measure(case: Case, bandwidth: Bandwidth, cycles: int | None = None) -> dict:
     """One case with the current number of threads: ns per cell and cycle, in total and by phase (kernel).
 
-    cycles : number of measured cycles, after as many unmeasured ones; default: follows from the case and its cells
+    cycles : number of measured cycles, after as many unmeasured ones; default: set by the case and its cells
     """
     simulation = Simulation(case.deck())
     cells = simulation.grid.cells
@@ -306,7 +306,7 @@ def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = No
 
     cases, threads : the cases, and the numbers of threads for each
     cycles : see `measure`
-    shot, shot_overrides : whether the whole shot is run too, and overrides of its deck
+    shot, shot_overrides : whether the whole shot is also run, and overrides of its deck
     say : receives the lines of the report
     """
     about = provenance.collect(jit.max_threads())
@@ -343,7 +343,7 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
 def main(json: Path | None = None, *, shot: bool = False, compilation: bool = False) -> int:
     """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named.
 
-    compilation : whether the compilation of kernels is measured as well, first
+    compilation : whether the compilation of kernels is also measured, first
     """
     measured = {"compilation": bench_compilation.in_an_empty_cache()} if compilation else {}
     for line in bench_compilation.lines(measured["compilation"]) if measured else ():

@@ -1,4 +1,4 @@
-"""What the compilation of a first run takes, kernel by kernel and stage by stage: `hydro2d bench --compilation`.
+"""Time of the compilation for a first run, kernel by kernel and stage by stage: `hydro2d bench --compilation`.
 
     python -m hydro2d.running.bench_compilation < deck.toml
 
@@ -24,11 +24,11 @@ from hydro2d.toml import problems_folder
 
 #: the first shot of the README
 DECK = "cth_nose_shape/hemi_5083_1086_quick.toml"
-#: numba's passes that have a name of their own in the table; the others read and prepare functions
+#: numba's passes with their own names in the table; the others read and prepare functions
 STAGES = {"nopython_type_inference": "types", "inline_inlinables": "rows put into kernels",
           "native_lowering": "lowering to LLVM"}
 OTHERS = "reading functions"
-#: what our own events are called there
+#: names of our own events there
 OWN = {jit.OPTIMISE: "LLVM's optimisation", jit.MACHINE_CODE: "machine code"}
 PASS = "numba:run_pass"
 #: names in the table are cut to this length
@@ -36,7 +36,7 @@ WIDTH = 38
 
 
 class Stages(jit.compiler_events.Listener):
-    """Adds up the processor time of the stages of compilation, each without those that run within it.
+    """Adds up the processor time of the stages of compilation, each without nested ones.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Stages(jit.compiler_events.Listener):
         self._open: list[tuple[str, float]] = []
 
     def _stop(self) -> None:
-        """Enters the time of the stage that runs now, up to now."""
+        """Adds the time of the running stage up to now."""
         if self._open:
             stage, since = self._open[-1]
             now = time.process_time()
@@ -56,13 +56,13 @@ class Stages(jit.compiler_events.Listener):
             self._open[-1] = stage, now
 
     def on_start(self, event) -> None:
-        """A stage begins, perhaps within another one."""
+        """Called when a stage begins, perhaps within another one."""
         self._stop()
         stage = OWN.get(event.kind) or STAGES.get(event.data["name"].split()[0], OTHERS)
         self._open.append((stage, time.process_time()))
 
     def on_end(self, event) -> None:
-        """It ends, and the one around it goes on."""
+        """Called when it ends and the enclosing one continues."""
         self._stop()
         self._open.pop()
         if self._open:
@@ -70,7 +70,7 @@ class Stages(jit.compiler_events.Listener):
 
 
 def measured(calls: Sequence[jit.Call]) -> dict[str, dict[str, float]]:
-    """Compiles kernels one after another; seconds of processor time of each (``kernels``), and of the stages (``stages``)."""
+    """Compiles kernels one after another; returns seconds of processor time by kernel (``kernels``) and stage (``stages``)."""
     stages, kernels, events = Stages(), {}, jit.compiler_events
     for kind in (PASS, *OWN):
         events.register(kind, stages)
@@ -86,7 +86,7 @@ def measured(calls: Sequence[jit.Call]) -> dict[str, dict[str, float]]:
 
 
 def in_an_empty_cache() -> dict[str, dict[str, float]]:
-    """`measured` for the README's first shot, in a process that finds nothing compiled. Raises Error if that fails."""
+    """`measured` for the README's first shot, in a process with an empty cache. Raises Error if that fails."""
     deck = decks.load(problems_folder() / DECK)
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(children.python(__name__), input=deck.to_toml(), text=True, stdout=subprocess.PIPE,
@@ -96,11 +96,11 @@ def in_an_empty_cache() -> dict[str, dict[str, float]]:
     return json.loads(done.stdout)
 
 
-def lines(found: dict[str, dict[str, float]]) -> list[str]:
+def lines(times: dict[str, dict[str, float]]) -> list[str]:
     """The printed table."""
-    whole = sum(found["kernels"].values())
-    shown = [f"compilation of the {len(found['kernels'])} kernels of {DECK}, one process: {whole:.1f} s of processor time"]
-    for title, seconds in (("by stage", found["stages"]), ("by kernel", found["kernels"])):
+    whole = sum(times["kernels"].values())
+    shown = [f"compilation of the {len(times['kernels'])} kernels of {DECK}, one process: {whole:.1f} s of processor time"]
+    for title, seconds in (("by stage", times["stages"]), ("by kernel", times["kernels"])):
         shown.append(f"  {title}")
         shown += [f"      {name[-WIDTH:]:{WIDTH}s} {spent:7.2f} s  {100 * spent / whole:5.1f} %"
                   for name, spent in sorted(seconds.items(), key=lambda item: -item[1])]
@@ -108,7 +108,7 @@ def lines(found: dict[str, dict[str, float]]) -> list[str]:
 
 
 def main() -> None:
-    """Compiles the kernels of the deck on the standard input, and prints what that took as JSON."""
+    """Compiles the kernels of the deck on the standard input, and prints the times as JSON."""
     from hydro2d.solver.simulation import Simulation
 
     deck = decks.loads(sys.stdin.read())

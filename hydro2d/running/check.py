@@ -21,21 +21,21 @@ from hydro2d.terminal import duration, one_line, several
 
 #: motion of a body at rest
 AT_REST = (0.0, 0.0), None
-#: most names of bodies in a line
+#: largest number of names of bodies in a line
 LISTED = 5
 #: nanoseconds per cell and cycle on one thread, as a first estimate; `hydro2d bench` measures the machine
 NANOSECONDS = 250.0
-#: the same with two velocities in contact, where half of the time goes into the cells of the surface
+#: that with two velocities in contact, where cells of the surface take half of the time
 IN_CONTACT = 450.0
-#: seconds to start the program and to load kernels that are compiled
+#: seconds to start the program and to load compiled kernels
 START = 2.5
 #: number of cells at which threads share half of the work of a cycle (explanation/speed, Measured)
 HALF_SHARED = 150e3
-#: what the extent of a body along z is called
+#: names of the extent of a body along z
 WORDS = {"rod": "length", "plate": "thickness", "sphere": "diameter"}
-#: a body that the mesh cuts off by less than this fraction is whole
+#: a body cut off by the mesh by less than this fraction counts as whole
 ROUNDING = 1e-9
-#: a deck that needs more cycles is a mistake
+#: a deck that needs more cycles is treated as a mistake
 MOST_CYCLES = 1e10
 
 
@@ -58,37 +58,37 @@ class Check:
     warnings: list[str]
 
     def lines(self, threads: int) -> list[str]:
-        """The report."""
+        """The lines of the report."""
         grid, deck = self.grid, self.deck
-        found = [f"{deck.name}: {one_line(deck.title)}" if deck.title else deck.name, ""]
-        found += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
+        lines = [f"{deck.name}: {one_line(deck.title)}" if deck.title else deck.name, ""]
+        lines += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
                   + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]  # fmt: skip
-        found += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
-        found += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
+        lines += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
+        lines += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
         for m, body in enumerate(self.table.names):
             entry, material = decks.body(deck, body), self.table.materials[m]
-            found.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}")
-            found.append(f"          {self._across(entry)}")
-            found += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
-            found.append(f"          eos {material.eos.title}, strength {material.strength.name}")
-        found += self._follow() if deck.mesh.follow else self._crosses()
-        found += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
-        found += [f"stop      {_stop(deck.stop)}"]
+            lines.append(f"body      {body}: {material.name}, {_mass(self.masses[body], grid)}, v = {_speed(entry)}")
+            lines.append(f"          {self._across(entry)}")
+            lines += [f"          {each.name} joins it: {self._across(each)}" for each in deck.body if each.join == body]
+            lines.append(f"          eos {material.eos.title}, strength {material.strength.name}")
+        lines += self._follow() if deck.mesh.follow else self._crosses()
+        lines += ["", f"sliding   {_sliding(deck)}", *(f"          {text}" for text in self._tied())]
+        lines += [f"stop      {_stop(deck.stop)}"]
         time = f"{duration(self.wall(threads))} on {several(threads, 'thread')} (a guess)"
-        found += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
+        lines += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
                   f"{self.memory / 2**20:.0f} MiB of memory, at most {self.disk / 2**20:.0f} MiB on disk with "
                   f"{several(self.dumps, 'dump')}"]  # fmt: skip
-        return found + [f"warning   {text}" for text in self.warnings]
+        return lines + [f"warning   {text}" for text in self.warnings]
 
     @property
     def dumps(self) -> int:
-        """Number of dumps at most."""
+        """Largest number of dumps."""
         stop, interval = self.deck.stop.time, self.deck.output.vtk_interval
         return math.ceil(stop / interval) + 1 if stop and interval else 2
 
     @property
     def disk(self) -> int:
-        """Bytes of the dumps and restart files at most, before compression."""
+        """Largest size of dumps and restart files, before compression, bytes."""
         keys = [quantities.BY_KEY[key] for key in quantities.expand(self.deck.output.fields)]
         contact = self.deck.sliding.method == "contact"
         values = sum((len(self.table) if each.per_body else 1) * (3 if each.unit == "m/s" else 1) for each in keys
@@ -96,44 +96,44 @@ class Check:
         return 4 * values * self.dumps * self.grid.cells + 2 * self.memory
 
     def wall(self, threads: int) -> float:
-        """Estimated seconds of a run by itself. Threads share the cells and not the calls of kernels (Amdahl's law)."""
+        """Estimated seconds of a run alone on the machine. Threads share the cells but not kernel calls (Amdahl's law)."""
         shared = self.grid.cells / (self.grid.cells + HALF_SHARED)
         return START + self.seconds * (1.0 - shared + shared / threads)
 
     def _edge(self, key: str) -> str:
-        """The boundary condition at an edge, with its velocity, or the least and the greatest, if it has one of its own."""
+        """The boundary condition at an edge, with its velocity, or the range of it, if it has its own."""
         kind = getattr(self.deck.boundaries, key)
         speeds = made(key, self.deck.boundaries.model_dump()).speeds() if BY_NAME[kind].keys else ()
         shown = " to ".join(f"{speed:g}" for speed in sorted({min(speeds), max(speeds)})) if speeds else ""
         return f"{key} {kind}" + (f" {shown} m/s" if shown else "")
 
     def _tied(self) -> list[str]:
-        """What holds in tension where it touches: walls, and bodies of one velocity field that begin with different ones."""
+        """Lines on contacts that resist tension: walls, and bodies of one velocity field that start differently."""
         deck, names = self.deck, self.table.names
         hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
         cure = "" if hard else '; sliding.method = "contact" lets them part'
         limits = np.minimum(self.table.fracture_pressure, self.table.fracture_stress)
         motions = [_motion(decks.body(deck, name)) for name in names]
-        found = []
+        lines = []
         for number, name in enumerate(names):
             others = [m for m, other in enumerate(names) if (name in hard) == (other in hard) and motions[m] != motions[number]
                       and (m > number or motions[m] == AT_REST)]  # fmt: skip
             if others and motions[number] != AT_REST:
                 bears = float(min(limits[m] for m in (number, *others)))
-                until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "for ever"
-                found.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
+                until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "always"
+                lines.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
         walls = [key for key in EDGES if getattr(deck.boundaries, key) == "wall" and key != "r_min"]
-        held = f'what touches a wall ({", ".join(walls)}) is held in tension as well; an "anvil" only pushes'
-        return found + [held] * bool(walls)
+        wall_line = f'a wall ({", ".join(walls)}) also resists tension: it holds a body that touches it; an "anvil" only pushes'
+        return lines + [wall_line] * bool(walls)
 
     def _follow(self) -> list[str]:
-        """How far a travelling mesh reaches, and which bodies will enter it."""
+        """Lines on the reach of a travelling mesh and on the bodies that will enter it."""
         deck, z = self.deck, self.grid.z_edges
         entry, direction = decks.body(deck, deck.mesh.follow), decks.travel(deck)
         ahead, behind = decks.room(deck, z)
         radius = decks.extent(entry, deck, "r")[1]
         radii = f" ({ahead / radius:.3g} radii)" if np.isfinite(radius) else ""
-        found = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
+        lines = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
                      f"{behind * 1e3:.4g} mm behind"]  # fmt: skip
         edge = z[-1] if direction > 0 else z[0]
         for other in deck.body:
@@ -141,12 +141,12 @@ class Check:
             if ends[1] > 0:
                 first = max(ends[0], 0.0)
                 begin = first / abs(entry.velocity[1])
-                found.append(f"          {other.name} enters the mesh from {begin * 1e6:.4g} us on, over "
+                lines.append(f"          {other.name} enters the mesh from {begin * 1e6:.4g} us on, over "
                              f"{(ends[1] - first) * 1e3:.4g} mm of its travel")  # fmt: skip
-        return found
+        return lines
 
     def _crosses(self) -> list[str]:
-        """How far the projectile flies through a mesh that stands still, and whether the mesh could follow it instead."""
+        """Lines on the flight of the projectile through a fixed mesh, and whether the mesh could follow it instead."""
         deck = self.deck
         if deck.penetration is None:
             return []
@@ -158,15 +158,15 @@ class Check:
         low, high = decks.extent(entry, deck, "z")
         tip = high if speed > 0.0 else low
         cells = decks.cells_between(self.grid.z_edges, *sorted((tip, tip + way)))
-        told = f"up to {cells:.0f} cells of the mesh, which stands still"
+        crossed = f"up to {cells:.0f} cells of the fixed mesh"
         bars = decks.bars_to_follow(deck, entry.name)
         advice = (f"the mesh cannot follow it: {bars[0]}" if bars else
                   f'if it stays whole, its results scatter less with mesh.follow = "{entry.name}"')
-        return ["", f"crosses   {entry.name}: {told};", f"          {advice}"]
+        return ["", f"crosses   {entry.name}: {crossed};", f"          {advice}"]
 
     def _across(self, entry) -> str:
-        """How many cells lie across a body: its radius and its length, or its thickness."""
-        found = []
+        """Number of cells across a body: its radius and its length, or its thickness."""
+        parts = []
         for axis, edges in (("r", self.grid.r_edges), ("z", self.grid.z_edges)):
             low, high = decks.extent(entry, self.deck, axis)
             what = WORDS.get(entry.shape, "height")
@@ -175,16 +175,16 @@ class Check:
             low = max(low, 0.0) if axis == "r" and self.grid.cylindrical else low
             inside = min(high, edges[-1]) - max(low, edges[0])
             if what == "radius" and entry.shape in ("plate", "box") and inside < high - low:
-                continue  # it goes on beyond the edge of the mesh
+                continue  # it extends beyond the edge of the mesh
             cut = f", of which {inside * 1e3:.4g} mm lie in the mesh" if inside < (1.0 - ROUNDING) * (high - low) else ""
             size = f" of {(high - low) * 1e3:.4g} mm" if math.isfinite(high - low) else ""
             cells = f"{decks.cells_between(edges, low, high):.3g}"
-            found.append(f"{several(cells, 'cell')} across the {what}{size}{cut}")
-        return ", ".join(found)
+            parts.append(f"{several(cells, 'cell')} across the {what}{size}{cut}")
+        return ", ".join(parts)
 
 
 def check(deck) -> Check:
-    """Puts a deck on its mesh. Raises DeckError for mistakes that only show then, and for a mesh too large for the memory."""
+    """Puts a deck on its mesh. Raises DeckError for mistakes that show only then, and for a mesh too large for the memory."""
     memory.refuse_too_large(deck)
     grid = Grid(*decks.edges(deck), deck.mesh.geometry)
     table = library.resolve(deck)
@@ -248,7 +248,7 @@ def _cycles(deck, grid, table, start) -> int:
     by_time = deck.stop.time / dt if deck.stop.time else math.inf
     cycles = min(by_time, deck.stop.cycles or math.inf)
     if cycles > MOST_CYCLES:
-        raise DeckError(f"the run would take {cycles:.3g} cycles at a time step of {dt:.3g} s, and not end in a lifetime")
+        raise DeckError(f"the run would take {cycles:.3g} cycles at a time step of {dt:.3g} s, and never end")
     return math.ceil(cycles)
 
 
@@ -272,7 +272,7 @@ def _motion(entry) -> tuple:
 
 
 def _listed(names: list[str]) -> str:
-    """Names, the first LISTED of them."""
+    """Up to LISTED names, and the number of further ones."""
     more = len(names) - LISTED
     return ", ".join(names[:LISTED]) + (f" and {more} more" if more > 0 else "")
 

@@ -14,7 +14,7 @@ from hydro2d.running import residual
 #: amounts of a sink, and of a contact transfer
 AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
 
-#: keys of a summary that call the projectile a rod, whatever its shape, and those that name it
+#: summary keys that call a projectile of any shape a rod, and the keys that replace them
 OLD: dict[str, str] = {
     **{old: f"projectile.{new}" for old, new in measured.PROJECTILE.items()},
     **{old: f"bodies.{'TARGET' if old.startswith('target') else 'BODY'}.{new}"
@@ -57,14 +57,14 @@ SUMMARY: dict[str, str] = {
     "ns_per_cell_cycle": "nanoseconds of the cycles per cell and cycle",
     "cells": "number of cells",
     **{key: meaning for key, meaning in measured.QUANTITIES.items() if key not in OLD},
-    "projectile.body": "name of the projectile, which `bodies` has as well",
+    "projectile.body": "name of the projectile, which is also in `bodies`",
     **{f"projectile.{new}": measured.QUANTITIES[old] for old, new in measured.PROJECTILE.items()},
     **{f"projectile.{key}": meaning for key, meaning in residual.MEANINGS.items()},
     **{old: f"old name of {new}, which later versions will not write" for old, new in OLD.items()},
     **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in measured.CRATER.items()},
     **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in measured.PASSAGE.items()},
     **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in measured.CRATER.items()},
-    **{f"targets.TARGET.debris.{key}": f"of all that flies behind each target: {meaning}"
+    **{f"targets.TARGET.debris.{key}": f"of the debris behind each target: {meaning}"
        for key, meaning in measured.DEBRIS.items()},
     "derived.DERIVED": "a quantity that `[derived]` of the deck defines, at the end",
     **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in measured.BODY.items()},

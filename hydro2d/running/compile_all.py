@@ -2,7 +2,7 @@
 
     HYDRO2D_CACHE_DIR=FOLDER HYDRO2D_TARGET=x86-64-v3 python -m hydro2d.running.compile_all
 
-makes FOLDER what `hydro2d/_compiled` of a wheel is; the wheel's build hook does this.
+gives FOLDER the contents of `hydro2d/_compiled` of a wheel; the wheel's build hook does this.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ CYCLES = 11
 
 
 def shipped_decks() -> list[Path]:
-    """The decks that are compiled where none is named."""
+    """The decks that are compiled if none is named."""
     return [problems_folder() / f"{name}.toml" for name in DECKS]
 
 
@@ -43,7 +43,7 @@ def run_briefly(deck, second: bool = False) -> None:
 
 
 def compile_decks(files: Sequence[Path]) -> None:
-    """Compiles what the decks call, and says of each how long that took. Raises DeckError before anything is compiled."""
+    """Compiles the kernels of the decks, and prints the time for each. Raises DeckError before anything is compiled."""
     for file, deck in [(file, decks.load(file)) for file in files]:
         with announced(moving.place(), deck if jit.threads() > 1 else None) as compiled:
             run_briefly(deck)
@@ -52,13 +52,13 @@ def compile_decks(files: Sequence[Path]) -> None:
 
 
 def main() -> None:
-    """Compiles for a wheel: leaves in the cache, which must be empty, nothing but the code and what it is for.
+    """Compiles for a wheel: fills the cache, which must be empty, with only the code and its description.
 
     Raises TargetError for code that only this processor could run.
     """
     root = Path(cache.root())
     if target.named() is None or target.named().name != target.PROCESSOR:
-        raise TargetError(f"code for {target.PROCESSOR} is of no use elsewhere: HYDRO2D_TARGET must name a target")
+        raise TargetError(f"code for {target.PROCESSOR} runs on no other processor: HYDRO2D_TARGET must name a target")
     if root.is_dir() and any(root.iterdir()):
         raise FileExistsError(f"{root} is not empty: HYDRO2D_CACHE_DIR must name a new folder")
     compile_decks(shipped_decks())

@@ -1,4 +1,4 @@
-"""Which of its stop conditions is likely to end a run, and when."""
+"""Predicts which of its stop conditions will end a run, and when."""
 
 from __future__ import annotations
 
@@ -7,26 +7,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: the last rows of the history, as a share of all, from which the present deceleration is taken, and the fewest
+#: share of the history's rows, the last ones, that give the present deceleration, and the smallest number of them
 RECENT, FEWEST = 0.25, 5
-#: a speed that falls by less than this share of it in these rows is constant
+#: a speed that falls by less than this share in these rows counts as constant
 ROUNDING = 1e-6
-#: the end that is not foreseen but known
+#: the end that is known, not predicted
 END_TIME = "end time"
-#: how the time of an end is foreseen that is not that of the clock
-AS_IT_SLOWS = "as it slows now"
+#: addition to a reason whose time is predicted from the deceleration
+AS_IT_SLOWS = "at its present deceleration"
 
 
 @dataclass(frozen=True)
 class End:
-    """What may end a run: the condition in words, and the time of the simulation, s, at which it will be met."""
+    """A possible end of a run: the condition in words, and the simulation time, s, at which it will be met."""
 
     reason: str
     time: float
 
 
 def ends(stop: Mapping, columns: Mapping[str, np.ndarray]) -> Iterator[End]:
-    """The stop conditions whose time can be foreseen: end time, number of cycles, and speeds by the present deceleration.
+    """Stop conditions whose time can be predicted: end time, number of cycles, and speeds by the present deceleration.
 
     stop : the section of the resolved deck;  columns : of the history, which may be empty, `needed` at least
     """
@@ -47,17 +47,17 @@ def ends(stop: Mapping, columns: Mapping[str, np.ndarray]) -> Iterator[End]:
 
 
 def needed(stop: Mapping) -> tuple[str, ...]:
-    """The columns of the history that `ends` looks at."""
+    """The columns of the history that `ends` uses."""
     return "time", "cycle", "rod_core_velocity_m_s", f"body_{stop.get('body')}_velocity_m_s"
 
 
 def first(stop: Mapping, columns: Mapping[str, np.ndarray]) -> End | None:
-    """The end that is foreseen first; None if none can be."""
+    """The earliest predicted end; None if none can be predicted."""
     return min(ends(stop, columns), key=lambda each: each.time, default=None)
 
 
 def _reached(reason: str, time: np.ndarray, values: np.ndarray, limit: float) -> Iterator[End]:
-    """When values that rise in time reach a limit, by a straight line through them; nothing if they do not rise."""
+    """Yields the end at which rising values reach a limit, by a straight line through them; nothing if they do not rise."""
     known = np.isfinite(values)
     if known.sum() < FEWEST:
         return

@@ -1,4 +1,4 @@
-"""The progress of a run in a notebook: a bar and a table below the cell, renewed in place, and at the end the closing lines."""
+"""The progress of a run in a notebook: a bar and a table below the cell, updated in place, and finally the closing lines."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hydro2d.running.progress import TABLE_SECONDS, Report, values
 
 
 class Notebook(Report):
-    """Writes the log and, unless quiet, shows what a terminal shows: warnings, a bar and a table, and the closing lines."""
+    """Writes the log and, unless quiet, shows warnings, a bar and a table, and the closing lines, as a terminal does."""
 
     def __init__(self, log, quiet: bool, gone: Callable[[], None] = lambda: None):
         from IPython.display import display
@@ -51,7 +51,7 @@ class Notebook(Report):
 
     @contextmanager
     def _only_log(self) -> Iterator[None]:
-        """Within the block nothing is shown."""
+        """Shows nothing within the block."""
         lines, place = self._lines, self._place
         self._lines, self._place = [], None
         yield

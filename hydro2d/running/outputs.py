@@ -1,4 +1,4 @@
-"""Outputs that fail: what cannot be written is named, and does not keep the others from being written."""
+"""Failing outputs: a file that cannot be written is named, and the others are still written."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hydro2d.errors import Error
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """Turns whatever stops an output into an OSError that names the file; hydro2d's own errors remain what they are."""
+    """Turns any error of an output into an OSError that names the file; hydro2d's own errors pass unchanged."""
     try:
         yield
     except Error:
@@ -30,9 +30,9 @@ def _unwritten(path: Path, error: Exception) -> OSError:
 
 
 class Attempts:
-    """Outputs that are all tried.
+    """Outputs that are all tried, even after an error.
 
-    first : an error that came before them
+    first : an error that occurred before them
     """
 
     def __init__(self, first: Exception | None = None):
@@ -40,7 +40,7 @@ class Attempts:
 
     @contextmanager
     def writing(self, path: Path) -> Iterator[None]:
-        """Keeps the error of an output, for the end."""
+        """Keeps the error of an output until the end."""
         try:
             with writing(path):
                 yield
@@ -49,11 +49,11 @@ class Attempts:
 
     @property
     def told(self) -> str:
-        """What could not be written and why; empty if everything was."""
+        """The files that could not be written, and why; empty if there are none."""
         return "; ".join(dict.fromkeys(map(_said, self._errors)))
 
     def conclude(self) -> None:
-        """Raises what was kept: one error as it is, several as an OSError that names all files."""
+        """Raises the kept errors: a single one unchanged, several as an OSError that names all files."""
         if len(set(map(_said, self._errors))) > 1:
             raise OSError(self.told) from self._errors[0]
         if self._errors:
@@ -61,7 +61,7 @@ class Attempts:
 
 
 def _said(error: Exception) -> str:
-    """The message of an error, with the file but without the number of a system's error."""
+    """The message of an error, with the file but without the number of a system error."""
     if isinstance(error, MemoryError):
         return f"not enough memory{f': {error}' if str(error) else ''}"
     named = isinstance(error, OSError) and error.filename is not None

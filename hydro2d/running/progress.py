@@ -26,16 +26,16 @@ T = TypeVar("T")
 
 #: seconds between refreshes of the table
 TABLE_SECONDS = 0.5
-#: bodies with more than this share of the largest kinetic energy are told to move at the end, and this many of them
+#: bodies with more than this share of the largest kinetic energy are listed as moving at the end, at most this many
 SHOWN, MOST_SHOWN = 1e-3, 6
-#: bodies whose length has changed by less than this share of it are told no length; tracers and gauges that are told
+#: no length is printed for bodies whose length has changed by less than this share; largest number of printed stations
 SAME_LENGTH, MOST_STATIONS = 1e-3, 12
 AS_LONG = 1e-2  # projectiles whose length and diameter differ by less than this share are as long as they are thick
-#: a residual velocity is told to change still if it has changed by more than this share of it
+#: a residual velocity counts as still changing if it has changed by more than this share
 SETTLED = 1e-3
-#: what a run spends time on beside its cycles, by key of the summary; less than this many seconds are not told
+#: costs of a run in addition to its cycles, by key of the summary; times below this many seconds are not printed
 OTHER_COSTS, LEAST_COST = {"compilation": "compilation_s", "set-up": "set_up_s", "outputs": "outputs_s"}, 0.05
-#: commands and paths, which a terminal wraps where its line is full, so that they can be copied; other lines break at words
+#: lines with commands and paths, which the terminal itself wraps, so that they can be copied; others break at words
 WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
 #: seconds over which the pace is measured
 PACE_SECONDS = 60.0
@@ -62,9 +62,9 @@ def worst_mass(conservation: dict) -> float:
 
 
 def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
-    """The items; if they take long, a line on stderr every few seconds says how many are done.
+    """Yields the items; if this takes long, a line on stderr every few seconds says how many are done.
 
-    Such as "decks read: 512 of 3000"; nothing if ``quiet``.
+    For example "decks read: 512 of 3000"; nothing if ``quiet``.
     """
     last = clock.monotonic()
     for number, item in enumerate(items):
@@ -75,7 +75,7 @@ def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
 
 
 class Outlook(NamedTuple):
-    """How a run is likely to end. end : None if it is not known;  share : of the run that is done, 0 to 1;  left : seconds"""
+    """The likely end of a run. end : None if not known;  share : of the run that is done, 0 to 1;  left : seconds"""
 
     end: End | None = None
     share: float | None = None
@@ -83,17 +83,17 @@ class Outlook(NamedTuple):
 
 
 class Clock:
-    """How a run will end, how much of it is done, and how long the rest will take.
+    """Predicts how a run will end, how much of it is done, and how long the rest will take.
 
-    The end is that which `status` foresees, see `ending.ends`; before the history has rows enough for it, the end time or the
-    number of cycles of the deck. The pace is that of the last minute, so compilation and the small time steps after an impact
-    affect it no longer than that.
+    The end is that of `status`, see `ending.ends`; until the history has enough rows, the end time or the number of cycles of
+    the deck. The pace is that of the last minute, so compilation and the small time steps after an impact affect it only for so
+    long.
 
     Parameters
     ----------
     stop : the deck's section
     columns : of the history; None: there is none
-    clock : gives seconds
+    clock : returns seconds
     """
 
     def __init__(self, stop, columns: Columns | None = None, clock: Callable[[], float] = clock.perf_counter):
@@ -106,11 +106,11 @@ class Clock:
         self._marks.append((self._clock(), sim.time, sim.cycle))
 
     def look(self, sim) -> Outlook:
-        """The end of a simulation as it is likely now."""
-        found = self._columns.some(ending.needed(self._stop)) if self._columns is not None else {}
-        end, (by_time, by_cycle) = ending.first(self._stop, found), self._pace(sim)
+        """The likely end of a simulation at present."""
+        columns = self._columns.some(ending.needed(self._stop)) if self._columns is not None else {}
+        end, (by_time, by_cycle) = ending.first(self._stop, columns), self._pace(sim)
         cycles = self._stop["cycles"]
-        if cycles and (end is None or end.reason == ending.END_TIME):  # the history is too short to tell the time of it
+        if cycles and (end is None or end.reason == ending.END_TIME):  # the history is too short to predict its time
             share = sim.cycle / cycles
             if end is None or share > sim.time / end.time:
                 return Outlook(None, min(share, 1.0), (cycles - sim.cycle) / by_cycle if by_cycle else None)
@@ -120,7 +120,7 @@ class Clock:
                        max(end.time - sim.time, 0.0) / by_time if by_time else None)  # fmt: skip
 
     def _pace(self, sim) -> tuple[float, float]:
-        """Seconds of the simulation, and cycles, in a second of the last minute; zeros where that is not known."""
+        """Simulated seconds, and cycles, per second in the last minute; zeros if not known."""
         now = self._clock()
         if not self._marks:
             return 0.0, 0.0
@@ -132,36 +132,36 @@ class Clock:
         return ((sim.time - time) / (now - then), (sim.cycle - cycle) / (now - then)) if now > then else (0.0, 0.0)
 
 
-def how_far(sim, found: Outlook) -> str:
+def how_far(sim, outlook: Outlook) -> str:
     """'12.300 us of 200.000 us (6.2 %)', or '12.300 us of about 61.000 us (20.2 %; speed below 5 m/s)'."""
     said = moment(sim.time)
-    if found.share is None:
+    if outlook.share is None:
         return said
-    if found.end is None:
-        return f"{said} ({100 * found.share:.1f} % of the cycles)"
-    if found.end.reason == ending.END_TIME:
-        return f"{said} of {moment(found.end.time)} ({100 * found.share:.1f} %)"
-    reason = found.end.reason.removesuffix(f" {ending.AS_IT_SLOWS}")  # "about" says it
-    return f"{said} of about {moment(found.end.time)} ({100 * found.share:.1f} %; {reason})"
+    if outlook.end is None:
+        return f"{said} ({100 * outlook.share:.1f} % of the cycles)"
+    if outlook.end.reason == ending.END_TIME:
+        return f"{said} of {moment(outlook.end.time)} ({100 * outlook.share:.1f} %)"
+    reason = outlook.end.reason.removesuffix(f" {ending.AS_IT_SLOWS}")  # "about" says it
+    return f"{said} of about {moment(outlook.end.time)} ({100 * outlook.share:.1f} %; {reason})"
 
 
 def values(run, outlook: Outlook) -> dict[str, str]:
-    """The values shown for a run, by name."""
+    """The displayed values of a run, by name."""
     sim = run.sim
-    found, conserved = sim.diagnostics(), sim.conservation()
+    measured, conserved = sim.diagnostics(), sim.conservation()
     shown = {
         "time": how_far(sim, outlook),
         "left": "-" if outlook.left is None else duration(outlook.left),
         "cycle": str(sim.cycle),
         "dt": f"{sim.dt * 1e9:.4g} ns ({sim.dt_cause})",
     }
-    if found:  # a deck with a projectile and a target
+    if measured:  # a deck with a projectile and a target
         shown |= {
-            "depth": number(found["penetration_depth_m"], 1e3, ".2f", "mm"),
-            "tail speed": number(found["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
-            "mean speed": number(found["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
-            f"{sim.projectile} length": number(found["rod_length_m"], 1e3, ".2f", "mm"),
-            "regime": found["regime"],
+            "depth": number(measured["penetration_depth_m"], 1e3, ".2f", "mm"),
+            "tail speed": number(measured["rod_tail_velocity_m_s"], 1, ".1f", "m/s"),
+            "mean speed": number(measured["rod_mean_velocity_m_s"], 1, ".1f", "m/s"),
+            f"{sim.projectile} length": number(measured["rod_length_m"], 1e3, ".2f", "mm"),
+            "regime": measured["regime"],
         }
     return shown | {
         "mass": f"{worst_mass(conserved):+.1e}",
@@ -178,7 +178,7 @@ class Report:
         self._last, self._moved = 0.0, float("-inf")
 
     def line(self, text: str) -> None:
-        """A line for the log and the screen."""
+        """Writes a line to the log and the screen."""
         text = one_line(text)
         self.note(f"{datetime.now().isoformat(timespec='seconds')}  {text}")
         self._show_safely(text)
@@ -193,7 +193,7 @@ class Report:
                 self._gone()
 
     def note(self, text: str) -> None:
-        """A line for the log alone. Raises OSError, which names the file."""
+        """Writes a line to the log only. Raises OSError, which names the file."""
         try:
             self._log.write(one_line(text) + "\n")
             self._log.flush()
@@ -205,14 +205,14 @@ class Report:
         say(text, flush=True)
 
     def move(self, text: str, share: float | None) -> None:
-        """The state of something that takes long; where it cannot be redrawn, a line now and then. The log gets none."""
+        """Shows the state of slow work; where it cannot be redrawn, as a line now and then. It is not logged."""
         now = clock.monotonic()
         if now - self._moved >= LINE_SECONDS:
             self._moved = now
             self._show_safely(text)
 
     def rest(self, text: str) -> None:
-        """The state is no longer shown."""
+        """Stops showing the state."""
 
     def begin(self, run) -> None:
         grid, origin = run.sim.grid, run.provenance
@@ -254,7 +254,7 @@ class Report:
 
 
 class Live(Report):
-    """The same on a terminal: a bar and a table that are redrawn in place."""
+    """The report on a terminal: a bar and a table that are redrawn in place."""
 
     def __init__(self, log, quiet: bool, gone: Callable[[], None] = lambda: None):
         from rich.live import Live as RichLive
@@ -320,9 +320,9 @@ class Live(Report):
 
 
 def result(summary: dict, theory: Sequence[str] = ()) -> list[str]:
-    """The final lines: the result beside that of the experiment.
+    """The closing lines: the result, compared with the experiment.
 
-    theory : lines that stand below the depth
+    theory : lines below the depth
     """
     conserved = summary["conservation"]
     lines = [
@@ -355,7 +355,7 @@ def _how_it_ended(summary: dict) -> str:
 
 
 def continuing(command: str) -> str:
-    """What continues a run that was begun by a command: that command with --restart, or the argument of `hydro2d.run`."""
+    """The way to continue a run that a command began: the command with --restart, or the argument of `hydro2d.run`."""
     words = [word for word in shlex.split(command) if word not in ("--overwrite", "--restart")]
     start = 3 if words[:2] == ["python", "-m"] else 1
     if words[start - 1 : start + 1] != ["hydro2d", "run"]:
@@ -374,7 +374,7 @@ def _costs(summary: dict) -> str:
 
 
 def _bars(summary: dict) -> list[str]:
-    """Lengths of the bodies that were longer than wide at the start, and have changed, with the radii of their ends.
+    """Changed lengths of the bodies that were longer than wide at the start, with the radii of their ends.
 
     No length is reported once part of a body has left the mesh.
     """
@@ -392,24 +392,24 @@ def _bars(summary: dict) -> list[str]:
 
 
 def _derived(summary: dict) -> list[str]:
-    """What [derived] of the deck defines."""
+    """Values of the quantities that [derived] of the deck defines."""
     return [f"{name:<21} {'-' if value is None else f'{value:.5g}'}" + (f" {unit(name)}" if unit(name) != "1" else "")
             for name, value in summary["derived"].items()]
 
 
 def _peaks(summary: dict) -> list[str]:
-    """The largest pressure and speed that tracers and gauges have had."""
-    found = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
-    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {found[name]['peak_pressure_Pa'] / 1e9:.3g} GPa at "
-             f"{moment(found[name]['peak_pressure_time_s'])}, peak speed {found[name]['peak_speed_m_s']:.0f} m/s"
-             for name in list(found)[:MOST_STATIONS]]
-    more = len(found) - len(lines)
+    """The largest pressure and speed at tracers and gauges."""
+    stations = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
+    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {stations[name]['peak_pressure_Pa'] / 1e9:.3g} GPa at "
+             f"{moment(stations[name]['peak_pressure_time_s'])}, peak speed {stations[name]['peak_speed_m_s']:.0f} m/s"
+             for name in list(stations)[:MOST_STATIONS]]
+    more = len(stations) - len(lines)
     return lines + ([f"{more} more tracers and gauges are in summary.json"] if more else [])
 
 
 def _moving(summary: dict) -> str:
-    """Which bodies still move, the one with the most kinetic energy first, with mean velocity and that energy; and the tail of
-    the projectile, which may outrun its mean."""
+    """Mean velocity and kinetic energy of the bodies that still move, the largest energy first; and the tail of the projectile,
+    which may be faster than its mean."""
     energies = {name: body["kinetic_energy_J"] for name, body in summary["bodies"].items()}
     least = SHOWN * max(energies.values(), default=0.0)
     names = [name for name in sorted(energies, key=lambda name: -energies[name]) if energies[name] > least][:MOST_SHOWN]
@@ -421,13 +421,13 @@ def _moving(summary: dict) -> str:
 
 
 def passed(summary: dict) -> list[str]:
-    """Names of the targets where the projectile has gone through all of them, else none."""
-    found = summary.get("targets") or {}
-    return [] if any(target.get("exit_time_s") is None for target in found.values()) else list(found)
+    """Names of the targets if the projectile has perforated all of them, else none."""
+    targets = summary.get("targets") or {}
+    return [] if any(target.get("exit_time_s") is None for target in targets.values()) else list(targets)
 
 
 def _over_length(summary: dict) -> str:
-    """Depth over the length of the projectile, or over the diameter of one that is as long as it is thick, such as a ball."""
+    """Depth over the length of the projectile, or over its diameter if it is as long as thick, such as a ball."""
     shape, ratio = summary["projectile"], summary["penetration_over_length"]
     if ratio is None:
         return ""
@@ -436,7 +436,7 @@ def _over_length(summary: dict) -> str:
 
 
 def _unsettled(shape: dict) -> str:
-    """By how much the residual velocity still changes, if it does."""
+    """The change of the residual velocity if it is still changing."""
     change, over = shape.get(residual.CHANGE), shape.get(residual.OVER)
     if change is None or not abs(change) > SETTLED * abs(shape["residual_velocity_m_s"]):
         return ""
@@ -451,7 +451,7 @@ def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     bound = "at least " if summary["regime"] == LEFT else ""
     largest, at_end = (number(each, 1e2, ".2f", "cm") for each in (depth, summary["nose_depth_m"]))
     if through := passed(summary):
-        lines = [f"gone through          {', '.join(through)}; nose {at_end} behind the first face"]
+        lines = [f"perforated            {', '.join(through)}; nose {at_end} behind the first face"]
     else:
         back = "" if at_end == largest else f"; {at_end} at the end"
         lines = [f"penetration depth     {bound}{largest}{_over_length(summary)}{back}"]
@@ -468,10 +468,10 @@ def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     if experiment and experiment["residual_velocity_m_s"] is not None:
         measured = experiment["residual_velocity_m_s"]
         lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment['source']}")
-    for name, found in summary["targets"].items() if len(summary["targets"]) > 1 else ():
-        if found["exit_time_s"] is not None:
-            velocity, mass = number(found["exit_velocity_m_s"], 1, ".1f", "m/s"), number(found["exit_mass_kg"], 1e3, ".2f", "g")
-            lines.append(f"  through {name} at {moment(found['exit_time_s'])}: {velocity}, {mass}")
+    for name, plate in summary["targets"].items() if len(summary["targets"]) > 1 else ():
+        if plate["exit_time_s"] is not None:
+            velocity, mass = number(plate["exit_velocity_m_s"], 1, ".1f", "m/s"), number(plate["exit_mass_kg"], 1e3, ".2f", "g")
+            lines.append(f"  through {name} at {moment(plate['exit_time_s'])}: {velocity}, {mass}")
     return [
         *lines,
         f"{f'{body} length':<21} {number(shape['length_m'], 1e2, '.2f', 'cm')}",

@@ -34,7 +34,7 @@ def _git(*arguments: str) -> str | None:
 def git_commit() -> tuple[str, bool] | None:
     """Commit hash, and whether tracked files differ from it; None for a copy outside a repository."""
     if _git("ls-files", "--error-unmatch", Path(__file__).name) is None:
-        return None  # the repository around an installed copy is not ours
+        return None  # the repository around an installed copy is not hydro2d's
     commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", "--untracked-files=no")
     return None if commit is None else (commit, bool(changes))
 

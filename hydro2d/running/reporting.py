@@ -1,4 +1,4 @@
-"""Which report of its progress a run makes: for a terminal, for a notebook, or for neither."""
+"""Chooses the progress report of a run: for a terminal, for a notebook, or for neither."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def reporter(log: Path, quiet: bool, gone: Callable[[], None] = lambda: None) ->
         yield report
     except Exception as error:
         report.close()
-        with suppress(OSError):  # whatever stopped the run is told
+        with suppress(OSError):  # the error that stopped the run is reported anyway
             report.note(f"stopped by {type(error).__name__}: {error}")
         raise
     finally:
         report.close()
-        with suppress(OSError):  # lines that could not be written have been told
+        with suppress(OSError):  # lines that could not be written have been reported
             file.close()

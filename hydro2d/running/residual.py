@@ -1,4 +1,4 @@
-"""How much the residual velocity of a projectile has changed lately: whether that at the end of a run is final."""
+"""Recent change of the residual velocity of a projectile, which shows whether it is final at the end of a run."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ import numpy as np
 from hydro2d.output.history import Columns
 
 VELOCITY, CHANGE, OVER = "rod_residual_velocity_m_s", "residual_velocity_change_m_s", "residual_velocity_change_over_s"
-#: what they mean, of a summary
+#: meanings of these keys in a summary
 MEANINGS = {
-    CHANGE: "change of the residual velocity while the projectile flew its own radius at the end, or since it was through, if "
-    "that is less; null where there is none",
-    OVER: "time over which it has changed so",
+    CHANGE: "change of the residual velocity over the last flight by the projectile's radius, or since perforation, if that is "
+    "shorter; null if there is none",
+    OVER: "time over which that change took place",
 }
 
 
 def change(columns: Columns, exits: list[dict], measured: dict, time: float) -> dict[str, float | None]:
-    """The two keys of a summary at the end, by the rows of the history and by when it was through the last target.
+    """The two keys of a summary at the end, from the rows of the history and the time of perforation of the last target.
 
-    exits : what `Penetrator.passages` gives;  measured : what `Penetrator.measure` gives;  time : of the end, s
+    exits : from `Penetrator.passages`;  measured : from `Penetrator.measure`;  time : of the end, s
     """
     velocity = measured.get(VELOCITY)
-    found = columns.some(("time", VELOCITY))
-    if velocity is None or VELOCITY not in found:
+    rows = columns.some(("time", VELOCITY))
+    if velocity is None or VELOCITY not in rows:
         return {CHANGE: None, OVER: None}
-    known = np.isfinite(found[VELOCITY])
-    times, velocities = found["time"][known], found[VELOCITY][known]
+    known = np.isfinite(rows[VELOCITY])
+    times, velocities = rows["time"][known], rows[VELOCITY][known]
     through = exits[-1] if exits else {}
     if through.get("exit_time_s") is not None and through.get("exit_velocity_m_s") is not None:
         times = np.append(through["exit_time_s"], times)

@@ -1,4 +1,4 @@
-"""A run and its directory: cycles, outputs when they are due, progress, and the summary.
+"""A run and its directory: cycles, due outputs, progress, and the summary.
 
     deck.toml         the deck with every default written out
     summary.json      the results, their provenance, and what was conserved
@@ -8,8 +8,8 @@
     vtk/, *.pvd       fields, outlines and tracers for ParaView
     log.txt           the log
 
-An output is due at the first cycle at or after its time, so outputs never change a time step. A run that was interrupted
-continues to the same bits as one that was not.
+An output is due at the first cycle at or after its time, so outputs never change a time step. An interrupted run
+continues bitwise as if it had not been interrupted.
 """
 
 from __future__ import annotations
@@ -53,20 +53,20 @@ DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
-#: the file that a study has in its directory, see study/layout.py
+#: file in the directory of a study, see study/layout.py
 STUDY = "study.json"
-#: cycles between copies of the state in memory, the last good one
+#: cycles between copies of the last good state in memory
 GOOD_EVERY = 100
-#: seconds between writes of the history, and largest share of the wall time that they take
+#: seconds between writes of the history, and their largest share of the wall time
 FLUSH_SECONDS, FLUSH_SHARE = 10.0, 0.1
 #: seconds between writes of progress.json
 PROGRESS_SECONDS = 3.0
 
 DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
-#: what the time of a run is spent on, as keys of the summary
+#: parts of the time of a run, as keys of the summary
 COSTS = ("cycles_s", "compilation_s", "outputs_s", "set_up_s")
 
-#: makes lines from a deck and the summary of its run
+#: function that makes lines from a deck and the summary of its run
 Theory = Callable[[Any, dict], list[str]]
 
 #: results that every summary has; null for a deck without rod and target
@@ -90,7 +90,8 @@ def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
     if restart and not directory.is_dir():
         raise RunError(f"{directory}: there is no run to continue")
     if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
-        raise RunError(f"{directory / DECK} does not belong to a run, as no other file does; --overwrite would replace it")
+        raise RunError(f"{directory / DECK} does not belong to a run: its other files are missing; --overwrite "
+                       "would replace it")
     if (directory / STUDY).is_file() and not (directory / SUMMARY).exists():
         raise RunError(f"{directory} holds a study; give the run a directory of its own")
     if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
@@ -118,7 +119,7 @@ FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived")
 
 
 def check_same_deck(now: str, before: str) -> None:
-    """Raises RunError if two resolved decks differ in anything on which the state depends."""
+    """Raises RunError if two resolved decks differ in anything that affects the state."""
     now, before = (tomllib.loads(text) for text in (now, before))
     new, old = ({**{table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")},
                  **{f"{path[1]}, its table": table["table_data"] for path, table in model_tables(data)
@@ -140,11 +141,11 @@ class Run:
     Parameters
     ----------
     deck : the resolved deck
-    directory : where everything is written
-    restart : continue from restart.h5 of the directory
+    directory : the directory to write to
+    restart : whether to continue from restart.h5 of the directory
     report : see reporting.reporter
     columns : further columns of the history, see Simulation.columns
-    compiled : listens to compilation, see compilation.announced
+    compiled : the listener to compilation, see compilation.announced
     theory : lines for the end of the run, from its deck and its summary
     """
 
@@ -168,7 +169,7 @@ class Run:
         self.due = {"history": Due(deck.output.history_interval), "vtk": Due(deck.output.vtk_interval)}
         rows = dumps = 0
         unwritten: dict[str, list[float]] = {}
-        #: what the history lacks, in words, though it was written once
+        #: rows that the history has lost, in words
         self.lacking: list[str] = []
         if restart:
             saved, problems = snapshot.read_latest(self.directory)
@@ -181,7 +182,7 @@ class Run:
                 for name, due in self.due.items():
                     due.resume(saved.run["due"][name], self.sim.time)
                 rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
-                self.spent |= saved.run.get("spent", {})  # files of earlier versions say nothing of it
+                self.spent |= saved.run.get("spent", {})  # files of earlier versions lack it
                 unwritten, self.lacking = saved.run["unwritten"], saved.run["lacking"]
         self.history = self._history(rows, unwritten)
         self.series = Series(self.directory, deck.output.fields, dumps)
@@ -195,12 +196,12 @@ class Run:
         self.spent["set_up_s"] += clock.perf_counter() - self.started - self._first_calls()
 
     def _first_calls(self) -> float:
-        """Seconds so far in first calls of kernels, in which they are compiled or read from the cache."""
+        """Seconds spent so far in first calls of kernels, which compile them or read them from the cache."""
         return self.compiled.seconds if self.compiled else 0.0
 
     @contextmanager
     def _spending(self, on: str) -> Iterator[None]:
-        """Adds the time of the block, without first calls of kernels, to that spent on something."""
+        """Adds the time of the block, without first calls of kernels, to the cost named ``on``."""
         began = clock.perf_counter() - self._first_calls()
         yield
         self.spent[on] += clock.perf_counter() - self._first_calls() - began
@@ -211,26 +212,26 @@ class Run:
         return self.spent | {kind: self.spent[kind] + self._first_calls()}
 
     def theory(self, summary: dict) -> list[str]:
-        """Lines that stand below the depth of a run that is done."""
+        """Lines below the depth of a finished run."""
         return self._theory(self.deck, summary) if self._theory and summary["status"] == "done" else []
 
     def _history(self, rows: int, unwritten: dict[str, list[float]]) -> History:
         """The history to continue, with the rows that only the restart file has; a damaged file is renamed."""
         path = self.directory / HISTORY
         try:
-            found = History(path, rows - len(unwritten.get("time", ())), unwritten)
-            if len(found) < rows:
-                self.lacking.append(f"{HISTORY} lacks {rows - len(found)} of {rows} rows before a restart")
-                self.report.line(f"warning: {path} lacks {rows - len(found)} of {rows} rows before the restart")
-            return found
+            history = History(path, rows - len(unwritten.get("time", ())), unwritten)
+            if len(history) < rows:
+                self.lacking.append(f"{HISTORY} lacks {rows - len(history)} of {rows} rows before a restart")
+                self.report.line(f"warning: {path} lacks {rows - len(history)} of {rows} rows before the restart")
+            return history
         except HistoryError as error:
             aside = path.with_name(f"damaged-{HISTORY}")
             if path.exists():
                 path.replace(aside)
-            found = History(path, 0, unwritten)
-            self.lacking.append(f"{HISTORY} lacks {rows - len(found)} of {rows} rows before a restart")
-            self.report.line(f"warning: {error}; a new history is begun, the old file is now {aside.name}")
-            return found
+            history = History(path, 0, unwritten)
+            self.lacking.append(f"{HISTORY} lacks {rows - len(history)} of {rows} rows before a restart")
+            self.report.line(f"warning: {error}; a new history is started; the old file is now {aside.name}")
+            return history
 
     @property
     def wall(self) -> float:
@@ -255,7 +256,7 @@ class Run:
             self.sim.refuse_nonsense()
         except UnphysicalState as error:
             return self._finish("unphysical", str(error))
-        except (OSError, ColumnError) as error:  # in an output: the state is whole
+        except (OSError, ColumnError) as error:  # in an output: the state is intact
             self._save_after(error, self._snapshot())
         except MemoryError as error:
             self._save_after(error, self.good)
@@ -266,7 +267,7 @@ class Run:
         return self._finish("done", reason)
 
     def _begun(self) -> None:
-        """After the first cycle, in which kernels are loaded: the pace is measured from here on."""
+        """Called after the first cycle, in which kernels are loaded; the pace is measured from here on."""
         self.timed_from = self.spent["cycles_s"]
         for text in self.compiled.settled() if self.compiled else ():
             self.report.line(text)
@@ -283,7 +284,7 @@ class Run:
     # ------------------------------------------------------------------------------------------------ outputs
 
     def _outputs(self) -> None:
-        """Everything that is due after a cycle."""
+        """Writes all outputs that are due after a cycle."""
         sim, now = self.sim, clock.perf_counter()
         with self._due("history") as is_due:
             if is_due:
@@ -308,7 +309,7 @@ class Run:
 
     @contextmanager
     def _due(self, name: str) -> Iterator[bool]:
-        """Whether an output is due now; one that fails within the block is due again when the run goes on."""
+        """Yields whether an output is due now; if it fails within the block, it is due again when the run continues."""
         due = self.due[name]
         count = due.count
         try:
@@ -319,22 +320,22 @@ class Run:
 
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
-        found, outlook = self.sim.diagnostics(), self.clock.look(self.sim)
+        measured, outlook = self.sim.diagnostics(), self.clock.look(self.sim)
         write_json(self.directory / PROGRESS, {
             "time_s": self.sim.time,
             "cycles": self.sim.cycle,
             "fraction": outlook.share,
             "left_s": outlook.left,
             "wall_s": self.wall,
-            "penetration_depth_m": found.get("penetration_depth_m"),
-            "rod_tail_velocity_m_s": found.get("rod_tail_velocity_m_s"),
+            "penetration_depth_m": measured.get("penetration_depth_m"),
+            "rod_tail_velocity_m_s": measured.get("rod_tail_velocity_m_s"),
             "host": self.provenance["host"],
             "process": os.getpid(),
         })  # fmt: skip
         self.published = clock.perf_counter()
 
     def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
-        """A copy of the state, in the memory of an earlier copy that is no longer needed."""
+        """A copy of the state, which may reuse the memory of an earlier copy."""
         arrays = self.sim.restart_arrays()
         copies = reuse.arrays if reuse else {name: np.empty_like(array) for name, array in arrays.items()}
         for name, array in arrays.items():
@@ -355,14 +356,14 @@ class Run:
         )
 
     def _write_history(self) -> None:
-        """Writes the history, which takes longer the more stations there are, and is then written less often."""
+        """Writes the history; if this takes long because of many stations, it is written less often."""
         began = clock.perf_counter()
         self.history.write()
         self.flushed = clock.perf_counter()
         self.flush_every = max(FLUSH_SECONDS, (self.flushed - began) / FLUSH_SHARE)
 
     def _save(self, state: snapshot.Snapshot, attempts: Attempts) -> None:
-        """Writes the history and the restart file, which relies on its rows and has those that could not be written."""
+        """Writes the history and the restart file, which refers to its rows and keeps those that could not be written."""
         with attempts.writing(self.directory / HISTORY):
             self._write_history()
         state.run["unwritten"] = self.history.unwritten(state.run["rows"])
@@ -371,7 +372,7 @@ class Run:
         self.saved_at = clock.perf_counter()
 
     def _save_after(self, error: Exception, state: snapshot.Snapshot | None) -> NoReturn:
-        """Writes a restart file after an error, or keeps the one before, and raises the error."""
+        """Writes a restart file after an error, or keeps the previous one, and raises the error."""
         attempts = Attempts(error)
         if state is not None:
             self._save(state, attempts)
@@ -381,7 +382,7 @@ class Run:
         raise error
 
     def _finish(self, status: str, reason: str) -> dict:
-        """The last outputs, of which one that fails does not keep the others from being written.
+        """Writes the last outputs; if one fails, the others are still written.
 
         The summary comes last, and says that the run was interrupted if anything else could not be written. A restart file
         never counts the extra row and dump that are written after the end.
@@ -399,7 +400,7 @@ class Run:
         return summary
 
     def _last_outputs(self, status: str, attempts: Attempts) -> None:
-        """Restart file, last row and last dump."""
+        """Writes the restart file, the last row and the last dump."""
         with attempts.writing(self.directory / HISTORY):
             self.history.craters, self.history.debris = self.sim.holes(), self.sim.debris()
         state = self.good if status == "unphysical" else self._snapshot()
@@ -417,7 +418,7 @@ class Run:
                 self.report.line(text)
 
     def _last_row(self, status: str) -> None:
-        """Writes the row of the end. An unphysical state may be one that a column of the user's cannot bear."""
+        """Writes the row of the end. A user's column may fail in an unphysical state."""
         try:
             self.history.append(row(self.sim))
         except ColumnError as error:
@@ -427,7 +428,7 @@ class Run:
         self.history.write()
 
     def summary(self, status: str, reason: str) -> dict:
-        """What summary.json holds."""
+        """The contents of summary.json."""
         sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
         last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
         settling = residual.change(self.history, list(targets.values()), measured, sim.time)
@@ -451,7 +452,7 @@ class Run:
             **dict.fromkeys(ROD_RESULTS),
             **measured,
             "projectile": projectile(sim.projectile, measured, settling),
-            "crater": next((found["crater"] for found in targets.values()), None),
+            "crater": next((target["crater"] for target in targets.values()), None),
             "targets": targets,
             "derived": {name: last[name] for name in sim.formulas},
             "bodies": sim.of_bodies(),
@@ -468,7 +469,7 @@ def deck_hash(text: str) -> str:
 
 
 def models_from_outside(deck) -> list[dict]:
-    """What of a deck's models is not part of hydro2d, code and tables: kind, name, file and SHA-256."""
+    """Models of a deck that are not part of hydro2d, code and tables: kind, name, file and SHA-256."""
     return [about for material in deck.materials.values()
             for about in (*(model.about() for model in material.from_outside()), *material.tables())]
 
@@ -486,7 +487,7 @@ def experiment(deck) -> dict | None:
 
 
 def projectile(body: str | None, measured: dict, settling: dict) -> dict | None:
-    """What a summary says of the projectile beside what it says of every body; None without one."""
+    """Entries of a summary for the projectile, in addition to those for every body; None without one."""
     from hydro2d.mesh.measured import PROJECTILE
 
     if not body:
@@ -502,11 +503,11 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
     deck : a resolved deck, from deck.load
     directory : default: the directory in the deck
     restart, overwrite : continue an existing run, or replace it
-    quiet : prints nothing (log.txt is written)
+    quiet : prints nothing (log.txt is still written)
     interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
     columns : further columns of the history, functions of the simulation by name
     second : whether a second process helps to compile the kernels; default: if the run may use more than one thread
-    theory : lines for the end of a run that is done, from its deck and its summary; they stand below the depth
+    theory : lines for the end of a finished run, from its deck and its summary, printed below the depth
 
     Raises RunError, SnapshotError, LockError (another process uses the directory), StrangeFile.
     """
@@ -529,12 +530,12 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             signals(interrupt),
             announced(report, deck if (threads() > 1 if second is None else second) else None) as compiled,
         ):
-            found = Run(deck, directory, restart=restart, report=report, columns=columns, compiled=compiled, theory=theory)
-            return found.execute(interrupt)
+            this_run = Run(deck, directory, restart=restart, report=report, columns=columns, compiled=compiled, theory=theory)
+            return this_run.execute(interrupt)
 
 
 def exit_status(summary: dict) -> int:
-    """0 done, 3 unphysical, after a signal 128 and its number, as shells do."""
+    """0 for done, 3 for unphysical, 128 plus its number after a signal, as in shells."""
     if summary["status"] == "interrupted":
         return interrupts.status(summary["stop_reason"])
     return UNPHYSICAL if summary["status"] == "unphysical" else DONE

@@ -1,7 +1,7 @@
-"""Chooses the number of threads of a run: the number that is fastest, up to the maximum.
+"""Chooses the fastest number of threads for a run, up to the maximum.
 
 Threads wait for each other some sixty times a cycle. On a small mesh, a second thread gains nothing. If another process uses a
-core, every one of these waits lasts until the operating system lets the second thread run again. The results do not depend on
+core, each of these waits lasts until the operating system lets the second thread run again. The results do not depend on
 the number of threads, so a run may change it between any two cycles.
 """
 
@@ -21,7 +21,7 @@ from hydro2d.terminal import several
 TRIAL = 5
 #: the next trial comes after this many times the duration of the last one, and after at least this many seconds
 REST, LEAST = 20.0, 2.0
-#: it comes after this fraction of that interval if the median of this many cycles is longer by this factor than in the trial
+#: it comes after this fraction of that interval if the median of this many cycles exceeds that of the trial by this factor
 EARLY, LATE, SLOWER = 0.25, 20, 1.5
 
 
@@ -31,7 +31,7 @@ class ThreadsError(Error):
 
 @contextmanager
 def at_most(threads: int | None) -> Iterator[None]:
-    """Within the block at most this many threads are used; None: as many as before. Raises ThreadsError."""
+    """Uses at most this many threads within the block; None: as many as before. Raises ThreadsError."""
     if threads is None:
         yield
         return
@@ -84,14 +84,14 @@ class Team:
         return seconds
 
     def told(self) -> str:
-        """Such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
+        """Text such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
         if self.most == 1 or not self.cycles:
             return ""
         total = sum(self.cycles.values())
         first, *rest = sorted(self.cycles, key=self.cycles.get, reverse=True)
         share = {n: f"{100.0 * count / total:.0f} %" for n, count in self.cycles.items()}
-        told = f"{several(first, 'thread')} in {share[first]} of the cycles"
-        return ", ".join([told, *(f"{n} in {share[n]}" for n in rest)])
+        leading = f"{several(first, 'thread')} in {share[first]} of the cycles"
+        return ", ".join([leading, *(f"{n} in {share[n]}" for n in rest)])
 
     def all(self) -> None:
         """Returns to all threads."""
@@ -105,7 +105,7 @@ class Team:
     def _observe(self, seconds: float) -> None:
         if self._trial:
             self._trial[self.threads].append(seconds)
-            if all(len(found) == TRIAL for found in self._trial.values()):
+            if all(len(times) == TRIAL for times in self._trial.values()):
                 self._decide()
             return
         self._recent.append(seconds)
@@ -114,9 +114,9 @@ class Team:
             self._trial = {n: [] for n in self._options}
 
     def _decide(self) -> None:
-        medians = {n: statistics.median(found) for n, found in self._trial.items()}
+        medians = {n: statistics.median(times) for n, times in self._trial.items()}
         self._set(min(medians, key=medians.get))
-        rest = max(REST * sum(sum(found) for found in self._trial.values()), LEAST)
+        rest = max(REST * sum(sum(times) for times in self._trial.values()), LEAST)
         now = self._clock()
         self._expected, self._early, self._until = medians[self.threads], now + EARLY * rest, now + rest
         self._recent.clear()

@@ -12,9 +12,9 @@ from hydro2d.errors import DeckError
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 #: a word, and what its page must say
 SAID = {
-    "spall": "fracture_pressure", "anvil": 'z_min = "anvil"', "rigid": "No body is rigid by decree", "gap": "void",
+    "spall": "fracture_pressure", "anvil": 'z_min = "anvil"', "rigid": "No body can be declared rigid", "gap": "void",
     "erosion": "No cell is ever deleted", "debris": "--kind debris", "cavitation": "failure.tensile", "gravity": "-9.81 m/s^2",
-    "concrete": "There is none", "segmented": "`join`", "detonator": 'kind = "detonation"',
+    "concrete": "There is no material", "segmented": "`join`", "detonator": 'kind = "detonation"',
     "restitution": "no coefficient to set",
     "units": 'numbers = "SI"', "Us-up": "mie-grueneisen", "principal": "fracture_stress",
     "BLINT": 'sliding.method = "slip-layer"',

@@ -236,7 +236,7 @@ def test_what_a_command_makes_has_one_name(command, capsys):
     assert "--out" in said
     assert "-o" in said.replace("--out", "")
     assert call([command, "somewhere", "--output", "x.png"]) == 2
-    assert capsys.readouterr().err == "hydro2d: --output is called --out in every command, or -o in short\n"
+    assert capsys.readouterr().err == "hydro2d: --output is now --out in every command, or -o for short\n"
 
 
 def test_help_is_light():

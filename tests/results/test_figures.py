@@ -139,7 +139,7 @@ def test_a_window_decides_the_range(dump):
     part = figures.draw_sections([[(dump, "", None)]], "pressure", window=(0.0, 5e-3, 3e-3))
     assert part.axes[0].get_xlim() == (0, 5)
     assert part.axes[0].collections[0].get_clim() != whole.axes[0].collections[0].get_clim()
-    with pytest.raises(FigureError, match="nothing of the mesh"):
+    with pytest.raises(FigureError, match="no part of the mesh"):
         figures.draw_sections([[(dump, "", None)]], "pressure", window=(1.0, 2.0, 1.0))
 
 

@@ -64,9 +64,9 @@ def test_what_cannot_be_drawn_is_told(run, tmp_path):
     with pytest.raises(FigureError, match="misses the mesh"):
         lines.curve(run, run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
     single = Results(made_run.write(tmp_path / "one", dumps=1))
-    with pytest.raises(FigureError, match="has 1 dumps; a diagram of place and time needs two"):
+    with pytest.raises(FigureError, match="has 1 dumps; a diagram of place and time needs at least two"):
         lines.space_time([single], "pressure")
-    with pytest.raises(FigureError, match="nothing of pressure lies on the line"):
+    with pytest.raises(FigureError, match="no values of pressure lie on the line"):
         lines.space_time([run], "pressure", Line(1.0, 0.0, 1.0, 1.0))
 
 

@@ -94,11 +94,11 @@ def test_a_constant_deceleration_is_foreseen():
     slowing = columns(lambda time: 1000.0 - 2e6 * time)
     found = list(ending.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
     assert [(each.reason, round(each.time * 1e6, 3)) for each in found] == [
-        ("end time", 1000.0), ("3900 cycles", 200.0), ("speed below 10 m/s as it slows now", 495.0),
+        ("end time", 1000.0), ("3900 cycles", 200.0), ("speed below 10 m/s at its present deceleration", 495.0),
     ]  # fmt: skip
     backwards = columns(lambda time: -(1000.0 - 2e6 * time))
     (found,) = ending.ends({"rebound": True, "body": "rod"}, backwards)
-    assert (found.reason, found.time) == ("rebound as it slows now", pytest.approx(500e-6))
+    assert (found.reason, found.time) == ("rebound at its present deceleration", pytest.approx(500e-6))
     del slowing["rod_core_velocity_m_s"]
     (found,) = ending.ends({"speed_below": 10.0, "body": "ball"}, slowing)
     assert found.time == pytest.approx(490e-6)

@@ -107,7 +107,7 @@ from hydro2d.running import ending, progress
 progress.TABLE_SECONDS = 0.0
 sim = SimpleNamespace(time=1.23e-5, cycle=1234567, dt=1.234e-9, dt_cause="rod at r = 1.3 mm: sound", projectile="rod",
                       diagnostics=lambda: {}, conservation=lambda: {"mass": {}, "axial_momentum": 0.0, "total_energy": 0.0})
-look = progress.Outlook(ending.End("speed below 12.5 m/s as it slows now", 123.456e-6), 0.2, 1000.0)
+look = progress.Outlook(ending.End("speed below 12.5 m/s at its present deceleration", 123.456e-6), 0.2, 1000.0)
 run = SimpleNamespace(sim=sim, clock=SimpleNamespace(look=lambda sim: look))
 report = progress.Live(io.StringIO(), quiet=False)
 report._last = 1e9
@@ -238,7 +238,7 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     one = closing(**shot | {"targets": {"first": through, "second": {"exit_time_s": None}}})
     assert any(line.startswith("penetration depth") for line in one)
     both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through}})
-    assert "gone through          first, second; nose 1.46 cm behind the first face" in both
+    assert "perforated            first, second; nose 1.46 cm behind the first face" in both
     assert not any(line.startswith("penetration depth") for line in both)
 
 

@@ -60,7 +60,7 @@ def test_a_damaged_history_is_put_aside(begun, capsys, damage):
     file = begun / "history.h5"
     file.unlink() if damage is None else file.write_bytes(damage)
     assert go_on(begun)["cycles"] == 60
-    assert "a new history is begun" in capsys.readouterr().out
+    assert "a new history is started" in capsys.readouterr().out
     assert (begun / "damaged-history.h5").exists() == (damage is not None)
     assert len(history.read(file)["time"]) > 1
 

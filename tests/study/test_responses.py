@@ -280,7 +280,7 @@ def test_measured_residual_velocities_stand_beside_those_of_the_runs(tmp_path):
 @pytest.mark.parametrize(
     ("shots", "titles", "said"),
     [
-        ([(600, 300.0)], [], "a fit of 3 constants needs perforations at 3 velocities at least"),
+        ([(600, 300.0)], [], "a fit of 3 constants needs perforations at 3 or more velocities"),
         ([(500, None), (600, 300.0)], ["Recht-Ipson, plug", "Recht-Ipson, no plug"], "Lambert-Jonas is not drawn"),
         ([(600, 300.0), (800, 600.0)], ["Lambert-Jonas", "Recht-Ipson, plug", "Recht-Ipson, no plug"], "p = 2 taken"),
         ([(500, None)], [], "Recht-Ipson is not drawn: it needs a ballistic limit"),

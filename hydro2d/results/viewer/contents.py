@@ -1,4 +1,4 @@
-"""What a page has of a run: mesh, dumps, ranges of fields, history and stations, as a table for JSON and packed numbers."""
+"""The contents of a page: mesh, dumps, field ranges, history and stations of a run, as a table for JSON and packed numbers."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from hydro2d.results.viewer.fields import Ranges, Stored, ViewError, arrays, ask
 from hydro2d.running.run import HISTORY
 from hydro2d.terminal import shown
 
-#: fields that every page has: what shows the bodies
+#: fields that every page has, to show the bodies
 SHARES = ("volume_fraction", "material")
 #: largest number of rows of the history in a page
 ROWS = 4000
-#: how far the edges of a dump's mesh may be from those of the first dump that have travelled, as a share of the mesh
+#: largest distance of the edges of a dump's mesh from those of the first dump, moved along, as a share of the mesh
 ROUNDING = 1e-9
 
 
@@ -28,7 +28,7 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     """The table of a run (results.Results) and its packed numbers in base64.
 
     words : fields, as `fields.asked` takes them
-    bits : of a value, one of packing.BITS
+    bits : bits of a value, one of packing.BITS
 
     Raises ViewError, FieldError, VtkError, HistoryError.
     """
@@ -72,7 +72,7 @@ class _Frames:
         self.first = self.first or dump
         shift = dump.z_edges[0] - self.first.z_edges[0]
         if not (_same(dump.r_edges, self.first.r_edges) and _same(dump.z_edges - shift, self.first.z_edges)):
-            raise ViewError("the dumps have different meshes: the run was begun anew while it was read; read it again")
+            raise ViewError("the dumps have different meshes: the run was started anew while it was read; read it again")
         self.times.append(time)
         self.shifts.append(shift)
         values = {each.word: each.values(dump) for each in self.stored}
@@ -81,12 +81,12 @@ class _Frames:
         self.thin.append([_thin(fillings[body], shift) for body in dump.bodies])
         self.boxes.append(_box(fillings[self.projectile], dump, shift) if self.projectile in fillings else None)
         for each in _shown(self.stored):
-            found = _magnitude(values, each) if each.is_magnitude else values[each.word]
-            if found is not None:
-                self.ranges[each.word].add(found, fillings[each.body or None].shown | each.is_share)
+            field = _magnitude(values, each) if each.is_magnitude else values[each.word]
+            if field is not None:
+                self.ranges[each.word].add(field, fillings[each.body or None].shown | each.is_share)
 
     def table(self) -> dict:
-        """Times in s, how far the mesh has travelled and its first edges in m, fields, and the pieces of each dump."""
+        """Times in s, displacements of the mesh and its first edges in m, fields, and the pieces of each dump."""
         assert self.first is not None
         return {
             "times": self.times, "shifts": self.shifts, "r_edges": self.first.r_edges.tolist(),
@@ -101,23 +101,23 @@ def _same(edges: np.ndarray, others: np.ndarray) -> bool:
 
 
 def _shown(stored: list[Stored]) -> list[Stored]:
-    """The fields that can be drawn: what is stored, and before the components of a vector their magnitude."""
-    found = []
+    """The fields that can be drawn: the stored ones, with the magnitude of a vector before its components."""
+    drawn = []
     for each in stored:
         if each.component == 0:
-            found.append(each.magnitude())
-        found.append(each)
-    return found
+            drawn.append(each.magnitude())
+        drawn.append(each)
+    return drawn
 
 
 def _magnitude(values: dict, each: Stored) -> np.ndarray | None:
-    """Length of a vector whose components were packed."""
+    """Magnitude of a vector whose components were packed."""
     parts = [values[word] for word in each.parts]
     return None if parts[0] is None else np.hypot(*parts)
 
 
 def _box(filling: Filling, dump: Dump, shift: float) -> list[float] | None:
-    """Lowest and highest z and r of the cells in which a body is shown, m, with z where the mesh stood at the first dump."""
+    """Lowest and highest z and r of the cells in which a body is shown, m; z for the mesh in its place at the first dump."""
     rows, columns = filling.shown.any(axis=1).nonzero()[0], filling.shown.any(axis=0).nonzero()[0]
     if not len(rows):
         return None
@@ -128,7 +128,7 @@ def _box(filling: Filling, dump: Dump, shift: float) -> list[float] | None:
 def _thin(filling: Filling, shift: float) -> list[list]:
     """Cells, counted row by row, in which a body is narrower than a cell, and the ends r, z, r, z of the lines around it, m.
 
-    shift : how far the mesh has travelled, m: z is where the mesh stood at the first dump
+    shift : displacement of the mesh, m; z is for the mesh in its place at the first dump
     """
     lines = [line - (0.0, shift) for line in filling.around_thin]
     ends = [number for line in lines for pair in zip(line[:-1], line[1:], strict=True) for number in np.ravel(pair).tolist()]
@@ -136,7 +136,7 @@ def _thin(filling: Filling, shift: float) -> list[list]:
 
 
 def _piece(values: np.ndarray | None, each: Stored, bits: int, store: packing.Store) -> list | None:
-    """[low, high], and where the levels are in the store if the values differ; None for a field that a dump has not."""
+    """[low, high], and the place of the levels in the store if the values differ; None for a field that a dump lacks."""
     if values is None:
         return None
     finite = values[np.isfinite(values)]
@@ -152,7 +152,7 @@ def _piece(values: np.ndarray | None, each: Stored, bits: int, store: packing.St
 
 
 def _described(each: Stored, ranges: Ranges) -> dict:
-    """What the page says of a field, and its colour ranges for each of fields.CLIPS."""
+    """The description of a field in the page, and its colour ranges for each of fields.CLIPS."""
     known = asdict(each)
     said = {key: shown(known[key]) for key in ("word", "title", "unit", "body")}
     return said | {"ranges": ranges.clipped(), "parts": each.parts}

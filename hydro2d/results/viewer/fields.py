@@ -1,4 +1,4 @@
-"""The fields that a page has: one array of numbers for each scalar, component of a vector and body, and their ranges."""
+"""The fields of a page: one array of numbers for each scalar, component of a vector and body, and their ranges."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hydro2d.output.datasets import COMPONENTS, quantities_of
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 
-#: shares of the cells that may lie outside of a colour range, and how finely the values of a dump are ranked for it
+#: shares of the cells that may lie outside a colour range, and number of quantiles of a dump from which it is found
 CLIPS = (0.0, 0.005, 0.01, 0.02, 0.05)
 RANKS = 401
 
@@ -43,7 +43,7 @@ class Stored:
 
     @property
     def parts(self) -> list[str]:
-        """Words of the components of a vector whose magnitude this is; none of anything else."""
+        """Words of the components of the vector whose magnitude this is; empty for anything else."""
         return [f"{self.word}:{part}" for part in COMPONENTS] if self.is_magnitude else []
 
     @property
@@ -53,25 +53,25 @@ class Stored:
 
     def values(self, dump: Dump) -> np.ndarray | None:
         """Values of a dump in the reader's unit, shape (nz, nr); None if it has none."""
-        found = dump.fields.get(self.name)
-        if found is None:
+        array = dump.fields.get(self.name)
+        if array is None:
             return None
-        return (found if self.component is None else found[..., self.component]).astype(float) * self.scale
+        return (array if self.component is None else array[..., self.component]).astype(float) * self.scale
 
 
 def asked(words: Iterable[str], dumps: list[Dump], run) -> list[Quantity]:
-    """The quantities that words name, which are keys of quantities.TABLE or groups of them, in the order of the table.
+    """The quantities named by words, which are keys of quantities.TABLE or groups of them, in the order of the table.
 
-    Raises FieldError, and ViewError if no dump has a quantity that was asked for by its own name.
+    Raises FieldError, and ViewError if no dump has a quantity that was requested by its own name.
     """
     words, there = list(words), quantities_of(*dumps)
     if "all" in words:
         return there
     keys = quantities.expand(words)
-    held = {quantity.key for quantity in there}
+    available = {quantity.key for quantity in there}
     for word in words:
-        if word in quantities.BY_KEY and word not in held:
-            raise ViewError(f'{run.directory}: the dumps have no "{word}", but {", ".join(sorted(held))}; '
+        if word in quantities.BY_KEY and word not in available:
+            raise ViewError(f'{run.directory}: the dumps have no "{word}", but {", ".join(sorted(available))}; '
                             f"{quantities.not_written(word)}")
     return [quantity for quantity in there if quantity.key in keys]
 
@@ -83,7 +83,7 @@ def unit_of(unit: str) -> tuple[str, float]:
 
 
 def arrays(chosen: Iterable[Quantity], dumps: list[Dump]) -> list[Stored]:
-    """What is stored of quantities of dumps, in the order of the choice: components of vectors, one array for each body."""
+    """The stored arrays of chosen quantities, in their order: one for each component of a vector, one for each body."""
     fields = {name: values for dump in dumps for name, values in dump.fields.items()}
     return [each for quantity in chosen for each in _arrays_of(quantity, dumps[-1].bodies, fields)]
 
@@ -104,14 +104,14 @@ def _arrays_of(quantity: Quantity, bodies: list[str], fields: dict[str, np.ndarr
 
 
 class Ranges:
-    """Ranges of a field over all dumps, without void: the least and greatest values, and those without the outermost cells."""
+    """Ranges of a field over all dumps, without void: from smallest to largest value, and without the outermost cells."""
 
     def __init__(self) -> None:
         self._ranked: list[np.ndarray] = []
         self._cells: list[int] = []
 
     def add(self, values: np.ndarray, solid: np.ndarray) -> None:
-        """Takes the values of one dump where `solid` is true, shapes (nz, nr)."""
+        """Adds the values of one dump where `solid` is true, shapes (nz, nr)."""
         seen = values[solid & np.isfinite(values)]
         if seen.size:
             self._ranked.append(np.quantile(seen, np.linspace(0.0, 1.0, RANKS)))
@@ -130,5 +130,5 @@ class Ranges:
 
 
 def short(number: float) -> float:
-    """A number of seven digits, as float32 has them, which is short in a page."""
+    """A number rounded to seven digits, as in float32, which is short in a page."""
     return float(f"{number:.7g}")

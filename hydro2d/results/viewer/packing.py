@@ -1,7 +1,7 @@
-"""Numbers packed for a page: whole numbers of few bits between the least and the greatest value, differences, deflate, base64.
+"""Numbers packed for a page: integers of few bits between the smallest and largest value, differences, deflate, base64.
 
-`assets/data.js` unpacks them. Values of a field at a time are stored as levels, 0 for the least and `last_level` for the
-greatest of them, so that no value is off by more than `largest_error`. Levels are replaced by their differences along r and
+`assets/data.js` unpacks them. Values of a field at a time are stored as levels, 0 for the smallest and `last_level` for the
+largest, so that no value is off by more than `largest_error`. Levels are replaced by their differences along r and
 along z, modulo 2^16, which are small where a field is smooth, and split into their high and low bytes.
 """
 
@@ -13,26 +13,26 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-#: bits of a level that can be chosen; the last level of each stands for what is no number
+#: allowed numbers of bits of a level; the last level of each stands for non-finite values
 BITS = (8, 10, 12, 14, 16)
-#: bits where none are asked for, with which a value is off by 0.003 % of the range of its field at a time, or less
+#: default number of bits, with which a value is off by at most 0.003 % of the range of its field at a time
 DEFAULT_BITS = 14
-#: a compression that takes half the time of the strongest, for 2 % more
+#: a compression that takes half the time of the strongest, and 2 % more space
 STRENGTH = 6
 
 
 def last_level(bits: int) -> int:
-    """The level of the greatest value; the one above it stands for what is no number."""
+    """The level of the largest value; the one above it stands for non-finite values."""
     return (1 << bits) - 2
 
 
 def largest_error(low: float, high: float, bits: int) -> float:
-    """How far a value may be from the one that was packed."""
+    """Largest difference of an unpacked value from the original."""
     return 0.5 * (high - low) / last_level(bits)
 
 
 def levels_of(values: np.ndarray, low: float, high: float, bits: int) -> np.ndarray:
-    """Levels of values between low and high, shape as given, uint16."""
+    """Levels of values between low and high, same shape, uint16."""
     top = last_level(bits)
     finite = np.isfinite(values)
     scaled = (np.where(finite, values, low) - low) * (top / (high - low))
@@ -57,7 +57,7 @@ def _deflated(numbers: np.ndarray) -> bytes:
 
 @dataclass
 class Store:
-    """Pieces of packed numbers one after the other in a text; each begins at a multiple of four letters, three bytes."""
+    """Pieces of packed numbers, one after the other in a text; each begins at a multiple of four characters, three bytes."""
 
     _parts: list[str] = field(default_factory=list)
     _bytes: int = 0

@@ -1,4 +1,4 @@
-"""The page of one or two runs: the files of `assets` and the contents of the runs, put together into one HTML file."""
+"""The page of one or two runs: the files of `assets` and the contents of the runs, combined into one HTML file."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from hydro2d.results.viewer.packing import BITS, DEFAULT_BITS
 from hydro2d.terminal import shown
 
 PAGE = "view.html"
-#: the parts of the program in their order
+#: the parts of the program, in order
 SCRIPTS = (
     "data.js", "colours.js", "axes.js", "outlines.js", "section.js", "gestures.js", "panels.js", "controls.js", "main.js",
 )  # fmt: skip
-#: colour maps that the page offers, by the names that matplotlib gives them; the last is for fields with negative values
+#: colour maps that the page offers, by their names in matplotlib; the last is for fields with negative values
 MAPS = ("viridis", "cividis", "inferno", "gray", "RdBu_r")
 COLOURS = 256
 #: height of the page in a notebook, pixels
@@ -58,8 +58,8 @@ class View:
 def view(runs: Sequence, words: Iterable[str] = ("all",), bits: int = DEFAULT_BITS) -> View:
     """The page of one run, or of two side by side (results.Results).
 
-    words : fields as `hydro2d info` names them, or groups of them, which are stored beside material and volume fractions
-    bits : of each value, one of packing.BITS
+    words : fields as `hydro2d info` names them, or groups of them, stored in addition to material and volume fractions
+    bits : bits of each value, one of packing.BITS
 
     Raises ViewError, FieldError, VtkError, HistoryError.
     """
@@ -68,19 +68,19 @@ def view(runs: Sequence, words: Iterable[str] = ("all",), bits: int = DEFAULT_BI
     if bits not in BITS:
         raise ViewError(f"{bits} bits for a value: must be {', '.join(map(str, BITS))}")
     words = list(words)
-    found = [contents(run, words, bits) for run in runs]
+    packed = [contents(run, words, bits) for run in runs]
     about = {
         "made": f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         "clips": CLIPS,
         "body_colours": [[int(colour[place : place + 2], 16) for place in (1, 3, 5)] for colour in BODY_COLOURS],
         "maps": {name: _colours(name) for name in MAPS},
-        "runs": [table for table, _ in found],
+        "runs": [table for table, _ in packed],
     }
     parts = {
         "title": html.escape(" and ".join(shown(run.label) for run in runs)),
         "style": _asset("page.css"),
         "contents": _json(about),
-        "numbers": "\n".join(f'<script type="text/plain" class="numbers">{text}</script>' for _, text in found),
+        "numbers": "\n".join(f'<script type="text/plain" class="numbers">{text}</script>' for _, text in packed),
         "program": "\n".join(map(_asset, SCRIPTS)),
     }
     return View(re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], _asset("page.html")))
@@ -100,7 +100,7 @@ def _json(value) -> str:
 
 
 def _colours(name: str) -> str:
-    """The colours of a map as hexadecimal numbers of six digits, one after the other."""
+    """The colours of a map as a string of six-digit hexadecimal numbers."""
     from matplotlib import colormaps
 
     table = colormaps[name].resampled(COLOURS)
