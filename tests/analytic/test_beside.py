@@ -1,4 +1,4 @@
-"""What analytic models say beside the depth of a run."""
+"""Depths by analytic models, printed with the depth of a run."""
 
 import pytest
 

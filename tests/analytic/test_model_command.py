@@ -1,4 +1,4 @@
-"""`hydro2d model`: inputs and where they come from, tables, files, and one message for what is wrong."""
+"""`hydro2d model`: inputs and where they come from, tables, files, and one message for each mistake."""
 
 import csv
 import json
@@ -53,7 +53,7 @@ def test_numbers_of_a_steinberg_guinan_material():
 
 
 def test_numbers_of_a_power_law():
-    """E, nu and n are the law's own; at a strain the strength is hardened and n is not applied again."""
+    """E, nu and n are the law's own; the strength at a strain is already hardened, and n is not applied again."""
     material = library.load("Al5083")
     found = model_materials.quantities(material)
     assert (found["strength"].value, found["hardening_exponent"].value) == (276e6, 0.084)
@@ -79,7 +79,7 @@ def test_an_impossible_strain_is_refused(strain):
 
 @pytest.mark.parametrize("name", library.names())
 def test_every_material_of_the_library_is_read(name):
-    """What a material gives is finite; a gas has no strength and says so."""
+    """The numbers of every material are finite; a gas has no strength, and the message says so."""
     material = library.load(name)
     found = model_materials.quantities(material)
     assert set(found) <= set(inputs.FROM_LIBRARY)
@@ -199,7 +199,7 @@ def test_the_page_of_a_model(name, capsys):
 
 @pytest.mark.parametrize("name", catalogue.MODELS)
 def test_the_example_that_is_shown_runs(name, capsys):
-    """The command of the page gives what the model's example gives."""
+    """The command of the page gives the result of the model's example."""
     model = catalogue.MODELS[name]
     program, *arguments = shlex.split(model_text.example_command(model))
     assert program == "hydro2d"
@@ -288,7 +288,7 @@ def test_wrong_input_is_one_message_and_status_2(arguments, message, capsys):
 
 
 def test_the_experiments_are_those_of_the_study():
-    """Twelve shots, six on each alloy; rigid by the rule are those that the study's drop in depth leaves above it."""
+    """Twelve shots, six on each alloy; rigid by the rule are those above the study's drop in depth."""
     shots = model_transition.experiments()
     assert len(shots) == 12
     assert sorted(shot.number for shot in shots) == [str(number) for number in range(4338, 4350)]
@@ -331,7 +331,7 @@ def test_a_rod_weaker_than_its_target_has_no_transition(capsys):
 
 
 def run_directory(folder, velocity, regime, overrides=()):
-    """A directory as a run leaves it, as far as the comparison reads it."""
+    """A directory as a run leaves it, with the files that the comparison reads."""
     from hydro2d.deck import deck
 
     folder.mkdir()

@@ -1,4 +1,4 @@
-"""The command line: one message and status 2 for what the user has to mend; no traceback."""
+"""The command line: one message and status 2 for a user's mistake; no traceback."""
 
 import importlib
 import json
@@ -82,7 +82,7 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
 
 
 def test_kernels_are_compiled_before_they_are_needed(simulation, deck, monkeypatch, capsys):
-    """Nothing is left of the runs that compile them; without a deck, shipped ones are run."""
+    """The runs that compile leave nothing behind; without a deck, shipped ones are run."""
     from hydro2d.running import compile_all
 
     monkeypatch.chdir(Path(deck).parent)
@@ -135,7 +135,7 @@ def test_a_quiet_run_says_in_one_line_that_it_ended_unphysical(simulation, deck,
     printed = capsys.readouterr()
     reason = json.loads((out / "summary.json").read_text())["stop_reason"]
     assert (printed.out, printed.err) == ("", f"hydro2d: {out}: unphysical: {reason}\n")
-    assert "unphysical" not in reason  # the word stands before it
+    assert "unphysical" not in reason  # the word comes before it
     simulation.fail_at = None
     assert call(["run", str(deck), "--out", str(out), "--quiet", "--overwrite"]) == 0
     assert capsys.readouterr() == ("", "")
@@ -240,7 +240,7 @@ def test_what_a_command_makes_has_one_name(command, capsys):
 
 
 def test_help_is_light():
-    """Nothing heavy is imported to say what the commands are."""
+    """Printing the commands imports nothing heavy."""
     code = """
         import sys
         from hydro2d.cli.main import call
@@ -282,7 +282,7 @@ def test_signals_write_a_restart_file(deck, tmp_path, number, status):
 
 
 def test_kill_leaves_whole_files(deck, tmp_path):
-    """kill -9 in the middle of constant writing: what is there can be read."""
+    """kill -9 in the middle of constant writing: all files that exist can be read."""
     code = """
         import sys, types
         from tests import fake

@@ -1,4 +1,4 @@
-"""What is printed of decks and studies fits a terminal of 80 columns, and breaks nowhere where there is no terminal."""
+"""Output on decks and studies fits a terminal of 80 columns, and is not broken where there is no terminal."""
 
 import pytest
 
@@ -42,7 +42,7 @@ def test_a_deck_is_told_in_so_many_columns(name, capsys, monkeypatch):
 @pytest.mark.parametrize("command", [["new", "--list"], ["info"], ["info", "W_alloy"], ["info", "johnson-cook"], ["model"],
                                      ["info", "numerics.advection"]])
 def test_explanations_go_on_below_their_column(command, capsys, monkeypatch):
-    """Nothing is lost; a text that begins far to the right goes on below the beginning of its line."""
+    """Nothing is lost; a text that begins far to the right continues below the beginning of its line."""
     monkeypatch.delenv("COLUMNS", raising=False)
     whole = printed(capsys, *command)
     assert max(map(len, whole)) > COLUMNS

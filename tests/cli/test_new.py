@@ -1,4 +1,4 @@
-"""The templates of `hydro2d new`, the command, and what `hydro2d check` says and draws of a deck."""
+"""The templates of `hydro2d new`, the command, and the output and pictures of `hydro2d check`."""
 
 import re
 
@@ -17,7 +17,7 @@ def test_there_are_templates():
 
 @pytest.mark.parametrize("kind", templates.kinds())
 def test_a_template_is_written_checked_and_runs(kind, tmp_path, monkeypatch, capsys):
-    """Without a warning; the mesh is described in two words; the commands that are printed are those for the file."""
+    """Without a warning; two keys describe the mesh; the commands that are printed are those for the file."""
     monkeypatch.chdir(tmp_path)
     assert call(["new", kind]) == 0
     commands = re.findall(r"^ +hydro2d (\w+) (\S+)", capsys.readouterr().out, re.M)

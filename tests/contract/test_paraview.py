@@ -1,4 +1,4 @@
-"""What docs/how-to/paraview.md tells to do, done with VTK's own classes to the files of a short shot with contact."""
+"""The steps of docs/how-to/paraview.md, carried out with VTK's own classes on the files of a short shot with contact."""
 
 import re
 from xml.etree import ElementTree
@@ -102,7 +102,7 @@ def volume_of_rod(dump):
 
 @pytest.mark.parametrize("name", SERIES)
 def test_series(shot, name):
-    """Times rise, every file is there and says the same time, and all series have the same."""
+    """Times rise, every file exists and has its time, and all series have the same times."""
     entries = collection(shot, name)
     times = [time for time, _ in entries]
     assert times == [time for time, _ in shot.dumps]
@@ -141,7 +141,7 @@ def test_the_grid_of_the_series_moves(shot):
 
 
 def test_the_page_names_what_the_files_have(shot):
-    """Every array and every series that the page names, in backquotes, is there, and the columns of the history."""
+    """Every array and every series that the page names, in backquotes, exists, and so do the columns of the history."""
     read, tracers = reader(shot, 0), reader(shot, 0, "tracers.pvd").GetOutput().GetPointData()
     part = parts(read)[1]["Volume Fraction for rod"].GetPointData()
     have = {*arrays(read.GetOutput().GetCellData()), *arrays(tracers), *arrays(part)}
@@ -206,7 +206,7 @@ def turned(extract, angle):
 
 @pytest.mark.parametrize("number", [0, 4])
 def test_the_turned_part_is_the_solid(shot, number):
-    """Its volume is the rod's mass by its density if the outlines alone are turned; with caps each surface is there twice."""
+    """Its volume is the rod's mass over its density if only the outlines are turned; with caps every surface appears twice."""
     extract, found = parts(reader(shot, number), cap=False)
     assert found["Volume Fraction for rod"].GetNumberOfPolys() == 0
     triangles = vtkTriangleFilter()
@@ -305,12 +305,12 @@ def test_tracers_are_points_where_the_deck_puts_them_and_go_with_the_material(sh
     assert not points[:, 2].any()
     time = shot.dumps[1][0]
     moved = vtk_to_numpy(reader(shot, 1, "tracers.pvd").GetOutput().GetPoints().GetData())
-    assert moved[0, :2] == pytest.approx([0.0, TRACERS[0][1] + SPEED * time], abs=1e-5)  # no wave has come there yet
+    assert moved[0, :2] == pytest.approx([0.0, TRACERS[0][1] + SPEED * time], abs=1e-5)  # no wave has arrived yet
     assert moved[2, :2] == pytest.approx(TRACERS[2], abs=1e-6)
 
 
 def test_paths_of_tracers(shot):
-    """One line for each with a point for each dump in which it moved, once the mask lets all pass."""
+    """One line for each tracer, with a point for each dump in which it moved, once the mask lets all pass."""
     tracers = Tracers(shot)
     paths = vtkTemporalPathLineFilter()
     paths.SetInputConnection(tracers.GetOutputPort())
@@ -329,7 +329,7 @@ def test_paths_of_tracers(shot):
 @pytest.mark.parametrize(("name", "lowest", "highest"), [("Velocity of Hard Bodies [m/s]", 0.5, 1.0),
                                                          ("Velocity of Soft Bodies [m/s]", 0.0, 0.5)])  # fmt: skip
 def test_glyphs_of_both_velocities(shot, name, lowest, highest):
-    """One arrow in every cell of its side of the interface; on the other side the velocity is zero."""
+    """One arrow in every cell on its side of the interface; on the other side the velocity is zero."""
     read = reader(shot, 4)
     side = vtkThreshold()
     side.SetInputConnection(read.GetOutputPort())

@@ -1,4 +1,4 @@
-"""Numbers without a unit: refused with what was probably meant, unless the deck says that they are in SI units."""
+"""Numbers without a unit: refused with a suggestion, unless the deck says that they are in SI units."""
 
 import pytest
 

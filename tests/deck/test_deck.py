@@ -1,4 +1,4 @@
-"""Decks: what they accept, what they refuse and how they say it."""
+"""Decks: what they accept and refuse, and the messages."""
 
 import copy
 import json
@@ -424,7 +424,7 @@ def test_all_that_is_wrong_is_told_at_once():
 
 @pytest.mark.parametrize("density", ["1.2 kg/m^3", "1000 kg/m^3"])
 def test_gas_beside_solids_is_warned_of(density):
-    """With contact and without; a gas without solids is no matter."""
+    """With contact and without; a gas without solids gives no warning."""
     options = [f'materials.air.eos.reference_density="{density}"']
     warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
     assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml", options))
@@ -435,7 +435,7 @@ def test_gas_beside_solids_is_warned_of(density):
 
 
 def test_an_override_removes_a_key():
-    """It then has its default; one that is not there stays away, and one that no deck has is told."""
+    """The key then has its default; removing an absent key changes nothing, and an unknown key is reported."""
     file = "problems/cth_nose_shape/ogive_7039_1291.toml"
     flat = [["body.rod.nose=flat", "body.rod.crh="], {"body.rod.nose": "flat", "body.rod.crh": None}]
     for overrides in (*flat, [*flat[0], "body.rod.half_angle="]):

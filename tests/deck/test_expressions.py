@@ -1,4 +1,4 @@
-"""Formulas of a deck: what they may have, their units, and what is refused."""
+"""Formulas of a deck: their terms, their units, and what is refused."""
 
 import math
 
@@ -79,7 +79,7 @@ def test_what_is_not_known_yet():
 
 
 def test_every_unit_has_its_dimension():
-    """A number in each unit is one of the same dimension as a name in it."""
+    """A number in each unit has the same dimension as a name in it."""
     for (name, dimension), spelled in zip(DIMENSIONS.items(), SPELLED, strict=True):
         assert to_si(f"1 {spelled}" if spelled != "1" else 1.0, spelled) == 1.0
         if name not in ("1", "rad"):

@@ -1,4 +1,4 @@
-"""Names and numbers that a deck cannot have are refused with their key; nothing that a deck says is a traceback."""
+"""Names and numbers that a deck cannot have are refused with their key; no deck causes a traceback."""
 
 import contextlib
 import tomllib
@@ -75,7 +75,7 @@ ABSURD = ["1e308", "-1e308", "1e30", "1e-300", "-1e-300", "0", "nan", "inf", "-i
 
 @pytest.mark.parametrize("key", KEYS)
 def test_an_absurd_number_is_refused_or_harmless(key):
-    """Every number of a resolved deck, replaced by every absurdity: a message that names the key, or a deck."""
+    """Every number of a resolved deck, replaced by every absurdity: the result is a message that names the key, or a deck."""
     text = deck.loads(TRACED).to_toml()
     for value in ABSURD:
         with contextlib.suppress(DeckError):  # any other error is a traceback for the user
@@ -129,7 +129,7 @@ def test_a_deck_of_the_user_is_not_overwritten(tmp_path, capsys):
 
 
 def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
-    """As 13.291833 mm where 13.2918335 mm was meant."""
+    """For example 13.291833 mm where 13.2918335 mm was meant."""
     meant = deck.loads(TEXT, ['mesh.z=[{to="20 mm", size="0.5 mm"}]'])
     assert [text for text in deck.warnings(meant) if text.startswith("mesh")] == []
     snapped = deck.loads(TEXT, ['mesh.z=[{to="20.00004 mm", size="0.5 mm"}]'])

@@ -1,4 +1,4 @@
-"""What a deck says before it runs: order of targets, starts, overlaps, numbers without units, what holds in tension."""
+"""Messages on a deck before it runs: order of targets, starts, overlaps, numbers without units, what bears tension."""
 
 import math
 from pathlib import Path
@@ -34,7 +34,7 @@ def test_a_resolved_deck_is_a_fixed_point(name):
 
 @pytest.mark.parametrize("seed", range(30))
 def test_resolved_decks_of_random_boxes_are_fixed_points(seed):
-    """Nested, side by side, behind one another, in any order, before and behind the rod."""
+    """Nested, side by side, behind one another, in any order, ahead of and behind the rod."""
     rng = np.random.default_rng(seed)
     bodies = [ROD]
     for number in range(int(rng.integers(1, 6))):
@@ -98,7 +98,7 @@ def test_a_hot_bar_at_rest_stays_at_rest():
 
 @pytest.mark.parametrize(("first", "second", "told"), [
     (box_of("plate", (0, 20), (0, 10)), box_of("rod", (0, 3), (-10, 3)), 'bodies "plate" and "rod" overlap by 84.8 mm^3'),
-    (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # in it altogether, and meant
+    (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # all of it inside, and intended
     (box_of("a", (0, 3), (0, 3)), box_of("b", (3, 6), (0, 3)), ""),
     (box_of("a", (0, 3), (0, 3)), box_of("b", (0, 3), (2, 5), join="a"), ""),
 ])  # fmt: skip
@@ -108,7 +108,7 @@ def test_overlaps_are_told_with_their_volume(first, second, told):
 
 
 def test_the_volume_that_two_bodies_share():
-    """A ball and a box that cuts its upper half off; planar, a disc."""
+    """A ball and a box that cuts off its upper half; planar, a disc."""
     ball, upper = sphere(0.0, 0.0, 2.0), box((0.0, 5.0), (0.0, 5.0))
     found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
     assert found == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
@@ -149,7 +149,7 @@ def test_liquids_that_bear_any_tension_are_told():
 
 
 def test_water_cavitates():
-    """Two slabs at 400 m/s: no more tension than a step adds to that at which water cavitates, -20 MPa; -108 MPa were borne."""
+    """Two slabs at 400 m/s: a step adds little to the tension at which water cavitates, -20 MPa; it used to bear -108 MPa."""
     water = entry("body", name="flyer", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"], z=["-2 mm", "0 mm"],
                   velocity="400 m/s") + entry("body", name="target", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"],
                                               z=["0 mm", "4 mm"])  # fmt: skip

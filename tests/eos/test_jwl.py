@@ -1,4 +1,4 @@
-"""Explosives: the Chapman-Jouguet state of every set, the products between the unreacted solid and burnt, what burns when."""
+"""Explosives: the Chapman-Jouguet state of every set, the mixture of unreacted solid and products, what burns when."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ EXPLOSIVES = [(name, variant) for name in library.names() if library.load(name).
 
 
 def pressure(volume, energy):
-    """JWL as it is printed, with V = rho0/rho and E per initial volume; TNT."""
+    """JWL in its printed form, with V = rho0/rho and E per initial volume; TNT."""
     first, second = (amplitude * (1.0 - 0.3 / (rate * volume)) * np.exp(-rate * volume)
                      for amplitude, rate in ((371.2e9, 4.15), (3.231e9, 0.95)))
     return first + second + 0.3 * energy / volume

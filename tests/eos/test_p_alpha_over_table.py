@@ -1,4 +1,4 @@
-"""P-alpha over a table: the search for the crush curve at its ends, continuity, c^2, second order, and where it ends."""
+"""P-alpha over a table: the search for the crush curve at its ends, continuity, c^2, second order, and the table's limits."""
 
 import functools
 
@@ -96,14 +96,14 @@ def test_beyond_the_table_the_excess_is_infinite_on_the_side_of_the_rest():
 
 @pytest.mark.parametrize(("rho", "e"), [(1.4 * REST, 0.0), (1.7 * REST, 1e6), (2400.0, 4e7), (np.nan, 0.0), (2400.0, np.nan)])
 def test_where_the_table_has_no_state_there_is_no_pressure(rho, e):
-    """The distention stays a number, so that the message can tell the density of the solid."""
+    """The distention stays a number, so that the message can give the density of the solid."""
     left = after(ROW, rho, e)
     assert 1.0 <= left <= VIRGIN
     assert np.isnan(evaluate(ROW, rho, e, left)).all()
 
 
 def test_a_crush_curve_that_the_table_does_not_reach_leaves_the_material_beyond_it():
-    """The states of the table are all below the curve: no clipping to the last of them."""
+    """All states of the table lie below the curve: the material is not clipped to the last of them."""
     short = over(41, 0.9, 1.004)
     for rho in (2550.0, 2600.0, 2650.0):
         assert p_alpha.solid_density(rho, after(MODEL, rho, 0.0), MODEL)[0] > 1.004 * REST
@@ -121,7 +121,7 @@ def density_at(rho_s, distention):
 
 
 def state(x, y, z):
-    """Density, energy and distention whose solid is at shares of the densities and energies of the table."""
+    """Density, energy and distention of material whose solid lies at these shares of the table's densities and energies."""
     distention = 1.0 + z * (VIRGIN - 1.0)
     low, high = (density_at(edge, distention) for edge in (EDGES[0] * (1 + 1e-9), EDGES[-1] * (1 - 1e-9)))
     rho = low + x * (high - low)
@@ -132,7 +132,7 @@ def state(x, y, z):
 @given(x=SHARE, y=SHARE, z=SHARE)
 @settings(max_examples=300, deadline=None)
 def test_c2_is_positive_wherever_the_pressure_is(x, y, z):
-    """c^2 = h^2 c_s^2 + (1 - h^2)(p_s/rho_s)(1 + dp/de|s/rho_s), and in tension while that of the solid outweighs the rest."""
+    """c^2 = h^2 c_s^2 + (1 - h^2)(p_s/rho_s)(1 + dp/de|s/rho_s), and in tension while the solid's term outweighs the rest."""
     rho, e, distention = state(x, y, z)
     p, dpdrho, dpde, T = evaluate(ROW, rho, e, distention)
     assert not np.isnan(p)
@@ -161,14 +161,14 @@ def test_pressure_and_temperature_are_continuous(x, y, z):
 @given(x=st.floats(0.0, 1.0), e=st.floats(0.0, 5e5))
 @settings(max_examples=200, deadline=None)
 def test_pressure_is_continuous_while_pores_are_crushed(x, e):
-    """Also where the solid passes a point of its table, and where a crush begins or ends."""
+    """Even where the solid passes a point of its table, and where a crush begins or ends."""
     rho = ROW[RHO0] * (1.0 + 0.3 * x)
     p, other = (evaluate(ROW, density, e, after(ROW, density, e))[0] for density in (rho, rho * (1 + 1e-9)))
     assert abs(other - p) < 1e-7 * (abs(p) + 75e9)
 
 
 def test_across_the_points_of_the_table_the_pressure_does_not_jump():
-    """At the least step that densities have, virgin and crushed."""
+    """Over the smallest step between densities, for virgin and crushed material."""
     for edge in EDGES[1:-1]:
         for distention in (VIRGIN, 1.1):
             rho = density_at(edge, distention)
@@ -177,7 +177,7 @@ def test_across_the_points_of_the_table_the_pressure_does_not_jump():
                 assert below[0] == pytest.approx(above[0], rel=1e-9, abs=10.0)
 
 
-# the model that was tabulated
+# against the model that was tabulated
 
 
 def compacted(par, velocity):
@@ -205,7 +205,7 @@ def compacted(par, velocity):
 
 
 def test_the_crushing_wave_is_that_of_the_model_to_second_order():
-    """The largest miss in pressure and density, where pores close in part and in full; the page's numbers."""
+    """The largest error in pressure and density, with pores closed in part and in full; the page's numbers."""
     velocities = np.linspace(120.0, 1000.0, 23)
     exact = [compacted(MODEL, u) for u in velocities]
     errors = [max(abs(a / b - 1.0) for u, pair in zip(velocities, exact, strict=True)
@@ -225,7 +225,7 @@ def test_at_rest_the_sound_speed_is_the_given_one_and_the_solid_that_of_the_tabl
 
 
 def test_h_is_of_first_order():
-    """By the slope of the table above the density at rest; the page's number."""
+    """From the slope of the table above the density at rest; the page's number."""
     default = [p_alpha.row(POROUS, tabular, tabulate.table_of(
         "aluminium", mie_grueneisen, {**SOLID, "reference_density": REST},
         tabulate.points(0.8 * REST, REST, 3.0 * REST, number), tabulate.temperatures(298.0, 2e4, 11))) for number in (76, 151)]
@@ -249,7 +249,7 @@ def test_a_row_that_the_table_does_not_allow(change, high, words):
 
 
 def deck(**changes):
-    """The compaction of a block whose solid is a table."""
+    """The compaction of a block whose solid comes from a table."""
     eos = {"model": "p-alpha", "solid": "tabular", "table_data": sesame.write(table(41)), "table_from": "al.301", **POROUS}
     given = {"body.block.material": "foam", "materials.foam": {"eos": eos}, "mesh.z": [{"to": "4 mm", "cells": 80}],
              "body.block.thickness": "3.9 mm", "stop.time": "0.7 us", "numbers": "SI", **changes}

@@ -59,7 +59,7 @@ def test_elastic_piston_is_refused():
 
 
 def test_an_elastic_piston():
-    """At the elastic limit it is the precursor; in the limit of a slow piston the wave of longitudinal sound."""
+    """At the elastic limit it is the precursor; for a slow piston, in the limit, the longitudinal sound wave."""
     solid, shear_modulus, yield_stress = ALUMINIUM
     limit = piston(solid, shear_modulus, yield_stress, 400.0).elastic
     found = elastic(solid, shear_modulus, limit.u)

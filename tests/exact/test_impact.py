@@ -1,4 +1,4 @@
-"""Impedance match and release against numbers that an independent program printed, and against the jump conditions."""
+"""Impedance match and release against numbers printed by an independent program, and against the jump conditions."""
 
 import pytest
 
@@ -60,7 +60,7 @@ def test_release_leaves_hot_and_light_metal():
 
 @pytest.mark.parametrize("u", [50.0, 500.0, 1500.0])
 def test_two_ways_to_the_same_shock(u):
-    """The Hugoniot line is a solution of the Hugoniot relation with the equation of state."""
+    """The Hugoniot line satisfies the Hugoniot relation with the equation of state."""
     line = shock(AL_5083, u)
     relation = shock_from(AL_5083, AL_5083.rho0, 0.0, line.p)
     assert relation.u == pytest.approx(u, rel=1e-9)

@@ -1,4 +1,4 @@
-"""The Riemann solver against Toro's tables and against the jump conditions it must satisfy."""
+"""The Riemann solver against Toro's tables and against the jump conditions."""
 
 import numpy as np
 import pytest
@@ -42,7 +42,7 @@ def test_water_drives_gas():
 
 @pytest.mark.parametrize("pair", [*(value[:2] for value in TORO.values()), WATER_GAS])
 def test_conservation_over_the_fan(pair):
-    """d/dt of mass and momentum in a box that holds every wave is the flux through its ends."""
+    """d/dt of mass and momentum in a box that contains all waves is the flux through its ends."""
     left, right = pair
     found = solve(left, right)
     edge = 1.1 * max(abs(found.left_wave[0]), abs(found.right_wave[0]))

@@ -1,4 +1,4 @@
-"""Products of explosives: Shyue's Riemann problem in print, and the laws on both sides of a contact with metal."""
+"""Products of explosives: Shyue's printed Riemann problem, and the laws on both sides of a contact with metal."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from problems.verification.exact.riemann_jwl import PBX9404, burnt, drive, shyue
 
 
 def test_shyues_problem():
-    """As ExactPack's tests have it, in Mbar, cm/us and g/cm^3."""
+    """As in ExactPack's tests, in Mbar, cm/us and g/cm^3."""
     found = shyue()
     assert 1e-11 * found.p == pytest.approx(4.4071017, rel=2e-7)
     assert 1e-4 * found.u == pytest.approx(1.6952363, rel=2e-7)
@@ -28,7 +28,7 @@ def test_the_fan_is_a_simple_wave():
 
 
 def test_products_drive_aluminium():
-    """The same pressure and velocity on both sides; the conservation of mass, momentum and energy over the whole tube."""
+    """Pressure and velocity are equal on both sides; mass, momentum and energy are conserved over the whole tube."""
     products = burnt(*PBX9404)
     found = drive(products, AL_5083)
     assert -products.behind(found.p)[1] == pytest.approx(found.u, rel=1e-10)

@@ -1,4 +1,4 @@
-"""Functions that take arrays by their names: what is compiled of them, and what is refused."""
+"""Functions that take arrays by their names: their compiled form, and what is refused."""
 
 import inspect
 import traceback
@@ -20,13 +20,13 @@ def half_of(j, i, w):
 
 @jit.apart
 def pushed(j, i, more, w):
-    """What a vertex gains."""
+    """Velocity that a vertex gains."""
     return w.dt * half_of(j, i, w) + more
 
 
 @jit.rowwise
 def push_row(j, more, w):
-    """Pushes the vertices of a row; pushed may be called otherwise."""
+    """Pushes the vertices of a row; pushed may be called under another name."""
     for i in range(w.i0, w.i1):
         u = pushed(j, i, more, w)
         w.v[0, j, i] += u
@@ -41,7 +41,7 @@ def push(part, ranges, w):
 
 @jit.cell_rows
 def count(j, part, w):
-    """Counts rows, and in the first part by ten."""
+    """Counts rows, and in the first part in tens."""
     step = 10.0 if part == 0 else 1.0
     w.dz[j] += step
 

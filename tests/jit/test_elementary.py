@@ -101,7 +101,7 @@ def test_the_last_values_that_are_finite_and_not_zero():
 
 @pytest.mark.parametrize("number", [1, 7, 8, 9, 31, 64])
 def test_the_bits_do_not_depend_on_the_place_in_a_row(number):
-    """Vectors, what is left after the last one, and a single call."""
+    """Vectors, the remainder after the last one, and a single call."""
     x, y = 10.0 ** RANDOM.uniform(-12.0, 3.0, number), RANDOM.uniform(0.05, 1.5, number)
     np.testing.assert_array_equal(row_of(powers, x, y), [power(a, b) for a, b in zip(x, y, strict=True)])
     np.testing.assert_array_equal(row_of(logs, x), [log(a) for a in x])

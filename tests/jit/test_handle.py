@@ -1,4 +1,4 @@
-"""Handles: what compiled code finds by a name is what Python has given by it; values of another type are refused."""
+"""Handles: compiled code finds under a name what Python has stored under it; values of another type are refused."""
 
 import numba
 import numpy as np

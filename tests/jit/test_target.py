@@ -1,4 +1,4 @@
-"""The processor that code is compiled for, and that code for another one, or by other options, is never taken for it."""
+"""The processor that code is compiled for; code for another one, or with other options, is never used instead."""
 
 import os
 import platform
@@ -69,7 +69,7 @@ def test_numba_compiles_for_the_target():
 
 @needs_name
 def test_a_program_that_has_used_numba_before_is_told(tmp_path):
-    """The target stays what it was, also in the names of the files."""
+    """The target stays as it was, also in the names of the files."""
     done = in_process("import numba; numba.njit(lambda x: x)(1); from hydro2d.jit import target; print(target.PROCESSOR)",
                       HYDRO2D_TARGET=NAME)
     assert done.stdout.strip() == llvmlite.binding.get_host_cpu_name()
@@ -77,7 +77,7 @@ def test_a_program_that_has_used_numba_before_is_told(tmp_path):
     assert len(done.stderr.splitlines()) == 1
 
 
-#: variables of numba that change code, and what says that they are different from the default
+#: variables of numba that change code, and the text that says that they differ from the default
 CHANGES = {"NUMBA_OPT": "max", "NUMBA_LOOP_VECTORIZE": "0", "NUMBA_SLP_VECTORIZE": "1", "NUMBA_ENABLE_AVX": "0",
            "NUMBA_BOUNDSCHECK": "1", "NUMBA_DEBUGINFO": "1", "NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": "",
            "HYDRO2D_TARGET": NAME}  # fmt: skip
@@ -86,7 +86,7 @@ HARMLESS = {"NUMBA_FULL_TRACEBACKS": "1", "NUMBA_DEVELOPER_MODE": "0", "NUMBA_CO
 
 @needs_name
 def test_options_that_change_code_change_the_folder():
-    """And what only changes reports does not."""
+    """Variables that only change reports do not."""
     code = "from hydro2d.jit import cache; print(cache.folder_for([cache.HERE / 'bits.py']))"
     processes = {name: subprocess.Popen([sys.executable, "-c", code], cwd=cache.ROOT, stdout=subprocess.PIPE, text=True,
                                         env={**os.environ, **({name: value} if name else {})})
@@ -105,7 +105,7 @@ def test_other_versions_have_other_folders(module, name, monkeypatch):
 
 
 def test_the_folder_is_the_same_wherever_the_package_lies(tmp_path, monkeypatch):
-    """A file is known by its path from the folder that holds hydro2d, not by its name alone."""
+    """A file is known by its path from the folder that contains hydro2d, not by its name alone."""
     for place in ("one", "two"):
         for name in ("eos/a.py", "strength/a.py"):
             (tmp_path / place / name).parent.mkdir(parents=True)
@@ -181,7 +181,7 @@ def test_a_run_has_the_same_bits_on_another_target():
 
 @pytest.fixture
 def shipped(tmp_path, monkeypatch, capsys):
-    """A package with compiled code, of which a test changes what it is for; gives what is then said."""
+    """A package with compiled code, of which a test changes the target; returns the message."""
     monkeypatch.setattr(cache, "SHIPPED", tmp_path / "_compiled")
     (tmp_path / "_compiled").mkdir()
 

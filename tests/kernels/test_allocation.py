@@ -15,7 +15,7 @@ from tests.decks import entry, mesh, plate, rod, stop, table
 
 #: bytes: views and numbers of Python, the same on every mesh
 SLACK = 512
-#: cycles before memory is looked at, and while it is: both orders of the sweeps, with and without new slip zones
+#: cycles before memory is measured, and during: both orders of the sweeps, with and without new slip zones
 WARM, LOOKED_AT = 6, 10
 
 
@@ -35,9 +35,9 @@ def started(columns: int, rows: int, *, active: bool, advection: str, sliding: s
 
 
 def peaks(simulation: Simulation) -> list[int]:
-    """The most memory that every one of a few cycles holds beyond what was there before it, bytes.
+    """The largest memory of each of a few cycles beyond that before the cycle, bytes.
 
-    Not of those in which depths are looked at, whose columns are as long as the mesh.
+    Cycles in which depths are measured, with columns as long as the mesh, are left out.
     """
     found = []
     tracemalloc.start()
@@ -74,9 +74,9 @@ def test_numpy(options):
 
 @every_choice
 def test_kernels(monkeypatch, options):
-    """Kernels neither allocate nor count references to the arrays that they are given."""
+    """Kernels neither allocate nor count references to their arrays."""
     simulation = started(24, 72, **options)
-    monkeypatch.setattr(simulation, "refuse_nonsense", lambda: None)  # its sums are no kernels of a cycle
+    monkeypatch.setattr(simulation, "refuse_nonsense", lambda: None)  # its sums are not kernels of a cycle
     counting = _nrt_python.memsys_stats_enabled()
     _nrt_python.memsys_enable_stats()
     try:

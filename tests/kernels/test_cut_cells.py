@@ -1,4 +1,4 @@
-"""Cells that a surface cuts: where their surfaces are, the traction at which bodies meet, volumes and energies after that."""
+"""Cells that a surface cuts: positions of their surfaces, the traction at which bodies meet, resulting volumes and energies."""
 
 import numpy as np
 import pytest
@@ -56,7 +56,7 @@ class Cell:
 
     @property
     def grown(self) -> float:
-        """What the bodies grow by, as a share of the cell."""
+        """Growth of the bodies, as a share of the cell."""
         return float(self.vof[:, 0, 0] @ self.mix[0, GROWTH])
 
     def normal_pressures(self):
@@ -124,7 +124,7 @@ def test_a_crack_without_void_pulls_and_a_wider_one_the_less():
 @pytest.mark.parametrize(("kind", "bodies"), [(FREE_SURFACE, ((0.8, 0.0, *STEEL),)),
                                               (INTERFACE, ((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM)))])
 def test_void_is_shut_before_the_traction_rises(kind, bodies, weight):
-    """And nothing jumps where it just shuts."""
+    """Without a jump where it just closes."""
     def with_void(void):
         scaled = [((1.0 - void) * f / sum(b[0] for b in bodies), *rest) for f, *rest in bodies]
         cell = Cell(*scaled, kind=kind, weight=weight)
@@ -244,7 +244,7 @@ def test_a_body_with_room_grows_by_what_it_grows():
 
 
 def test_each_body_does_the_work_of_its_own_normal_stress():
-    """What is left of the cell's work goes by mass."""
+    """The rest of the cell's work is shared by mass."""
     _, after = filled(*CASES[0])
     mass = 3.0 * np.array([0.3, 0.7]) * (2.0, 3.0)
     own = 3.0 * np.array([0.3 * -0.01 * 0.5 * (0.011 + 0.01), 0.7 * -0.0243 * 0.5 * (0.006 + 0.01)])
@@ -275,7 +275,7 @@ def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False,
 
 
 def half_plane(angle: float, dr: float = 1.0, dz: float = 1.0):
-    """Fractions of what lies against (cos, sin) of a line through the middle of the mesh."""
+    """Fractions of material on the side opposite to (cos, sin) of a line through the middle of the mesh."""
     inside = (np.arange(40) + 0.5) / 40
     x = ((np.arange(SIZE_OF_MESH)[:, None] + inside).ravel() - 0.5 * SIZE_OF_MESH) * dr
     below = x[None, :] * np.cos(angle) + x[:, None] * (dz / dr) * np.sin(angle) <= 0.0

@@ -1,4 +1,4 @@
-"""Slave nodes: how firmly they are tied, and to what, all of it continuous in what fills the cells."""
+"""Slave nodes: how firmly they are tied, and to which masters, all of it continuous in the fractions of the cells."""
 
 import numpy as np
 import pytest
@@ -18,12 +18,12 @@ cell_weight = extension.cell_weight.source
 #: cells of the mesh along either side, and those of a mesh whose cells differ
 N = 11
 LEVEL, GRADED = np.arange(N + 1.0), np.cumsum(1.0 + 0.2 * np.sin(np.arange(N + 1.0)))
-#: nothing is that steep that decides anything at once
+#: no change so steep that it switches anything at once
 STEEPNESS = 2e4
 
 
 class Extensions:
-    """Slaves among all vertices that both groups have, where hard fills cells [j, i] and soft the rest of them.
+    """Slaves among all vertices of both groups, where hard fills cells [j, i] and soft the rest of them.
 
     Rows and columns are those of the mesh without ghosts. The normal, from hard to soft, is everywhere the same.
     """
@@ -82,7 +82,7 @@ class Extensions:
 
 
 def half_plane(angle: float) -> np.ndarray:
-    """Fractions of what lies against (cos, sin) of a line through the middle of cells of one size."""
+    """Fractions of material on the side opposite to (cos, sin) of a line through the middle of cells of one size."""
     inside = (np.arange(20) + 0.5) / 20
     x = (np.arange(N)[:, None] + inside).ravel() - 0.5 * N + 0.1
     below = x[None, :] * np.cos(angle) + x[:, None] * np.sin(angle) <= 0.0
@@ -94,7 +94,7 @@ def scattered(seed: int) -> np.ndarray:
 
 
 def block(**cells: float) -> np.ndarray:
-    """A hard block of 3 x 3 cells from row and column 4 on, with other fractions in cells named as r5c4."""
+    """A hard block of 3 x 3 cells from row and column 4 on, with other fractions in cells named like r5c4."""
     hard = np.zeros((N, N))
     hard[4:7, 4:7] = 1.0
     for name, fraction in cells.items():
@@ -174,7 +174,7 @@ def test_weights_add_up_to_one(hard, normal, most_squares):
 @pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 4, 1.3, 2.5])
 @pytest.mark.parametrize("edges", [LEVEL, GRADED], ids=["level", "graded"])
 def test_a_linear_field_is_met(angle, edges):
-    """As long as it is a mean of those of cells, and nothing is capped."""
+    """As long as it is a mean of cell values, and nothing is capped."""
     found = Extensions(half_plane(angle), (np.cos(angle), np.sin(angle)), edges=edges)
     field = 3.0 - 2.0 * found.r[None, :] + 0.7 * found.z[:, None]
     extended = 0
@@ -189,7 +189,7 @@ def test_a_linear_field_is_met(angle, edges):
 
 @pytest.mark.parametrize("most_squares", [1.0, 1.6, 2.5])
 def test_squares_of_weights_are_bounded(most_squares):
-    """One cell alone has four full vertices: of those on the edges of the block some would need more."""
+    """One cell alone has four full vertices: some of those on the edges of the block would need more."""
     free, capped = (Extensions(block(), (1.0, 0.0), most_squares=most) for most in (1e6, most_squares))
     squares = {most: [] for most in ("free", "capped")}
     for b, j, i in free.slaves:
@@ -226,11 +226,11 @@ def test_groups_that_change_places_change_slaves():
     np.testing.assert_allclose(swapped.weights[::-1], here.weights, atol=1e-12)
 
 
-# ---------------------------------------------------------------------------------------------- what must not jump
+# ---------------------------------------------------------------------------------------------- continuity
 
 
 def walked(values, fill, b, j, i, normal=(1.0, 0.0)):
-    """Asserts that nothing of a slave jumps at these values of a fraction, nor anywhere between 0 and 1."""
+    """Asserts that no result for a slave jumps at these values of a fraction, or anywhere between 0 and 1."""
     def of(fraction):
         return Extensions(fill(fraction), normal).everything(b, j, i)
 
@@ -292,7 +292,7 @@ def test_nothing_jumps_as_any_cell_fills(seed):
 
 
 def pair(beyond: float) -> Extensions:
-    """A crumb of both groups in void, by itself, and a hard block whose one vertex within reach is filled by UNDERFILLED and
+    """A crumb of both groups in void, by itself, and a hard block whose only vertex in reach is filled by UNDERFILLED and
     `beyond`."""
     hard, soft = np.zeros((N, N)), np.zeros((N, N))
     hard[4:6, 2:4] = UNDERFILLED + beyond
@@ -301,7 +301,7 @@ def pair(beyond: float) -> Extensions:
 
 
 def test_two_nodes_that_are_tied_to_each_other_let_go_by_a_little():
-    """As far as neither has masters of its own group: the other one's slack ends with its weight."""
+    """While neither has masters of its own group: the other one's slack ends with its weight."""
     alone, held = pair(0.0), pair(0.05)
     assert (alone.weights[:, 5, 5, TIED] == 1.0).all()
     np.testing.assert_allclose(alone.strength[:, 5, 5], 1.0 - SLACK, rtol=1e-15)

@@ -1,4 +1,4 @@
-"""Equations of state with memory on their way through a step: what they are told, and what becomes of their variables."""
+"""Equations of state with memory during a step: the values that they receive, and the changes of their variables."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ grueneisen = 2.0
 specific_heat = 890.0
 """
 POROUS = BLOCK.replace("[materials.metal.strength]", f"{PORES}[materials.metal.strength]")
-#: beside a body without memory, whose strength model has variables of its own
+#: next to a body without memory, whose strength model has variables of its own
 TWO = POROUS.replace("z = [0.0, 5.0]", "z = [0.0, 0.33]") + """
 [[body]]
 name = "upper"
@@ -126,12 +126,12 @@ time = 1.0
 
 
 def test_pores_travel_with_the_body():
-    """In free flight the distention goes along unchanged; what is crushed in part of the body stays that much of its mass."""
+    """In free flight the distention moves with the body unchanged; crushed material keeps its share of the mass."""
     sim = simulation(MOVES)
     s, g = sim.state, sim.grid
     half = (g.zc < 0.5)[:, None] & np.ones(g.shape, dtype=bool)
     s.q[INTERNAL, 0][half] = 1.1
-    s.rho[0][half] *= 1.35 / 1.1  # without pressure
+    s.rho[0][half] *= 1.35 / 1.1  # at zero pressure
 
     def crushed():
         mass = g.interior(s.vof * s.rho * g.volume)[0]

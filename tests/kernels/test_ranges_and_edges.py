@@ -1,4 +1,4 @@
-"""Where bodies are and what moves, ghosts, transmitting edges, sums along edges, a mesh that travels: on cells made by hand."""
+"""Ranges of bodies and of motion, ghosts, transmitting edges, sums along edges, a mesh that travels: cells made by hand."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def test_cells_are_active_within_two_of_a_body():
     assert active[3].tolist() == active[9].tolist() == EMPTY
     cells.occupied[0, 6] = 2, 3
     cells.call(column_ranges.find_active_ranges)
-    assert active[6].tolist() == [2, 5]  # not beyond the box
+    assert active[6].tolist() == [2, 5]  # not outside the box
 
 
 def test_ranges_are_joined_with_those_of_the_rows_beside():
@@ -146,7 +146,7 @@ def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
     assert cells.u[0, 4, [2, 6]].tolist() == cells.v[0, [2, 6], 4].tolist() == [0.0, -4.0]
     assert cells.walls[2, :, 2].tolist() == [3.0 * -4, 0.5 * 3.0 * -4 * 2]
     assert cells.walls[3, :, 6].tolist() == [3.0 * 4, 0.5 * 3.0 * 4 * 2]
-    assert not cells.walls[:2, 0].any()  # momentum is that along z
+    assert not cells.walls[:2, 0].any()  # for momentum along z
 
 
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
@@ -178,7 +178,7 @@ def test_a_transmitting_edge_holds_with_the_impedance_of_what_is_beside_it():
 
 
 def test_what_dashpots_take_goes_by_the_velocities_at_the_end():
-    """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, whatever changed it."""
+    """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, from any cause."""
     cells, edges, taken = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
     cells.drag[1, 0, :, 3] = 2.0, 3.0
     cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0

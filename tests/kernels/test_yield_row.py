@@ -1,4 +1,4 @@
-"""A row of pure cells: those that yield, and no other, return as each would alone."""
+"""A row of pure cells: those that yield, and no others, return as each would alone."""
 
 import math
 
@@ -52,7 +52,7 @@ class Row:
         return q[:, 0, 0]
 
     def alone(self) -> np.ndarray:
-        """The same, cell by cell."""
+        """`yields`, cell by cell."""
         q = self.q[:, 0, 0].copy()
         for i in range(FIRST, FIRST + self.columns):
             size, t, p = abs(self.scratch[1, 0, i]), self.tm[0, 0, i], self.pm[0, 0, i]

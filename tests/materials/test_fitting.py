@@ -24,7 +24,7 @@ HEATING = fitting.Heating(100.0, 7830.0 * 477.0)
 
 
 def made(name, values, heating=None, group=0.0):
-    """Points that a law gives exactly: three rates, four temperatures, five strains."""
+    """Points that follow a law exactly: three rates, four temperatures, five strains."""
     grid = np.array(np.meshgrid([0.0, 0.02, 0.05, 0.1, 0.2], [1e-3, 30.0, 2000.0], [298.0, 400.0, 550.0, 800.0])).reshape(3, -1)
     points = fitting.Points(*grid, np.ones(grid.shape[1]), np.full(grid.shape[1], group))
     stress = fitting.computed(fitting.law(name), values, points, heating)
@@ -69,7 +69,7 @@ def test_groups_share_what_they_are_told_to_share():
 
 
 def test_a_test_that_is_fast_heats_itself():
-    """Against rho c dT = w Y d(ep): the softening at a strain of 0.2 is that of the temperature that `curves.along` reaches."""
+    """Against rho c dT = w Y d(ep): the softening at a strain of 0.2 is that of the temperature from `curves.along`."""
     points = made("johnson-cook", STEEL, HEATING)
     cool = made("johnson-cook", STEEL)
     slow, fast = points.rate < 100.0, (points.rate > 100.0) & (points.strain == 0.2) & (points.temperature == 298.0)
@@ -160,7 +160,7 @@ def test_the_command(tmp_path, capsys):
 
 #: measured flow stress of 4340 steel, MPa: Rockwell C, strain rate in 1/s, temperature of the test in K, and the stresses at
 #: plastic strains of 0, 0.05 and 0.1 (Banerjee's collection for arXiv cond-mat/0510330: Johnson & Cook 1985, Larson & Nunes
-#: 1961, Lee & Yeh 1997). The largest difference from them that the fits have, Johnson-Cook and Zerilli-Armstrong, follows.
+#: 1961, Lee & Yeh 1997). Then the largest differences of the fits from them, Johnson-Cook and Zerilli-Armstrong.
 MEASURED = [
     (32, 1.1, 298.0, (865.6, 1003.29, 1067.08), 0.06, 0.11),
     (32, 570.0, 298.0, (818.593, 1058.87, 1162.32), 0.11, 0.13),
@@ -190,7 +190,7 @@ def test_the_librarys_steels_against_measurements(hardness, rate, temperature, s
         assert confidence == "fitted"
 
 
-#: the file of points of docs/how-to/fit-a-strength-model.md; what a fit of a hardness has beside `--heated-from "100 /s"`
+#: the file of points of docs/how-to/fit-a-strength-model.md; arguments of a hardness, in addition to `--heated-from "100 /s"`
 POINTS = toml.problems_folder() / "materials" / "flow_stress_4340.txt"
 FITS = [
     (32, "johnson-cook", {}, 0.044, 0.108),

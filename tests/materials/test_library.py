@@ -65,7 +65,7 @@ def test_every_material_makes_rows(name):
     strength.DAMAGE_MODELS[material.damage.name].row(material.damage.values)
 
 
-#: molar mass, kg/mol, by the first letters of a metal's name; Poisson's ratio where it is not that of most metals
+#: molar mass, kg/mol, by the first letters of a metal's name; Poisson's ratio where it differs from that of most metals
 MOLAR_MASS = {"Al": 0.027, "W_": 0.180, "tungsten": 0.1838, "copper": 0.0635, "steel": 0.0558, "iron": 0.0558,
               "tantalum": 0.1809, "lead": 0.2072, "uranium": 0.238, "U_": 0.238}
 POISSON = {"uranium": (0.18, 0.25), "U_": (0.22, 0.28), "lead": (0.38, 0.45)}
@@ -98,7 +98,7 @@ def test_metals_are_metals():
 
 
 def test_every_metal_has_a_tensile_strength():
-    """By default, or as the variant `spall` where older results were computed without one; a benchmark says what it has."""
+    """By default, or as the variant `spall` where older results were computed without one; benchmarks have their own."""
     for name in set(metals()) - {"copper_bar_227"}:
         material = library.load(name)
         if not material.has_strength:
@@ -206,12 +206,12 @@ def test_unknown_names():
 
 
 def of_body(material, own=""):
-    """The deck whose rod is of a material, and its own tables of materials."""
+    """A deck whose rod is of a material, and its own tables of materials."""
     return deck.loads(TEXT.removesuffix("[materials.A]\n").replace('material = "A"', f'material = "{material}"') + own)
 
 
 def test_a_body_of_a_variant():
-    """As in commands; the resolved deck has its numbers and is read as it stands."""
+    """As in commands; the resolved deck has its numbers and can be read again as it is."""
     name = "W_alloy:cv-printed:strain-failure"
     found = of_body(name)
     material = found.materials[name]

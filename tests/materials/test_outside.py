@@ -1,4 +1,4 @@
-"""Models from outside: how decks name them, when they come too late for the kernels, and models of packages."""
+"""Models from outside: how decks name them, models that come too late for the kernels, and models of packages."""
 
 import json
 import textwrap
@@ -70,7 +70,7 @@ name = "law"
 
 
 def test_a_file_of_a_study_is_beside_the_study(folder, tmp_path_factory, monkeypatch):
-    """That of an override of the command line is in the working folder, for a study as for a deck."""
+    """The file of an override on the command line is in the working folder, for a study as for a deck."""
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     for place, name in ((folder, "study"), (elsewhere, "command")):
         (place / "law.py").write_text(VOCE.replace('"voce"', f'"{name}"'))
@@ -211,7 +211,7 @@ CHOSEN = """
 
 
 def test_only_what_sees_the_model_is_compiled_anew(folder):
-    """The cache of kernels that do not choose among strength models is the one of runs without models from outside."""
+    """Kernels that do not choose among strength models use the cache of runs without models from outside."""
     assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "voce", "True", "240000000.0", "False", "0"]
 
 
@@ -223,7 +223,7 @@ PHASES = """
 
 
 def test_phases_that_see_the_model_are_kept_apart(folder):
-    """They took turns in one place: each deck with a model of its own, and each without, compiled them anew."""
+    """They used to replace each other: every deck with another model, or with none, compiled them anew."""
     load = 'from hydro2d.deck import deck; deck.load("shot.toml")\n'
     without, given = python(PHASES, folder).split(), python(load + textwrap.dedent(PHASES), folder).split()
     assert [a == b for a, b in zip(without, given, strict=True)] == [False, False, True, True]
@@ -243,7 +243,7 @@ def test_what_comes_before_a_deck_does_not_load_the_kernels(tmp_path):
 
 
 def test_workers_take_over_the_models_of_a_study(folder):
-    """A worker loads the kernels with its first case, and has the models of all others by then."""
+    """A worker loads the kernels with its first case, and by then has the models of all other cases."""
     (folder / "b.py").write_text(VOCE.replace('"voce"', '"b"'))
     models = json.dumps([(VOCE, "my_model.py", "strength"), ((folder / "b.py").read_text(), "b.py", "strength")])
     text = f"""
@@ -267,7 +267,7 @@ def test_workers_take_over_the_models_of_a_study(folder):
 
 @pytest.fixture
 def package(tmp_path):
-    """A distribution with a model, which a folder of the path holds."""
+    """A distribution with a model, in a folder of the path."""
     site = tmp_path / "site"
     (site / "my_models").mkdir(parents=True)
     (site / "my_models" / "__init__.py").write_text("")
@@ -314,7 +314,7 @@ def test_a_package_gives_models_by_name(folder, package):
 
 # ------------------------------------------------------------------------------------------------ a run
 
-#: hydro2d's own models as files, and what a run with them leaves
+#: hydro2d's own models as files, and the results of a run with them
 AS_FILES = """
     import hashlib, sys
     from pathlib import Path

@@ -1,4 +1,4 @@
-"""Models from outside: what their files must be, and what a check of them finds."""
+"""Models from outside: requirements on their files, and the results of checking them."""
 
 import hashlib
 import json
@@ -23,7 +23,7 @@ def test_a_file_says_what_it_is_a_model_of(tmp_path, text, part):
 
 
 def test_the_id_follows_from_the_text_alone(tmp_path):
-    """Processes that meet models in another order, or under other names of files, compile the same."""
+    """Processes that load models in another order, or under other file names, compile the same code."""
     (tmp_path / "a.py").write_text(VOCE)
     (tmp_path / "b.py").write_text(VOCE)
     assert outside.read(tmp_path / "a.py").module is outside.read(tmp_path / "b.py").module

@@ -1,4 +1,4 @@
-"""Tables of the SESAME type 301: reading, what is refused, writing; decks that name them; the commands."""
+"""Tables of the SESAME type 301: reading, refusals, writing; decks that name them; the commands."""
 
 import json
 import subprocess

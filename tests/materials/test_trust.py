@@ -1,4 +1,4 @@
-"""The code that a stranger's run carries is not run by what only reads the run."""
+"""The code carried by a stranger's run is not executed by commands that only read the run."""
 
 import tomllib
 from dataclasses import replace
@@ -20,7 +20,7 @@ SHOT = "problems/cth_nose_shape/hemi_5083_1086.toml"
 
 @pytest.fixture
 def mark(tmp_path):
-    """The file that the planted code makes."""
+    """The file that the planted code creates."""
     return tmp_path / "was run"
 
 

@@ -1,4 +1,4 @@
-"""The kinds of edges: what each says of itself, and the numbers that kernels get."""
+"""The kinds of edges: their descriptions, and the numbers that kernels get."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
 from hydro2d.mesh.sinks import SINKS
 from tests.sources.test_heating import TEXT
 
-#: mirrors, holds, opens, supplies, drives, transmits, pushes
+#: mirrors, fixes, opens, supplies, drives, transmits, pushes
 FLAGS = {
     "axis": (True, True, False, False, False, False, False),
     "anvil": (True, False, True, False, False, False, True),
@@ -25,7 +25,7 @@ PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
 
 
 def of(kind, **values):
-    """Conditions with this kind at every edge that may be of it, and walls elsewhere."""
+    """Conditions with this kind at every edge that allows it, and walls elsewhere."""
     return BoundaryConditions(tuple(BY_NAME[kind if edge in BY_NAME[kind].edges else "wall"](**values) for edge in EDGES))
 
 
@@ -59,7 +59,7 @@ def test_a_piston_moves_by_its_table():
 
 
 def test_what_moves_with_an_edge_crosses_the_cell_beside_it():
-    """The piston is at 50 m/s after 0.5 us and at 75 m/s after 1.33 us, and at 100 m/s between; widths of 1 to 4 mm."""
+    """The piston is at 50 m/s after 0.5 us, at 75 m/s after 1.33 us, and at 100 m/s in between; widths of 1 to 4 mm."""
     widths, still = [3e-3, 2e-3, 1e-3, 4e-3], of("wall")
     assert still.least_crossing(widths, 0.0, 1.0)[0] == np.inf
     assert of("velocity", velocity=-20.0).least_crossing(widths, 0.0, 1e-9) == (1e-3 / 20.0, "z_min")

@@ -1,4 +1,4 @@
-"""The field table and what follows from it."""
+"""The field table and what depends on it."""
 
 import numpy as np
 import pytest
@@ -90,7 +90,7 @@ def test_rows_make_sense(field):
 
 
 def test_what_a_body_carries():
-    """Beside the density: all bodies their energy, those with strength deviators and strain, those with damage that too."""
+    """In addition to the density: energy for all bodies, deviators and strain for those with strength, damage likewise."""
     own = (fields.Field("spread", "", "body", "1", 1, "mass", True, "a number", initial=lambda row: 2.0 * row[0]),)
     assert fields.carried((), strength=False, damage=False) == [fields.E]
     assert fields.carried((), strength=True, damage=False) == [1, 2, 3, 4, 5]

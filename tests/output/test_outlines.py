@@ -1,4 +1,4 @@
-"""Outlines of what is narrower than a cell, in pictures, files and pages; beside those of what is not."""
+"""Outlines of features narrower than a cell, in pictures, files and pages, next to those of wider ones."""
 
 import numpy as np
 import pytest

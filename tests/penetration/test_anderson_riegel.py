@@ -62,7 +62,7 @@ def test_mean_stress_without_softening_is_the_mean_of_the_power_law():
 
 
 def test_a_molten_target_has_done_with_it():
-    """Where the strain melts the steel the mean falls as one over the strain: no more heat is taken up."""
+    """Once the strain melts the steel, the mean falls as one over the strain: no more heat is absorbed."""
     far, farther = (effective_flow_stress(**STEEL_4340, strain=strain) for strain in (200.0, 400.0))
     assert far / farther == pytest.approx(2.0, rel=1e-3)
 
@@ -111,7 +111,7 @@ def test_coefficients_are_the_fit_to_walker_anderson():
 
 
 def test_the_reading_of_the_exponents_collapses_best(monkeypatch):
-    """With the density's power of the other sign, or the two powers exchanged, the scatter is over three times as wide."""
+    """With the opposite sign of the density's power, or the two powers exchanged, the scatter is over three times as wide."""
     def scatter(density_power, velocity_power):
         monkeypatch.setattr(anderson_riegel, "DENSITY_POWER", density_power)
         monkeypatch.setattr(anderson_riegel, "VELOCITY_POWER", velocity_power)

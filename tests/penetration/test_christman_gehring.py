@@ -1,4 +1,4 @@
-"""Christman-Gehring: a rod less one diameter, and the crater of that one."""
+"""Christman-Gehring: a rod less one diameter, and the crater of that diameter."""
 
 import math
 

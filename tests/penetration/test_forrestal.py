@@ -110,7 +110,7 @@ def test_depth_rises_with_velocity_and_falls_with_friction(shape, velocity, mass
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("solve", [deep, entering])
 def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, solve):
-    """Work by quadrature of force over depth; the velocity at a depth from what a slower rod still does."""
+    """Work by quadrature of force over depth; the velocity at a depth from the depth that a slower rod still reaches."""
     nose, velocities = Nose(shape, 7.11e-3, friction=0.05), np.linspace(0.0, 781.0, 4001)
     total = solve(781.0, STEEL, nose, ALUMINIUM)[0]
     if solve is entering:

@@ -1,4 +1,4 @@
-"""Luk & Piekutowski (1991): their tables and statements beside the recovered equations."""
+"""Luk & Piekutowski (1991): their tables and statements against the recovered equations."""
 
 import math
 
@@ -56,7 +56,7 @@ def test_depths_of_table_3(velocity, printed, tolerance):
     (INTO_ALUMINIUM, 3090.0, None, 85.13, 112.7),
 ])  # fmt: skip
 def test_depths_that_are_not_reproduced(pair, velocity, critical, ours, printed):
-    """The page has both numbers; the primary stage does not bring the difference, the recovered secondary stage does."""
+    """The page has both numbers; the primary stage does not give the difference, the recovered secondary stage does."""
     found = 1e3 * penetrate(*pair, velocity, critical).depth
     assert found == pytest.approx(ours, abs=0.02)
     assert abs(found / printed - 1.0) > 0.08
@@ -115,7 +115,7 @@ def test_the_primary_stage_against_its_differential_equations():
 @settings(max_examples=25, deadline=None)
 @given(st.floats(2000.0, 3400.0))
 def test_a_head_keeps_the_conservation_laws(velocity):
-    """Equations (9) to (11) and (3) as printed, from the head alone: not by the rearranged forms that it was found with."""
+    """Equations (9) to (11) and (3) as printed, from the head alone: not by the rearranged forms used to find it."""
     rod, target = INTO_ALUMINIUM
     found = at_velocity(rod, target, velocity)
     v, u, ve = found.rod, found.penetration, found.ejecta

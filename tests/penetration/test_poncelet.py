@@ -40,7 +40,7 @@ def test_closed_forms_solve_the_equation_of_motion(velocity, b):
 
 
 def test_the_fit_of_the_review_and_its_small_velocity_limit():
-    """Constants of Fig. 12; so little drag that eq. (5) is within 5 % up to 1959 m/s."""
+    """Constants of Fig. 12; drag so small that eq. (5) is within 5 % up to 1959 m/s."""
     assert poncelet.depth_over_length(1000.0, **STEEL) == pytest.approx(1.99315, rel=1e-5)
     limit = poncelet.small_velocity_limit(a=STEEL["a"], b=STEEL["b"])
     assert limit == pytest.approx(1959.07, rel=1e-5)

@@ -22,7 +22,7 @@ def test_energy_is_accounted_for(velocity, V50, plug):
 
 @given(speed, limit, ratio)
 def test_shear_work_is_that_of_the_limit_and_the_collision_is_inelastic(velocity, V50, plug):
-    """Above V50 the plug takes the same work at all velocities, and the collision what momentum alone tells."""
+    """Above V50 the plug takes the same work at all velocities, and the collision follows from momentum alone."""
     parts = ri.energy_budget(V50 + velocity, mass=1.0, limit_velocity=V50, plug_mass_ratio=plug)
     assert parts.shear == pytest.approx(0.5 * V50**2 / (1.0 + plug), rel=1e-12)
     together = (V50 + velocity) / (1.0 + plug)

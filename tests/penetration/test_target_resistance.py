@@ -17,7 +17,7 @@ stiffness = st.floats(20.0, 1000.0)
 
 
 def rounded(pressure: float) -> float:
-    """GPa with the two decimals that the table prints."""
+    """GPa with the two decimals of the printed table."""
     return round(pressure / 1e9, 2)
 
 
@@ -51,7 +51,7 @@ def test_a_poisson_ratio_of_one_half_is_the_incompressible_solid(strength, ratio
 
 @given(yield_stress, stiffness, st.floats(0.1, 0.45))
 def test_order_of_the_forms(strength, ratio, nu):
-    """A cylinder opens more easily than a sphere, a compressible solid more than one that is not; all rise with Y and E."""
+    """A cylinder opens more easily than a sphere, a compressible solid more easily; all rise with Y and E."""
     found = forms.evaluate(0.0, target_strength=strength, target_youngs_modulus=ratio * strength, target_poisson_ratio=nu,
                            target_dynamic_factor=0.7)
     assert found["cylindrical_compressible"] < found["spherical_compressible"] < found["spherical_incompressible"]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hydro2d.penetration import hydrodynamic, tate, tate_poncelet
 from hydro2d.penetration.model import InputError
 
-#: rods of Scheffler's shots, 97.79 mm of 18 160 kg/m^3, with strengths and resistances of the order that the shots tell
+#: rods of Scheffler's shots, 97.79 mm of 18 160 kg/m^3, with strengths and resistances of the order that the shots suggest
 LENGTH = 0.09779
 INTO_5083 = {"rod_density": 18160.0, "rod_strength": 3.4e9, "target_density": 2660.0, "resistance": 1.6e9}
 INTO_7039 = {"rod_density": 18160.0, "rod_strength": 4.2e9, "target_density": 2770.0, "resistance": 2.6e9}
@@ -29,7 +29,7 @@ def depth(velocity, **pair) -> float:
 
 
 def root_of_bernoulli(v, rod_density, rod_strength, target_density, resistance) -> float:
-    """u from eq. (28) by a solver that knows no closed form."""
+    """u from eq. (28) by a solver that uses no closed form."""
     from scipy.optimize import brentq
 
     def excess(u):
@@ -97,7 +97,7 @@ def test_quadrature_agrees_with_integration_over_time(pair, velocity):
     ],
 )
 def test_tabulated_depths(pair, velocity, expected):
-    """Depths computed elsewhere, by a solver of its own."""
+    """Depths computed elsewhere, with an independent solver."""
     assert depth(velocity, **pair) == pytest.approx(expected, rel=1e-9)
 
 
@@ -199,7 +199,7 @@ def test_a_strong_rod_reaches_the_hydrodynamic_limit_from_above(rho_p, Rt, rho_t
 @given(density, stress, density, st.floats(500.0, 4000.0))
 @FAST
 def test_equal_strength_and_resistance(rho_p, Y, rho_t, velocity):
-    """No critical and no transition velocity: u/(v - u) is the hydrodynamic one, less the rod that is left at rest."""
+    """No critical and no transition velocity: u/(v - u) is the hydrodynamic ratio, less the rod that remains at rest."""
     track = tate.penetrate(velocity, rod_length=LENGTH, rod_density=rho_p, rod_strength=Y, target_density=rho_t, resistance=Y)
     limit = math.sqrt(rho_p / rho_t)
     assert track.regime == tate.ERODING

@@ -36,7 +36,7 @@ def test_resistances_of_two_rigid_shots():
 
 @pytest.mark.parametrize(("Yp", "printed"), [(3.0e9, 0.95), (4.0e9, 1.28)])
 def test_the_transition_velocities_of_figure_11_need_another_resistance(Yp, printed):
-    """1.78 GPa gives what is printed; the 1.62 GPa that is printed beside it does not."""
+    """1.78 GPa gives the printed value; the printed 1.62 GPa does not."""
     values = {"rod_strength": Yp, "target_density": 2700.0}
     assert round(tate.transition_velocity(resistance=1.78e9, **values) / 1000.0, 2) == printed
     assert round(tate.transition_velocity(resistance=1.62e9, **values) / 1000.0, 2) == {0.95: 1.01, 1.28: 1.33}[printed]

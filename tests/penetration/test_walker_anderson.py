@@ -124,7 +124,7 @@ def test_rates_satisfy_the_printed_equations(v, share):
 
 
 def tate(velocity: float, rod: Rod, target: Target) -> float:
-    """Depth by Tate's three equations with Rt(u) = (7/3) Yt ln(alpha(u)): an own integration, over the velocity of the tail.
+    """Depth by Tate's three equations with Rt(u) = (7/3) Yt ln(alpha(u)): integrated here over the velocity of the tail.
 
     dv = -Yp/(rho_p L) dt gives d(ln L) = rho_p (v - u)/Yp dv and dP = -u rho_p L/Yp dv.
     """
@@ -177,7 +177,7 @@ def test_depth_rises_with_velocity_while_the_rod_is_rigid(velocity, factor):
 
 
 def test_hydrodynamic_limit():
-    """Long, fast rods come within 1 % of sqrt(rho_p/rho_t), and the nearer the longer and the faster they are."""
+    """Long, fast rods come within 1 % of sqrt(rho_p/rho_t): the longer and the faster, the closer."""
     limit = math.sqrt(TUNGSTEN.density / STEEL.density)
 
     def miss(velocity, diameters):
@@ -218,7 +218,7 @@ def test_a_rigid_rod_never_carries_more_than_its_strength():
 
 
 def test_transition():
-    """At its own transition velocity the rigid nose carries the rod's strength; weak rods have none, huge strengths neither."""
+    """At its own transition velocity the rigid nose carries the rod's strength; weak rods and huge strengths have none."""
     strong = replace(TUNGSTEN, strength=3.0e9)
     velocity = transition_velocity(strong, ALUMINIUM)
     assert rigid_stress(velocity, strong, ALUMINIUM) == pytest.approx(strong.strength, rel=1e-9)

@@ -81,7 +81,7 @@ def test_a_straight_line_keeps_its_difference(a):
 
 
 def test_the_left_cell_feeds_a_flow_upwards():
-    """On a straight line of 2 per cell; what is beyond the receiver does not matter."""
+    """On a straight line of 2 per cell; values beyond the receiver do not matter."""
     assert upwind(True, 1.0, 3.0, 5.0, 99.0) == (3.0, 2.0)
 
 
@@ -104,7 +104,7 @@ def test_the_mirror_image_of_a_flow_carries_the_same(ll, l, r, rr):
 @settings(deadline=None)
 @given(st.booleans(), VALUE, VALUE, VALUE, VALUE, st.floats(0.0, 1.0))
 def test_what_a_face_carries_lies_between_the_cells_beside_it(up, ll, l, r, rr, part):
-    """Whatever part of the donor leaves: no new extremum."""
+    """For any part of the donor that leaves: no new extremum."""
     donor, difference = upwind(up, ll, l, r, rr)
     carried = donor + 0.5 * (1.0 - part) * difference
     assert min(l, r) - 1e-9 <= carried <= max(l, r) + 1e-9
@@ -113,7 +113,7 @@ def test_what_a_face_carries_lies_between_the_cells_beside_it(up, ll, l, r, rr, 
 @settings(deadline=None)
 @given(st.booleans(), st.floats(-10.0, 10.0), st.floats(-10.0, 10.0), st.floats(0.0, 1.0))
 def test_a_straight_line_is_carried_at_the_middle_of_what_leaves(up, first, slope, part):
-    """Cells at -1.5, -0.5, 0.5, 1.5 around the face at 0; the part that leaves reaches from it back into the donor."""
+    """Cells at -1.5, -0.5, 0.5, 1.5 around the face at 0; the part that leaves extends from it back into the donor."""
     donor, difference = upwind(up, *(first + slope * x for x in (-1.5, -0.5, 0.5, 1.5)))
     middle = -0.5 * part if up else 0.5 * part
     assert donor + 0.5 * (1.0 - part) * difference == pytest.approx(first + slope * middle, abs=1e-12)

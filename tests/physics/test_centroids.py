@@ -1,4 +1,4 @@
-"""Where in a cell something lies that its neighbours do not place: boxes, who goes on where, and what pushes what."""
+"""Positions in a cell of a body that its neighbours do not place: boxes, continuation across cells, mutual pushing."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def piece(f, along_z, along, across, no_gap, bound, strip, high):
 
 
 def pushed(own, other, fraction, fraction_other, change):
-    """What an offset changes by as something else in the cell grows by `change`."""
+    """Change of an offset as something else in the cell grows by `change`."""
     return 0.5 * change * side_of(own, other, fraction, fraction_other)
 
 
@@ -53,12 +53,12 @@ def with_middle(f, fraction):
 
 
 def seen(f, where):
-    """The fractions of the cells that stand at where(row, column)."""
+    """The fractions of the cells at where(row, column)."""
     return tuple(f[CELLS.index(where(*cell))] for cell in CELLS)
 
 
 def about_the_middle(found, strip, high):
-    """(share, moments about the middle of the cell) of what `line_piece` and its like give."""
+    """(share, moments about the middle of the cell) from `line_piece` and similar functions."""
     share, along, across = found
     return np.array([share, along * strip + share * (0.5 - 0.5 * strip) * (1.0 if high else -1.0), across])
 
@@ -69,7 +69,7 @@ def about_the_middle(found, strip, high):
 @settings(deadline=None)
 @given(st.floats(-2.0, 2.0), UNIT)
 def test_a_centroid_leaves_room_for_what_it_is_of(offset, fraction):
-    """What is as wide as its fraction, with this centroid, ends in the cell; an offset that does is kept."""
+    """A piece as wide as its fraction, with this centroid, ends in the cell; an offset that allows this is kept."""
     kept = within(offset, fraction)
     assert abs(kept) + 0.5 * fraction <= 0.5 + 1e-15
     assert within(kept, fraction) == kept
@@ -134,7 +134,7 @@ def test_mirrored_boxes_have_mirrored_pieces_to_the_bit(fraction, along, across,
 @settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, st.floats(0.01, 0.49), st.floats(0.01, 0.49))
 def test_strips_of_a_box_add_up(fraction, along, across, continues, w_low, w_high):
-    """Those at both sides and the one between, of which the larger strips at the sides have that of the smaller."""
+    """The two sides and the middle, where the larger strips at the sides contain the smaller ones."""
     def strip(width, high):
         return about_the_middle(box_piece(fraction, along, across, continues, width, high), width, high)
 
@@ -157,7 +157,7 @@ def test_a_box_is_as_short_as_can_be_where_it_ends_and_as_long_where_it_goes_on(
     assert (share, along, across) == pytest.approx((0.1, 0.1 * -0.25, 0.1 * 0.3))
 
 
-# ---------------------------------------------------------------------------------------------- who places what
+# ----------------------------------------------------------------------------------------- how neighbours place a piece
 
 
 def test_what_goes_on_in_either_of_the_next_cells_goes_on():
@@ -395,13 +395,13 @@ def test_a_piece_becomes_the_strip_as_the_body_fills_the_cell(pattern):
     assert piece(f, False, 0.3, -0.2, False, bound, 0.3, True) == pytest.approx((0.3, 0.0, 0.0), abs=1e-9)
 
 
-# ------------------------------------------------------------------------------------------------- what pushes what
+# ------------------------------------------------------------------------------------------------- mutual pushing
 
 
 @settings(deadline=None)
 @given(FRACTION, UNIT, st.floats(-0.1, 0.1))
 def test_slabs_side_by_side_push_each_other_by_half_of_what_they_grow_by(fraction, share, change):
-    """Centroids that lie half of both widths apart, or further."""
+    """Centroids that are half of both widths apart, or more."""
     other = share * (1.0 - fraction)
     apart = 0.5 * (fraction + other)
     for gap in (0.0, 0.05):
@@ -419,7 +419,7 @@ def test_a_slab_amidst_another_one_stays_and_off_its_middle_it_is_pushed_in_prop
 @settings(deadline=None)
 @given(st.floats(0.05, 0.8), UNIT, st.floats(0.0, 1.0))
 def test_a_slab_inside_of_void_keeps_the_proportion_of_the_gaps_beside_it(fraction, share, growth):
-    """As it grows into the void, which is all else and loses what it gains."""
+    """As it grows into the void, which is all the rest and loses its gain."""
     void = 1.0 - fraction
     growth *= void
     low, up = share * void, (1.0 - share) * void

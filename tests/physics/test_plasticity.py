@@ -1,4 +1,4 @@
-"""What deviators do, how they return to the yield surface, and when there are none."""
+"""Deviators: their power, their return to the yield surface, and where there are none."""
 
 import numpy as np
 import pytest

@@ -29,7 +29,7 @@ RATE = st.just(0.0) | SLOPE
 
 @pytest.mark.parametrize("slopes", [(-3.0, -3.0, -3.0), (1.0, 2.0, 3.0), (3.0, 2.0, 1.0), (5.0, 4.0, 6.0)])
 def test_a_smooth_slope_is_smooth(slopes):
-    """Linear and parabolic velocities, and what is steeper on both sides."""
+    """Linear and parabolic velocities, and those steeper on both sides."""
     assert smoothness(*slopes) == 1.0
 
 

@@ -1,4 +1,4 @@
-"""The page of all experiments has what is kept."""
+"""The page of all experiments shows the kept results."""
 
 from problems.validation import against_experiments as against
 from problems.validation.against_experiments import Row

@@ -1,4 +1,4 @@
-"""What brakes a rod in its first 90 us: how a run is read, and the tables of the page."""
+"""The forces that brake a rod in its first 90 us: how a run is read, and the tables of the page."""
 
 import numpy as np
 import pytest

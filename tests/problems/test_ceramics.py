@@ -1,4 +1,4 @@
-"""The decks of ceramics: what was kept of their runs, the tables that their page shows, and how dwell is read."""
+"""The decks of ceramics: the kept results, the tables of their page, and how dwell is read."""
 
 from statistics import median
 from types import SimpleNamespace
@@ -33,7 +33,7 @@ def efficiencies(cells):
 
 
 def depths(cells, ceramic, thickness):
-    """Depths of the members of a case, mm, the least first."""
+    """Depths of the members of a case, mm, in ascending order."""
     return sorted(float(row["depth_mm"]) for row in read.cases(TILES)[cells, ceramic, thickness])
 
 
@@ -108,14 +108,14 @@ def test_how_dwell_is_read(monkeypatch, tmp_path, capsys):
     history["rod_length_m"] = 40e-3 - 300.0 * time
     with pytest.raises(ValueError, match="the rod is worn by 15.0 mm only"):
         dwell.of_run(tmp_path)
-    assert dwell.main([str(tmp_path)]) == 0  # it is told, and others go on
+    assert dwell.main([str(tmp_path)]) == 0  # it is reported, and other runs are read
     out, err = capsys.readouterr()
     assert out.splitlines() == [",".join(dwell.COLUMNS)]
     assert "the rod is worn by 15.0 mm only" in err
 
 
 def test_a_run_that_goes_on_is_refused(monkeypatch, tmp_path):
-    """Its largest depth so far is no depth."""
+    """Its largest depth so far is not a final depth."""
     monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: SimpleNamespace(summary={}))
     with pytest.raises(ValueError, match="has not ended"):
         read.of_run(tmp_path)

@@ -1,4 +1,4 @@
-"""The classic shots: what was kept of them, the table that their page shows, and the defaults that follow from it."""
+"""The classic shots: the kept results, the table of their page, and the defaults that follow from it."""
 
 import json
 from types import SimpleNamespace

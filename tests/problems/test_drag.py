@@ -1,4 +1,4 @@
-"""problems/sliding/drag.py on histories whose force is known."""
+"""problems/sliding/drag.py on histories with a known force."""
 
 import json
 import math
@@ -31,7 +31,7 @@ def wrote(directory, time, speed, depth):
 
 @pytest.fixture
 def steady(tmp_path):
-    """A rod that loses 1.5 m/s in every microsecond, written once in each until 43 us."""
+    """A rod that loses 1.5 m/s in every microsecond, with a row for each until 43 us."""
     time = np.arange(44) * 1e-6
     return wrote(tmp_path / "steady", time, SPEED - 1.5e6 * time, SPEED * time - 0.75e6 * time**2)
 

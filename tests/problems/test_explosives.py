@@ -1,4 +1,4 @@
-"""The decks of explosives: what was kept of their runs, the table that their page shows, and Gurney's formulas."""
+"""The decks of explosives: the kept results, the table of their page, and Gurney's formulas."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The tables of the nose-shape study from kept rows, and the pages that have them."""
+"""The tables of the nose-shape study from kept rows, and the pages that show them."""
 
 import pytest
 
@@ -34,7 +34,7 @@ def test_depths_of_every_way_to_compute(found):
 
 
 def test_schemes_are_compared_shot_by_shot(found):
-    """40.5 +- 0.5 against 45 +- 1 cm; a shot with one run has no error, and neither has the mean then."""
+    """40.5 +- 0.5 against 45 +- 1 cm; a shot with one run has no error, and then neither has the mean."""
     assert findings.difference(found["contact", "P", "momentum"][rigid_rod.Shot.named(SHOTS[0])],
                                found["contact", "P", "ke"][rigid_rod.Shot.named(SHOTS[0])]) == pytest.approx((-10.0, 2.48452))
     assert findings.schemes(found, "hemispherical")[2:] == ["| contact, P | momentum | -10.0 ± 2.5 % | +50.0 % | +20.0 % |"]

@@ -1,4 +1,4 @@
-"""How an eroding head fails: the page holds what is kept."""
+"""Failure of an eroding head: the page shows the kept results."""
 
 import csv
 
@@ -22,7 +22,7 @@ def test_runs_are_gathered_by_shot_law_and_way_to_fail():
                made("5083-1296", 15.0, law="A"), made("5083-1296", 25.0, "strain 150 %", "A"),
                made("7039-1248", 13.0, law="A"), made("5083-1086", 46.0, law="A")]  # fmt: skip
     found = heads.cases(results)
-    assert list(found) == [("5083-1296", "A"), ("steel-2120", "")]  # in one way alone: nothing to compare
+    assert list(found) == [("5083-1296", "A"), ("steel-2120", "")]  # one failure only: nothing to compare
     assert found["5083-1296", "A"] == {"fracture pressure": [21.0, 15.0], "strain 150 %": [25.0]}
     assert heads.cell([21.0, 15.0, 22.0]) == "21.0 (15.0 to 22.0)"
     assert heads.table(found)[2] == "| tungsten into 5083, 1296 m/s | A | 21.6 |  | 18.0 (15.0 to 21.0) |  |  | 25.0 |"

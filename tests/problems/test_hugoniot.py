@@ -1,4 +1,4 @@
-"""Hugoniot temperatures: the kept tables are those that the command gives, and the page shows them."""
+"""Hugoniot temperatures: the kept tables are those of the command, and the page shows them."""
 
 import pytest
 

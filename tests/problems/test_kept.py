@@ -1,4 +1,4 @@
-"""Files of results beside the studies."""
+"""Files of results next to the studies."""
 
 import pytest
 
@@ -27,7 +27,7 @@ def test_members_are_told_by_their_median_and_ends():
     rows = [{"length_mm": text, "u_m_s": text[:2]} for text in ("96.53", "96.74", "96.60", "9.10")]
     assert kept.told(rows[:3], "length_mm") == "96.60 (96.53 to 96.74)"
     assert kept.told(rows[:1], "length_mm") == "96.53"
-    assert kept.told([*rows, {"length_mm": "97.1"}], "length_mm") == "96.60 (9.10 to 97.1)"  # in order as numbers
+    assert kept.told([*rows, {"length_mm": "97.1"}], "length_mm") == "96.60 (9.10 to 97.1)"  # sorted as numbers
     assert kept.told(rows[:3], "u_m_s") == "96"
 
 

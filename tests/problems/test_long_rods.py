@@ -1,4 +1,4 @@
-"""Tungsten rods into steel: Odermatt's fit, where the depth comes from, the kept results and the pages that quote them."""
+"""Tungsten rods into steel: Odermatt's fit, how the depth builds up, the kept results and the pages that quote them."""
 
 import csv
 import re

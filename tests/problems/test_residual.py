@@ -22,7 +22,7 @@ def case(nose, velocity, left, status="done"):
 
 @pytest.fixture
 def study(tmp_path, monkeypatch):
-    """Runs on a known curve, one that is held and one that is not done."""
+    """Runs on a known curve, one that is stopped and one that is not done."""
     speeds = (303.5, 285.4, 244.2, 224.7)
     left = [lambert_jonas.residual_velocity(v, limit_velocity=190.0, a=0.8, p=2.2) for v in speeds]
     found = [case("blunt", *pair) for pair in zip(speeds, left, strict=True)]

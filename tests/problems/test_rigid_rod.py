@@ -1,4 +1,4 @@
-"""The tables of what ends a rigid rod, and the results that are kept beside the studies."""
+"""The tables on the end of rigid penetration, and the results kept next to the studies."""
 
 import re
 from dataclasses import replace
@@ -148,7 +148,7 @@ def test_kept_rows_are_those_of_their_study(file):
 
 
 def test_kept_results_are_judged_by_the_rule_of_today():
-    """As far as their numbers tell: the largest radius of rods that lost 2 to 5 % by the older rule is not among them."""
+    """As far as their numbers allow: the largest radius of rods that lost 2 to 5 % by the older rule is not among them."""
     kept = [result for file in KEPT for result in rigid_rod.read(file)]
     words = {ERODING: 0, RIGID: 0, DEFORMING: 0, f"{RIGID} or {DEFORMING}": 0}
     for result in kept:

@@ -1,4 +1,4 @@
-"""problems/validation/bar.py on bars whose shape is known."""
+"""problems/validation/bar.py on bars of known shape."""
 
 import json
 
@@ -16,7 +16,7 @@ R, Z = np.linspace(0.0, 12e-3, 61), np.linspace(0.0, 36e-3, 181)
 
 
 def filled(length, foot, shank=3.2e-3, low=0.0):
-    """What a bar fills of the cells: a disk of radius `foot` over the first millimetre, above it one of radius `shank`; m."""
+    """Volume fractions of a bar: a disk of radius `foot` over the first millimetre, above it one of radius `shank`; m."""
 
     def shares(edges, first, last):
         return np.clip((np.minimum(edges[1:], last) - np.maximum(edges[:-1], first)) / np.diff(edges), 0.0, 1.0)

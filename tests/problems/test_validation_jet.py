@@ -1,4 +1,4 @@
-"""problems/validation/jet.py on flows that are known."""
+"""problems/validation/jet.py on known flows."""
 
 import json
 
@@ -42,7 +42,7 @@ def test_compressible_bernoulli(rod, target, velocity, u, p):
 
 
 def column(position, peaks=(3e9, 2.8e9)):
-    """What jet and target fill of the cells on the axis, and pressures that are parabolas about the interface."""
+    """Volume fractions of jet and target on the axis, and pressures that are parabolas about the interface."""
     share = np.clip((position - Z[:-1]) / np.diff(Z), 0.0, 1.0)
     x = 0.5 * (Z[1:] + Z[:-1]) - position
     return share, 1.0 - share, peaks[0] - 1e14 * x**2, peaks[1] - 4e13 * x**2

@@ -1,4 +1,4 @@
-"""The decks of Whipple shields: how a run is read, the equation beside them, the shots, and the tables of their page."""
+"""The decks of Whipple shields: how a run is read, the limit equation, the shots, and the tables of their page."""
 
 from types import SimpleNamespace
 
@@ -21,7 +21,7 @@ def planned(study):
 
 
 def test_the_study_has_the_shots_of_the_table():
-    """Each with its own velocity, bumper, gap and wall, and time for debris of half the velocity to arrive, and 15 us more."""
+    """Each with its own velocity, bumper, gap and wall, and time for debris of half the velocity to arrive, plus 15 us."""
     found = planned("whipple_shots")
     assert list(found) == [f"{shot['half']}-{shot['shot']}" for shot in SHOTS]
     for shot in SHOTS:

@@ -72,7 +72,7 @@ def fields(r: np.ndarray, z: np.ndarray, time: float, noise: float, random: np.r
 def write(directory: Path, *, shape=(55, 24), dumps: int = 5, noise: float = 0.0, travels: bool = False, stations: bool = True,
           names=None, geometry: str = "cylindrical", ended: bool = True, everywhere: bool = False,
           time: float = 40e-6) -> Path:  # fmt: skip
-    """Writes the run; names : of the fields beside volume fractions and material, default all. Returns the directory."""
+    """Writes the run; names : fields in addition to volume fractions and material, default all. Returns its directory."""
     (directory / vtk.FOLDER).mkdir(parents=True)
     write_text(directory / DECK, DECK_TEXT.format(geometry=geometry))
     random, (r, z) = np.random.default_rng(1), edges(shape)

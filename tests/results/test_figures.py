@@ -1,4 +1,4 @@
-"""Figures show what they say, or say why they cannot."""
+"""Figures show their subject, or a message says why they cannot."""
 
 from dataclasses import replace
 

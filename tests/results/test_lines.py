@@ -1,4 +1,4 @@
-"""Line-outs, diagrams of place and time, pictures of debris, and colour scales."""
+"""Line-outs, space-time diagrams, pictures of debris, and colour scales."""
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_line_outs_have_a_curve_for_each_time(run):
 
 
 def test_a_diagram_of_place_and_time_follows_the_nose(run):
-    """The nose is at 1 km/s times the time, so that its outline has that slope."""
+    """The nose is at 1 km/s times the time, so the slope of its outline is that velocity."""
     along, times, found, bodies, label = lines._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
     assert found.shape == (4, lines.POINTS) == bodies[0].shape
     assert label == "Pressure [GPa]"
@@ -99,7 +99,7 @@ def test_regions_have_holes_and_reach_the_edges():
 
 
 def test_colours_end_at_the_outlines():
-    """Half a cell beyond the outline there is the background, also where the cell beside is filled by more than half."""
+    """Half a cell beyond the outline is background, even where the cell next to it is filled by more than half."""
     r, z = np.linspace(0.0, 10e-3, 11), np.linspace(0.0, 20e-3, 21)
     fraction = np.zeros((20, 10))
     fraction[:10], fraction[10] = 1.0, 0.7
@@ -125,7 +125,7 @@ def test_pictures_have_no_empty_margin(tmp_path):
 
 
 def test_debris_are_drawn(run, monkeypatch):
-    """Mass in bins by speed and by angle, the last angle that has mass, and one dot for each fragment."""
+    """Mass in bins of speed and of angle, the last angle with mass, and one dot for each fragment."""
     found = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
              "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
              "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),

@@ -1,4 +1,4 @@
-"""Films: a frame for every dump, one range of colours, a window that travels, and what is refused."""
+"""Films: a frame for every dump, one range of colours, a window that travels, and refusals."""
 
 import sys
 
@@ -22,7 +22,7 @@ def frames(path) -> list[np.ndarray]:
 
 @pytest.fixture
 def limits(monkeypatch):
-    """The ranges of colours and the windows with which frames are drawn."""
+    """The ranges of colours and the windows of the frames."""
     seen, draw = [], figures.draw_sections
 
     def noted(panels, field, mirror, window, ranges, figure):

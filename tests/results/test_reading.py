@@ -1,4 +1,4 @@
-"""A run read back: history as tables, sections in the caller's axes, what it says of itself, what is not a run."""
+"""Reading a run back: history as tables, sections in the caller's axes, its description, directories that are not runs."""
 
 import re
 

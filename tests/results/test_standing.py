@@ -1,4 +1,4 @@
-"""Where a run stands: what is said of one that is under way, has ended, or was left, and when it will end."""
+"""State of a run: what is reported of one that is under way, has ended, or was abandoned, and when it will end."""
 
 import sys
 
@@ -68,7 +68,7 @@ def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
 def test_a_run_that_was_left(under_way, capsys):
     found = said(under_way, capsys)
     assert found["state"].startswith("waiting: ")
-    assert found["end"] == "should stop at 80.000 us (end time), unless the rod perforates first"  # nobody computes
+    assert found["end"] == "should stop at 80.000 us (end time), unless the rod perforates first"  # no process is computing
 
 
 def test_a_run_without_anything_yet(under_way, capsys):
@@ -115,7 +115,7 @@ def test_too_few_rows_say_nothing():
 
 
 def test_a_real_run_agrees_with_what_it_says(finished):
-    """A fake run that has ended: its line of time is that of its summary."""
+    """A fake run that has ended: its time is that of its summary."""
     run = hydro2d.open_run(finished)
     found = standing.lines(run, "done", "", {})
     assert any("the stop time was reached" in line for line in found)
@@ -123,7 +123,7 @@ def test_a_real_run_agrees_with_what_it_says(finished):
 
 
 class Pretend:
-    """What is used of plotext."""
+    """The part of plotext that is used."""
 
     def __init__(self):
         self.asked = []
@@ -181,7 +181,7 @@ def test_a_column_that_there_is_not(under_way, plotext, capsys):
 
 
 def test_a_run_is_watched_until_it_has_ended(under_way, monkeypatch, capsys):
-    """It looks again after two seconds, and says how the run ended."""
+    """It looks again after two seconds, and reports how the run ended."""
     waits = []
 
     def sleep(seconds):

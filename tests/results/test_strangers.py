@@ -1,4 +1,4 @@
-"""Runs of someone else: whatever their names are and whatever is in their files, they are read, or refused in one line."""
+"""Runs of someone else: with any names and any contents of files, they are read, or refused in one line."""
 
 import copy
 import html.parser
@@ -34,7 +34,7 @@ SHARE = quantities.BY_KEY["volume_fraction"]
 
 
 def places(tables, depth=3, path=()):
-    """The paths of all values of nested tables and lists."""
+    """The paths of all values in nested tables and lists."""
     items = tables.items() if isinstance(tables, dict) else enumerate(tables) if isinstance(tables, list) else ()
     for key, value in items:
         yield (*path, key)
@@ -61,7 +61,7 @@ class Tags(html.parser.HTMLParser):
 
 
 def looked_at(directory):
-    """All that is shown of a run without its fields."""
+    """Everything shown of a run except its fields."""
     try:
         found = Results(directory)
         repr(found)
@@ -99,7 +99,7 @@ def test_any_value_in_what_a_stranger_says_of_the_run(finished, name):
             for value in WRONG:
                 (finished / name).write_text(json.dumps(replaced(tables, path, value)))
                 looked_at(finished)
-        for key in told:  # and any that is missing
+        for key in told:  # and with any of them missing
             write_json(finished / name, {other: value for other, value in tables.items() if other != key})
             looked_at(finished)
 

@@ -1,4 +1,4 @@
-"""Tables of line-outs, histories and holes: the numbers of the pictures, with units in the heads."""
+"""Tables of line-outs, histories and holes: the numbers of the pictures, with units in the headings."""
 
 import csv
 
@@ -21,7 +21,7 @@ def run(tmp_path_factory):
 
 
 def read(path):
-    """Heads, and the rows with numbers where there are numbers and NaN where a cell is empty."""
+    """Headings, and the rows, with NaN for an empty cell."""
     with path.open(encoding="utf-8", newline="") as file:
         heads, *rows = csv.reader(file)
     assert len({len(row) for row in rows} | {len(heads)}) == 1

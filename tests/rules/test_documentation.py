@@ -33,7 +33,7 @@ PAGES = {
     str(file.relative_to(EXPLANATION).with_suffix("")): file.read_text(encoding="utf-8")
     for file in sorted(EXPLANATION.rglob("*.md"))
 }
-#: what people wrote: the pages and notebooks without the generated ones, and the README
+#: hand-written text: the pages and notebooks without the generated ones, and the README
 WRITTEN = [file for file in source.tracked_files() if file.suffix in (".md", ".ipynb") and DOCS in file.parents]
 WRITTEN.append(source.ROOT / "README.md")
 CITATION = re.compile(
@@ -60,12 +60,12 @@ def name_of(file) -> str:
 
 @functools.cache
 def tags(page: str) -> tuple[int, ...]:
-    """Numbers of a page's equations, in their order."""
+    """Numbers of a page's equations, in order."""
     return tuple(int(number) for number in re.findall(r"\\tag\{(\d+)\}", PAGES[page]))
 
 
 def wrong_citations(text: str) -> list[str]:
-    """Equations that a text cites and that no page has."""
+    """Equations that a text cites but no page has."""
     found = []
     for match in CITATION.finditer(re.sub(r"\s+", " ", text)):
         for number in re.findall(r"\d+", match["list"]):
@@ -114,7 +114,7 @@ def test_every_model_is_explained(page, names):
 
 
 def test_every_penetration_model_is_explained():
-    """Each module has a page of its name with the figure of each of its models, and the table of all names them."""
+    """Each module has a page of its name with the figure of each of its models, and the table of all models names them."""
     lost = []
     for module in catalogue.MODULES:
         page = "penetration/" + module.__name__.rsplit(".", 1)[-1].replace("_", "-")
@@ -127,7 +127,7 @@ def test_every_penetration_model_is_explained():
 
 
 def choices(section: str, key: str) -> list[str]:
-    """Words that a key of a deck may have."""
+    """Words that a key of a deck accepts."""
     definition = next(d for d in deck.schema()["$defs"].values() if d.get("title") == section)
     return definition["properties"][key]["enum"]
 
@@ -239,7 +239,7 @@ SECTIONS = {
 
 @pytest.mark.parametrize("heading", SECTIONS)
 def test_the_example_of_every_key_is_valid(heading):
-    """Each line is parsed and held against the type and the bounds of its key, as they stand in the code."""
+    """Each line is parsed and checked against the type and the bounds of its key in the code."""
     lines, kind = sections_of_the_page()[heading], SECTIONS[heading]
     tables = {"mesh", "boundaries", "body", "materials", "numerics", "sliding", "failure", "stop", "output", "tracer", "gauge",
               "source", "experiment", "penetration"} if kind is sections.Deck else set()  # fmt: skip
@@ -258,7 +258,7 @@ def test_an_example_that_is_not_valid_is_found():
 
 
 def test_examples_of_materials_are_valid():
-    """Numbers are held against the parameters of the models, the keys of a material against the library."""
+    """Numbers are checked against the parameters of the models, the keys of a material against the library."""
     page = sections_of_the_page()
     kinds = {"Eos": eos.MODELS, "Strength": strength.STRENGTH_MODELS, "Damage": strength.DAMAGE_MODELS,
              "Melting": {melting.NAME: melting}}
@@ -303,7 +303,7 @@ def built(tmp_path_factory) -> Path:
     return folder
 
 
-#: what a browser fetches by itself; links that a reader follows are not among it
+#: addresses that a browser fetches by itself; links that a reader follows are not among them
 FETCHED = re.compile(
     r"<(?:script|img|iframe|source|video|audio|embed)\b[^>]*\ssrc=[\"']?(?:https?:)?//"
     r"|<link\b(?![^>]*rel=[\"'](?:canonical|license|author))[^>]*\shref=[\"']?(?:https?:)?//"

@@ -1,4 +1,4 @@
-"""How kernels and scalar physics are written."""
+"""Style of kernels and scalar physics."""
 
 import ast
 
@@ -6,7 +6,7 @@ import pytest
 
 from tests.rules import source
 
-#: decorators of functions that are compiled; those of which a loop is parallel
+#: decorators of compiled functions; those with a parallel loop
 MARKS = ("threaded", "kernel", "cell_rows", "vertex_rows", "serial", "rowwise", "apart", "late", "point")
 PARALLEL = {"threaded"}
 ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
@@ -26,7 +26,7 @@ def parallel_loops(function: ast.FunctionDef) -> list[ast.For]:
 
 
 def faults(function: ast.FunctionDef) -> list[str]:
-    """What is wrong with a compiled function."""
+    """Faults of a compiled function."""
     found = []
     marks = {mark.id for mark in function.decorator_list if isinstance(mark, ast.Name)}
     arguments = function.args
@@ -150,5 +150,5 @@ def test_a_bad_function_is_found(good, old, new):
 
 
 def test_a_kernel_that_waits_is_found():
-    """All parts must come to it: only a phase knows that they do."""
+    """All parts must reach it: only a phase ensures that."""
     assert faults(only_function(GOOD.replace("scale = 2.0", "wait(a, n)"))) != []

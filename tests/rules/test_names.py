@@ -1,4 +1,4 @@
-"""Names are not written to be passed on: kernels take arrays and numbers of a handle (`hydro2d.jit.by_name`)."""
+"""Names are not written only to be passed on: kernels take arrays and numbers from a handle (`hydro2d.jit.by_name`)."""
 
 import ast
 
@@ -6,7 +6,7 @@ import pytest
 
 from tests.rules import source
 
-#: names in the signatures and calls of hydro2d/kernels together, and parameters of any function there, at most
+#: largest number of names in signatures and calls of hydro2d/kernels together, and of parameters of any function there
 MOST_NAMES, MOST_PARAMETERS = 2600, 20
 KERNELS = [file for name, file in sorted(source.modules().items()) if name.startswith("hydro2d.kernels.")]
 

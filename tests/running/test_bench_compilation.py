@@ -1,4 +1,4 @@
-"""The parts of a compilation are those of its whole."""
+"""The parts of a compilation add up to the whole."""
 
 import numpy as np
 

@@ -25,7 +25,7 @@ def test_cycles_are_estimated(deck, time, cycles):
 
 
 def wall(cells, threads):
-    """Estimated time of so many seconds on one thread as there are cells, without the start."""
+    """Estimated time on one thread, as many seconds as there are cells, without the start."""
     found = SimpleNamespace(grid=SimpleNamespace(cells=cells), seconds=float(cells))
     return check.Check.wall(found, threads) - check.START
 

@@ -1,4 +1,4 @@
-"""Every column of a history and every key of a summary is in the list, and the list has no others."""
+"""The list contains every column of a history and every key of a summary, and no others."""
 
 import re
 
@@ -36,7 +36,7 @@ def made(tmp_path_factory):
 
 
 def unlisted(found, listed) -> tuple[set[str], set[str]]:
-    """Names that the list has not, and entries of the list that no name fits."""
+    """Names missing from the list, and entries of the list that match no name."""
     words = re.compile("|".join(NAMES))
     patterns = {name: re.compile(words.sub(lambda word: f"(?:{NAMES[word[0]]})", re.escape(name))) for name in listed}
     unknown = {name for name in found if not any(pattern.fullmatch(name) for pattern in patterns.values())}
@@ -44,7 +44,7 @@ def unlisted(found, listed) -> tuple[set[str], set[str]]:
 
 
 def flat(table: dict, path: str = "") -> set[str]:
-    """Dotted keys of a summary; the provenance is one."""
+    """Dotted keys of a summary; the provenance counts as one."""
     found = set()
     for key, value in table.items():
         found |= flat(value, f"{path}{key}.") if isinstance(value, dict) and key != "provenance" else {f"{path}{key}"}

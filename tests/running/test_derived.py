@@ -1,4 +1,4 @@
-"""Derived quantities of a deck: what is refused, with the line, and their values in the history and the summary."""
+"""Derived quantities of a deck: refusals, with the line, and their values in the history and the summary."""
 
 import numpy as np
 import pytest

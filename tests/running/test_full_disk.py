@@ -1,4 +1,4 @@
-"""No space at any write of a run or a case: one message, and then what an undisturbed run gives, its history included."""
+"""No space at any write of a run or a case: one message, then the results of an undisturbed run, including its history."""
 
 import json
 
@@ -28,7 +28,7 @@ def deck(monkeypatch, simulation):
 
 
 def outcome(place):
-    """All that a run leaves: state, history, dumps, and the numbers of its summary that are no times of the wall."""
+    """The results of a run: state, history, dumps, and the numbers of its summary except wall-clock times."""
     columns = history.read(place / "history.h5")
     series = [entry for name in vtk.SERIES.values() if (place / name).exists() for entry in vtk.read_series(place / name)]
     summary = json.loads((place / "summary.json").read_text())
@@ -40,7 +40,7 @@ def outcome(place):
 
 
 def again(deck, place):
-    """As a user goes on: with --restart where there is a restart file, else from the beginning."""
+    """Continues as a user would: with --restart if there is a restart file, otherwise from the beginning."""
     restart = any((place / name).exists() for name in (snapshot.NAME, snapshot.PREVIOUS))
     return run(deck, place, quiet=True, restart=restart, overwrite=not restart)
 

@@ -82,7 +82,7 @@ def test_a_run_ends_where_its_directory_is_lost(simulation, tmp_path, monkeypatc
 
 
 def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
-    """As on a laptop that sleeps: a run is stopped, its directory removed, and another one runs there to its end."""
+    """As on a laptop that sleeps: a run is suspended, its directory removed, and another one runs there to its end."""
     (tmp_path / "shot.toml").write_text(DECK)
     command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--out", str(tmp_path / "out"), "--quiet",
                "--threads", "1", "--set", "output.vtk_interval='0.2 us'"]  # fmt: skip
@@ -105,7 +105,7 @@ def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
 
 
 def test_a_summary_of_another_deck_is_told(finished):
-    """As two runs leave it that wrote into one directory."""
+    """As left by two runs that wrote into one directory."""
     assert Results(finished).summary["trustworthy"]
     assert layout.state(finished, None)["message"] == ""
     text = (finished / "deck.toml").read_text()

@@ -1,4 +1,4 @@
-"""A restart goes on from an intact state whatever else is damaged, and from nothing that does not fit."""
+"""A restart continues from an intact state whatever else is damaged, and never from a file that does not match."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def go_on(directory, **options):
 
 
 def spoiled(directory, change):
-    """Writes the restart file anew, with a right checksum, after a change of its contents."""
+    """Rewrites the restart file, with a correct checksum, after a change of its contents."""
     found = snapshot.read(directory / snapshot.NAME)
     arrays, scalars, saved = dict(found.arrays), dict(found.scalars), dict(found.run)
     change(arrays, scalars, saved)

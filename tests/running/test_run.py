@@ -119,7 +119,7 @@ def test_one_process_at_a_time(simulation, tmp_path):
     (tmp_path / "run.lock").write_text("elsewhere 1")
     with pytest.raises(LockError, match="on elsewhere"):
         run(fake.FakeDeck(), tmp_path, quiet=True)
-    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")  # left behind, and the number has come again
+    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")  # left behind, and the number is in use again
     assert run(fake.FakeDeck(), tmp_path, quiet=True)["status"] == "done"
     assert not (tmp_path / "run.lock").exists()
 
@@ -192,7 +192,7 @@ def test_a_run_on_one_thread_compiles_in_one_process(simulation, tmp_path, monke
 
 
 def test_what_a_run_spends_its_time_on_is_named(simulation, tmp_path, monkeypatch):
-    """Each cycle takes 2 ms; the first one waits a further 50 ms for a kernel that another process compiles; a restart adds."""
+    """Each cycle takes 2 ms; the first waits another 50 ms for a kernel that another process compiles; a restart adds."""
     monkeypatch.setattr(compilation, "BEAT", 0.02)
     step = fake.Simulation.step
 

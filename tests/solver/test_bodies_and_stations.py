@@ -1,4 +1,4 @@
-"""What is measured of every body, and at tracers and gauges."""
+"""Measurements of every body, and at tracers and gauges."""
 
 import math
 import re
@@ -26,7 +26,7 @@ DECK = (
     + entry("gauge", name="void", r="15 mm", z="-10 mm")
     + stop("10 us")
 )
-#: fields, and the quantities of stations that are the same
+#: fields, and the equal quantities of stations
 SAME = {"pressure": "pressure_Pa", "density": "density_kg_m3", "temperature": "temperature_K", "von_mises": "von_mises_Pa",
         "plastic_strain": "plastic_strain"}  # fmt: skip
 MASS = 4.0 / 3.0 * math.pi * 0.005**3 * 18160.0
@@ -173,7 +173,7 @@ def test_a_wrong_gauge_is_told(gauge, said):
 
 
 def test_the_radii_of_the_ends_and_the_length_of_a_body(struck):
-    """A cone of cells, wide below; its length is that of its rows, and the length at the start is kept."""
+    """A cone of cells, wide below; its length is that of its rows, and the length at the start is stored."""
     sim = started(0, 'body.plate.thickness="10 mm"')
     r, z = np.meshgrid(sim.grid.rc[sim.grid.inside[1]], sim.grid.zc[sim.grid.inside[0]])
     sim.grid.interior(sim.state.vof)[0] = (z > 0.0) & (z < 8e-3) & (r < 10e-3 - z)
@@ -189,7 +189,7 @@ def test_the_radii_of_the_ends_and_the_length_of_a_body(struck):
 
 
 def thin(shape: str, planar: bool = False, cycles: int = 0) -> dict[str, float]:
-    """What is measured of a body on cells of 0.1 mm that flies at 1000 m/s, and how far it has flown, in mm."""
+    """Measurements of a body on cells of 0.1 mm that flies at 1000 m/s, and the distance flown, in mm."""
     kind = {"geometry": "planar"} if planar else {}
     sim = Simulation(decks.loads(mesh(("1 mm", 10), ("4 mm", 40), **kind) + shape + stop("10 us")))
     for _ in range(cycles):
@@ -225,7 +225,7 @@ def test_a_coat_has_an_extent(planar):
 
 
 def test_a_ball_of_less_than_a_cell_has_an_extent():
-    """Its box has its volume: 0.04 mm of radius are within a tenth of a cell."""
+    """The box around it has its volume: its radius of 0.04 mm is correct to a tenth of a cell."""
     found = thin(body("thin", "Al5083", "sphere", centre="1.05 mm", radius="0.04 mm", velocity="1000 m/s"))
     assert found["r_max_m"] == pytest.approx(0.04, abs=0.01)
     assert [found["z_min_m"], found["z_max_m"]] == pytest.approx([1.01, 1.09], abs=0.01)

@@ -41,7 +41,7 @@ def one_velocity():
 
 
 def set_velocities(simulation, rest, hard):
-    """Uniform (u, v) of both groups; nan for the hard ones at vertices of no cell that holds them."""
+    """Uniform (u, v) of both groups; nan for the hard ones at vertices whose cells contain none of them."""
     s = simulation.state
     s.u[0], s.v[0] = rest
     held = np.zeros(simulation.grid.vertex_shape, dtype=bool)
@@ -99,7 +99,7 @@ def test_each_group_starts_with_its_own_momentum(contact):
     np.testing.assert_allclose(v[1, j:j + 2, i:i + 2], 1000.0, rtol=1e-14)
     np.testing.assert_allclose(v[0, j:j + 2, i:i + 2], -50.0, rtol=1e-14)
     np.testing.assert_allclose(u[1, j:j + 2, i:i + 2], 3.0, rtol=1e-14)
-    surface = 12  # above it the backing, below it the plate, with cells of one size
+    surface = 12  # the backing above it, the plate below, with cells of one size
     w_plate, w_backing = (grid.interior(state.rho[m])[surface - 2 + m, 4] for m in (1, 2))
     mean = (w_plate * -50.0 + w_backing * 20.0) / (w_plate + w_backing)
     np.testing.assert_allclose(v[0, surface], mean, rtol=1e-14)
@@ -159,7 +159,7 @@ def test_a_point_moves_with_the_group_that_fills_its_cell(contact, share, expect
 
 @pytest.mark.parametrize(("own", "moved"), [(1, 2.0), (0, 1.0), (-1, 1.0)])
 def test_a_tracer_stays_with_the_group_that_it_began_in(contact, own, moved):
-    """A rod that fills a third of the cell: a tracer in it does not go with the plate."""
+    """A rod that fills a third of the cell: a tracer in it does not move with the plate."""
     contact.state.vof[:, CUT[0] + 2, CUT[1] + 2] = 0.3, 0.7, 0.0
     set_velocities(contact, (0.0, 1.0), (0.0, 2.0))
     points = np.array([centre(contact, CUT)])
@@ -175,7 +175,7 @@ def test_tracers_have_the_group_of_the_body_in_which_they_begin():
 
 
 def test_a_tracer_without_a_body_changes_its_group_with_its_place(contact):
-    """Half a step at the velocity of the plate takes the point into the rod, with which it moves the whole step."""
+    """Half a step at the velocity of the plate takes the point into the rod, with which it moves for the whole step."""
     set_velocities(contact, (0.0, -1.0), (0.0, -2.0))
     contact.state.vof[:2, CUT[0] + 2] = 0.0
     contact.state.vof[1, CUT[0] + 2] = 1.0
@@ -212,7 +212,7 @@ def test_fields_of_a_contact(contact):
     assert pressure.shape == (16, 8)
     assert pressure[CUT] == pressure.sum() == 2e9
     state.contact_pressure[...] = 0.0
-    assert pressure[CUT] == 2e9  # what was evaluated is not a view of the state
+    assert pressure[CUT] == 2e9  # the evaluated pressure is not a view of the state
 
 
 def test_fields_of_a_contact_are_written_only_there(contact):

@@ -1,4 +1,4 @@
-"""The hole in the target: of known shapes, on a mesh that travels, through a restart, and of a short shot."""
+"""The hole in the target: of known shape, on a mesh that travels, through a restart, and of a short shot."""
 
 import json
 
@@ -24,7 +24,7 @@ TEXT = (
     + plate("24 mm")
     + stop("1 us")
 )
-#: the same, flying to -z
+#: as above, but flying to -z
 BACK = ['body.rod.tip="0.3 mm"', "body.rod.direction=-1", 'body.rod.velocity="-1 km/s"', 'body.plate.z_front="-24 mm"',
         'mesh.z_start="-30 mm"', 'mesh.z.0.to="10 mm"']  # fmt: skip
 PLANAR = ['mesh.geometry="planar"', 'boundaries.r_min="wall"']
@@ -102,7 +102,7 @@ def test_a_hole_right_through(options):
 
 
 def test_a_plate_that_has_bent():
-    """Its face leans by more than 45 degrees from 11 mm in; the hole begins where the wall is upright."""
+    """Its face is inclined by more than 45 degrees from 11 mm in; the hole begins where the wall is upright."""
     sim = simulation()
     carve(sim, (3e-3, 24e-3), (RADIUS, 4e-3), (11e-3, 0.0))
     found = sim.craters[0].measure()
@@ -128,7 +128,7 @@ def dish(sim, bend, *hole):
 
 
 def bowl(depth):
-    """A dish that falls off from the axis, so deep there, its slope below 45 degrees."""
+    """A dish that slopes from the axis, where it is this deep, by less than 45 degrees."""
     return lambda r: depth * (1.0 - np.sin(0.5 * np.pi * r / 11.9e-3))
 
 
@@ -139,7 +139,7 @@ THIN_BACK = [*BACK, *THIN, 'body.plate.z_front="-6 mm"']
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
 @pytest.mark.parametrize("depth", [0.2e-3, 1.4e-3, 4.9e-3])
 def test_a_dish_is_no_hole(depth, options):
-    """A plate that has bent as a whole lacks nothing, and nothing of it has been ejected."""
+    """A plate bent as a whole has no missing material and has ejected none."""
     sim = simulation(*options)
     dish(sim, bowl(depth))
     found = sim.craters[0].measure()
@@ -162,7 +162,7 @@ def test_a_hole_through_a_dish_is_the_hole(depth, options):
 
 @pytest.mark.parametrize("depth", [0.0, 0.2e-3, 1.4e-3, 4.9e-3])
 def test_a_dent_in_a_dish_is_the_dent(depth):
-    """A dent of 2.2 mm with a flat bottom, also where the dish around it is deeper than the dent."""
+    """A dent of 2.2 mm with a flat bottom, even where the dish around it is deeper than the dent."""
     sim = simulation(*THIN)
     dish(sim, bowl(depth), (0.0, 2.2e-3), (RADIUS, 2.2e-3), (RADIUS + 1e-6, 0.0))
     found = sim.craters[0].measure()
@@ -172,7 +172,7 @@ def test_a_dent_in_a_dish_is_the_dent(depth):
 
 
 def test_a_thick_target_is_measured_as_it_lies():
-    """Its rear has not moved, or is not in the mesh: nothing is moved back, to the last bit, lip and crater as they are."""
+    """Its rear has not moved, or is not in the mesh: nothing is moved back, to the last bit, lip and crater included."""
     for options in ((), ['body.plate.thickness="60 mm"']):
         sim = simulation(*options)
         carve(sim, (0.0, 9.3e-3), (RADIUS, 7.1e-3), (4.4e-3, 0.0), lip=1.3e-3)
@@ -188,7 +188,7 @@ def test_a_bulge_closes_the_hole():
 
 
 def test_a_cone():
-    """Each row has the area of its part of the cone; of the tip only the last millimetre, thinner than a cell, is lost."""
+    """Each row has the area of its part of the cone; only the last millimetre of the tip, thinner than a cell, is lost."""
     sim = simulation()
     carve(sim, (0.0, 15.2e-3), (5.1e-3, 0.0))
     z, radius = sim.craters[0].profile()
@@ -200,7 +200,7 @@ def test_a_cone():
 
 
 def test_planar():
-    """The radius is the width of the slot's half, the volume that of the half per metre."""
+    """The radius is the half-width of the slot, the volume that of the half per metre."""
     sim = simulation(*PLANAR)
     carve(sim, *cylinder(7.2e-3))
     found = sim.craters[0].measure()
@@ -290,7 +290,7 @@ def test_rows_that_leave_the_mesh_are_kept(options):
     pytest.param(far, marks=pytest.mark.xfail(strict=True, reason="6 % too wide once the mouth is far behind; cause not known"))
     for far in (13.2e-3, 15.1e-3))])  # fmt: skip
 def test_rows_of_a_dish_that_leave_the_mesh(options, end):
-    """A mesh that travels leaves the mouth of the hole in a dished plate behind: what it keeps of it is the hole."""
+    """A mesh that travels leaves the mouth of the hole in a dished plate behind: the stored rows are those of the hole."""
     sim = simulation(*options)
     for offset in np.arange(0.0, end, 0.17e-3):
         sim.grid.move(sim.penetrator.direction * offset)
@@ -311,7 +311,7 @@ def test_a_mesh_at_rest_records_nothing():
 
 
 def test_restart():
-    """What a restart file holds, as JSON, continues to the same bits."""
+    """The contents of a restart file, as JSON, continue to the same bits."""
     whole, first, second = simulation(), simulation(), simulation()
     travel(whole, 19e-3)
     offset = travel(first, 14.5e-3, step=0.17e-3)

@@ -1,4 +1,4 @@
-"""What flies behind a plate: masses, speeds, angles and fragments of bodies that are there from the start."""
+"""Debris behind a plate: masses, speeds, angles and fragments of bodies present from the start."""
 
 import math
 
@@ -107,7 +107,7 @@ def test_the_last_target_has_nothing_behind_it():
 
 
 def test_a_piece_of_a_plate_that_still_holds_is_none():
-    """A plate that reaches beyond its rear face by something joined to it has no debris there."""
+    """A plate that extends beyond its rear face by something joined to it has no debris there."""
     found = debris("body.plug.join=plate", "body.plug.velocity=0", "body.plug.z=['3 mm', '6 mm']")["plate"]
     assert found.bodies == ["ring"]
 

@@ -1,4 +1,4 @@
-"""A deck whose mesh follows a body: what it may ask for, what `check` says, what enters, and how fast the mesh goes."""
+"""A deck whose mesh follows a body: what it may ask for, the output of `check`, what enters, and the speed of the mesh."""
 
 import numpy as np
 import pytest
@@ -80,7 +80,7 @@ def test_a_strip_is_what_the_deck_placed_there():
         np.testing.assert_allclose(strip["vof"][second], np.array([1] * 4 + [outer] + [0] * 11) * share, atol=1e-12)
         assert strip["vof"][simulation.table.names.index("plate")].max() == 0.0
         assert np.all(strip["rho"][second][strip["vof"][second] > 0] == simulation.table.rho0[second])
-    assert space.strip(24e-3, 24.1e-3) is space.strip(27e-3, 27.3e-3)  # between two levels it is looked up once
+    assert space.strip(24e-3, 24.1e-3) is space.strip(27e-3, 27.3e-3)  # between two levels it is computed once
     assert space.beyond(8e-3, 1.0) == {second}
     assert space.beyond(30e-3, 1.0) == set()
 
@@ -98,7 +98,7 @@ def test_the_mesh_takes_the_velocity_of_the_core():
     s.v[...] = np.where(s.v > 0, 700.0, 0.0)
     mesh.follow()
     assert mesh.velocity == pytest.approx(700.0, rel=1e-12)
-    s.dmg[0] = 1.0  # nothing is intact: the whole body, the crumb with it
+    s.dmg[0] = 1.0  # nothing is intact: the whole body counts, including the crumb
     mesh.follow()
     assert 600.0 < mesh.velocity < 700.0
     s.v[...] = -5.0

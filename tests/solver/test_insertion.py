@@ -119,7 +119,7 @@ def test_full_and_empty_cells_are_exact():
 
 
 def test_faces_on_the_mesh_cut_no_cells():
-    """A body whose surface lies on faces, up to the round-off of the decimals in the deck, leaves no mixed cell."""
+    """A body whose surface lies on faces, up to the round-off of the decimals in the deck, makes no mixed cell."""
     r, z = 0.0005 * np.arange(21), -0.02 + 0.0005 * np.arange(81)
     vof = insertion.fractions([shapes.box((0.0015, 0.0045), (-0.0125, 0.0105))], r, z, True)
     assert set(np.unique(vof)) == {0.0, 1.0}
@@ -164,7 +164,7 @@ def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz
 
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_cells_hold_what_their_parts_hold(cylindrical):
-    """Shares of cells are those of cells cut in three by three, whose edges the curves cross elsewhere."""
+    """Shares of cells equal those of cells cut in three by three, whose edges the curves cross elsewhere."""
     outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
                 shapes.sphere(3e-3, 2e-3, 6.1e-3)]
     r, z = np.linspace(0, 0.012, 8), np.linspace(-0.02, 0.02, 12)
@@ -210,7 +210,7 @@ def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_what_it_has_there(c
     shares, moments = insertion.shares_and_moments([shapes.box(ends_r, ends_z)], r, z, cylindrical)
 
     def cut(edges, ends):
-        """Share of each interval, and where the middle of that lies."""
+        """Share of each interval, and the middle of that part."""
         low, high = np.clip(edges[:-1], *ends), np.clip(edges[1:], *ends)
         size = np.diff(edges)
         return (high - low) / size, np.where(high > low, 0.5 * (low + high - edges[:-1] - edges[1:]) / size, 0.0)
@@ -227,7 +227,7 @@ def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_what_it_has_there(c
 
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_moments_agree_with_sampling(cylindrical):
-    """Of a ball, and of a plate of which it takes a part, by a fine midpoint rule in (r^2/2, z)."""
+    """For a ball, and for a plate that it partly covers, by a fine midpoint rule in (r^2/2, z)."""
     r, z = np.linspace(0.0, 0.01, 6), np.linspace(-0.006, 0.008, 6)
     outlines = [shapes.sphere(0.0, 0.001, 0.0063), shapes.box((0.0, math.inf), (-0.0031, 0.0043))]
     shares, moments = insertion.shares_and_moments(outlines, r, z, cylindrical)
@@ -248,7 +248,7 @@ def test_moments_agree_with_sampling(cylindrical):
 
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_moments_of_cells_are_those_of_their_parts(cylindrical):
-    """Of cells cut in two by two: to round-off, as the volumes are."""
+    """For cells cut in two by two: to round-off, like the volumes."""
     outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
                 shapes.sphere(3e-3, 2e-3, 6.1e-3)]
     s = np.linspace(0.0, 1.0, 13)  # parts of equal volume
@@ -391,7 +391,7 @@ def test_centroids_of_the_initial_state_are_moments_over_shares_in_cells_that_a_
 
 
 def test_joined_bodies_have_one_centroid_where_they_meet():
-    """The plate goes on as the rod: in cells that both fill in part that of both together, and none where they fill them."""
+    """The plate continues as the rod: in cells that both fill in part that of both together, and none where they fill them."""
     text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 17500\nshape')
     d, _, _, state = start(text, ['body.rod.tip="0.75 mm"', 'body.plate.z_front="0.1 mm"'])
     shares, moments = insertion.shares_and_moments([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)

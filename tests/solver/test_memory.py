@@ -1,4 +1,4 @@
-"""A mesh that does not fit is refused before any memory is taken."""
+"""A mesh that does not fit in memory is refused before any is allocated."""
 
 import os
 

@@ -9,9 +9,9 @@ from hydro2d.solver.simulation import Simulation
 QUICK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 LAYER = ["sliding.method=slip-layer", "sliding.boundary_layer=2", "sliding.slip_layer=2", "sliding.yield_factor=radius"]
 CYCLES = 60
-#: round-off of other processors and libraries, after so few cycles
+#: round-off on other processors and libraries, after so few cycles
 SAME = 1e-9
-#: time in s, internal energy in J and length of the rod in m after these cycles, of this version
+#: time in s, internal energy in J and length of the rod in m after these cycles, with this version
 OF = "2026-11-28"
 NUMBERS = {
     "contact": ([], 9.940892320707457e-07, 37.363764680206046, 0.097644500354732),

@@ -1,4 +1,4 @@
-"""What is measured of a rod: lengths to a cell's share, and the regime by its stated rules."""
+"""Measurements of a rod: lengths to a fraction of a cell, and the regime by its stated rules."""
 
 import json
 
@@ -26,7 +26,7 @@ from tests.rules import source
 
 
 def text(**keys):
-    """A deck: a rod of 20.2 mm with these keys, before a plate."""
+    """A deck: a rod of 20.2 mm with these keys, in front of a plate."""
     return (
         mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
         + table("numerics", advection="ke")
@@ -54,7 +54,7 @@ def test_a_rod_before_impact(simulation):
     assert found["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
     assert found["penetration_depth_m"] == 0.0
     assert found["rod_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 20.2e-3 * 18160, rel=1e-9)
-    ends = 0.2e-3 / 20.2e-3  # the row at the tip is filled by less than half and no part of the core
+    ends = 0.2e-3 / 20.2e-3  # the row at the tip is less than half full and not part of the core
     assert found["rod_core_mass_kg"] == pytest.approx(found["rod_mass_kg"] * (1 - ends), rel=1e-9)
     assert found["rod_max_radius_m"] == pytest.approx(3e-3, rel=1e-9)
     assert found["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
@@ -67,7 +67,7 @@ def test_a_rod_before_impact(simulation):
     ({"nose": "hemispherical"}, 20.2e-3),
 ])  # fmt: skip
 def test_a_rod_has_the_length_of_the_deck(keys, length):
-    """And loses none of it while its cells show what they showed at the start; what they lose counts in proportion."""
+    """And loses none of it while its cells are as at the start; their losses count in proportion."""
     own = Simulation(deck.loads(text(tip="-0.3 mm", **keys)))
     found = own.diagnostics()
     shown = own.penetrator._length()[0]
@@ -81,7 +81,7 @@ def test_a_rod_has_the_length_of_the_deck(keys, length):
 
 
 @pytest.mark.parametrize(("before", "after", "length"), [
-    (box("bore", "Al5083", r=["0 mm", "1 mm"], z=["-25 mm", "-18 mm"]), "", 17.7e-3),  # an earlier body has its place
+    (box("bore", "Al5083", r=["0 mm", "1 mm"], z=["-25 mm", "-18 mm"]), "", 17.7e-3),  # an earlier body takes its place
     ("", box("tail", "W_alloy", r=["0 mm", "3 mm"], z=["-22.5 mm", "-20.5 mm"], join="rod", velocity="1 km/s"), 22.2e-3),
 ])  # fmt: skip
 def test_a_rod_that_is_not_by_itself_has_the_length_of_its_cells(before, after, length):
@@ -100,7 +100,7 @@ def test_depth_counts_the_share_of_the_last_cell(simulation):
 
 
 def test_the_depth_of_a_rod_that_rebounds_is_the_largest(simulation):
-    """It was 4 mm deep and is at 1 mm again, by steps of a cell: both are told, also after a restart."""
+    """It was 4 mm deep and is at 1 mm again, by steps of a cell: both are reported, also after a restart."""
     sim = simulation
     fraction, z = cells(sim)
     fraction[(z > -0.5e-3) & (z < 4e-3), :6] = 1.0
@@ -149,7 +149,7 @@ def test_regimes(simulation):
     fraction[z < -19.1e-3] = 0.0  # 1.6 mm: 8 %
     assert simulation.diagnostics()["regime"] == "deforming"
     skirt = (z > -15e-3) & (z < -9e-3)
-    fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it what was turned back
+    fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it material that was turned back
     fraction[np.ix_(skirt, np.arange(24) == 7)] = 1.0
     found = simulation.diagnostics()
     assert found["rod_core_mass_kg"] < 0.9 * found["rod_mass_kg"]
@@ -157,7 +157,7 @@ def test_regimes(simulation):
 
 
 def test_what_has_failed_is_debris(simulation):
-    """The nose fails over 4 mm: it still counts for the depth and is mass of the rod, not of its core nor its length."""
+    """The nose fails over 4 mm: it still counts for the depth and the mass of the rod, not for its core or its length."""
     before = simulation.diagnostics()
     _, z = cells(simulation)
     damage = simulation.grid.interior(simulation.state.dmg)
@@ -171,7 +171,7 @@ def test_what_has_failed_is_debris(simulation):
 
 
 def test_what_flies_back_does_not_stop_the_run(simulation):
-    """Half of the mass is torn off and flies back as fast as the core goes on: the mean is at rest, the core is not."""
+    """Half of the mass is torn off and flies back as fast as the core moves forward: the mean is at rest, the core is not."""
     fraction, z = cells(simulation)
     fraction[(z > -11e-3) & (z < -10e-3)] = 0.0
     v = simulation.grid.interior_vertices(simulation.state.v)[0]
@@ -181,11 +181,11 @@ def test_what_flies_back_does_not_stop_the_run(simulation):
     assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
     assert simulation.penetrator.velocity() == found["rod_core_velocity_m_s"]
     simulation.penetrator._intact = lambda rows, columns=slice(None): 0.0 * fraction[rows, columns]
-    assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # what flies on, over the mass of all
+    assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # momentum of the rest over the whole mass
 
 
 def test_debris_against_the_flank_is_not_of_the_core(simulation):
-    """Debris of more mass than the core flies back along half of it: the core still has the rod's velocity and mass."""
+    """Debris with more mass than the core flies back along half of it: the core keeps the rod's velocity and its mass."""
     before = simulation.diagnostics()
     fraction, z = cells(simulation)
     v = simulation.grid.interior_vertices(simulation.state.v)[0]
@@ -201,7 +201,7 @@ def test_debris_against_the_flank_is_not_of_the_core(simulation):
 
 
 def test_a_run_does_not_end_while_the_tail_feeds_the_head():
-    """The mean of the core is at rest, its tail is not; a tail that only rings is no reason to go on."""
+    """The mean of the core is at rest, its tail is not; a tail that only oscillates does not keep the run going."""
     simulation = shot("stop.speed_below=10.0")
     v, z = simulation.grid.interior_vertices(simulation.state.v)[0], simulation.grid.z_edges
     for tail, reason in ((355.0, None), (0.9 * simulation.penetrator._ringing, "speed of rod below 10 m/s")):
@@ -223,7 +223,7 @@ def ball(*options):
     ("options", "reason"), [([], "perforation of plate"), (["stop.perforation=false"], "ball left the mesh")],
     ids=["perforation", "speed"])
 def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
-    """It goes through in pieces and flies out of the mesh: nothing that is left of it has a speed to end the run by."""
+    """It goes through in pieces and flies out of the mesh: no speed of the remains can end the run."""
     sim = ball(*options)
     while sim.stop_reason() is None:
         sim.step()
@@ -237,7 +237,7 @@ def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
 
 
 def test_a_rod_that_earlier_bodies_cover_has_no_speed():
-    """Where bodies overlap the earlier is there: of a rod inside a block that comes first nothing is."""
+    """Where bodies overlap the earlier one counts: nothing remains of a rod inside a block that comes first."""
     text = TEXT.replace("TIP", "-0.3").replace('[[body]]\nname = "rod"', '[[body]]\nname = "block"\nmaterial = "Al5083"\n'
                         'shape = "box"\nz = ["-25 mm", "0 mm"]\n[[body]]\nname = "rod"')  # fmt: skip
     sim = Simulation(deck.loads(text, ["stop.speed_below=1.0"]))
@@ -246,7 +246,7 @@ def test_a_rod_that_earlier_bodies_cover_has_no_speed():
 
 
 def test_a_body_that_is_gone_has_no_speed():
-    """Without [penetration]: a block flies out of an empty mesh, and the wake of 1e-6 of it does not end the run as slow."""
+    """Without [penetration]: a block flies out of an empty mesh; the 1e-6 of it left behind does not end the run as slow."""
     text = TEXT[:TEXT.index('[[body]]\nname = "plate"')] + '[stop]\nbody = "rod"\nspeed_below = "5 m/s"\ntime = "100 us"\n'
     sim = Simulation(deck.loads(text.replace("TIP", "20"), ["mesh.r.0.cells=12", "mesh.z.0.cells=40"]))
     while sim.stop_reason() is None:
@@ -269,7 +269,7 @@ def shot(*options):
 
 @pytest.mark.parametrize("options", [SHORT, BACKWARD], ids=["to +z", "to -z"])
 def test_a_rod_that_leaves_the_mesh(options):
-    """Its velocity and mass are those of the moment when the nose reached the edge, and so is its depth."""
+    """Its velocity and mass are those at the moment when the nose reached the edge, and so is its depth."""
     sim = shot(*options)
     before, masses = {}, []
     while not sim.penetrator.left:
@@ -330,7 +330,7 @@ def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
 
 
 def test_debris_does_not_leave_for_the_rod(simulation):
-    """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, says nothing."""
+    """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, does not count."""
     sim, sink = simulation, simulation.audit.sinks["outflow"]
     fraction, z = cells(sim)
     sink.mass[0] += 0.3 * sim.penetrator.mass
@@ -340,10 +340,10 @@ def test_debris_does_not_leave_for_the_rod(simulation):
     fraction[-4:, :6] = 1.0  # a fragment flies out before the rod
     sim.penetrator.watch()
     assert sim.penetrator.exit is None
-    fraction[z < -20e-3, :6] = 1.0  # the tail reaches the edge behind it, and flies away from it
+    fraction[z < -20e-3, :6] = 1.0  # the tail reaches the edge behind it, and moves away from it
     sim.penetrator.watch()
     assert sim.penetrator.exit is None
-    fraction[z > -1e-3, :6] = 1.0  # the nose reaches the one before it
+    fraction[z > -1e-3, :6] = 1.0  # the nose reaches the edge ahead of it
     sim.penetrator.watch()
     assert sim.penetrator.exit is not None
     assert sim.diagnostics()["regime"] != LEFT
@@ -362,7 +362,7 @@ def test_a_mesh_that_travels_faster_than_the_rod_leaves_it_behind(simulation):
 
 
 def test_the_edge_behind_the_rod_of_a_mesh_that_follows_it_is_no_way_out():
-    """Debris that fills the hole behind an eroding rod hangs together with what is left of it; ahead, the edge counts."""
+    """Debris that fills the hole behind an eroding rod is connected with the rest of it; ahead, the edge counts."""
     following = ("mesh.follow=rod", "boundaries.z_max=transmit")
     assert [vertex for vertex, _ in shot().penetrator._open] == [0, 100]
     assert [vertex for vertex, _ in shot(*following).penetrator._open] == [100]

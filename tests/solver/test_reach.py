@@ -1,4 +1,4 @@
-"""What energy a body can reach: against Hugoniots and isentropes in closed form, and gases beside metals held to it."""
+"""Energies that a body can reach: against Hugoniots and isentropes in closed form, and for gases next to metals."""
 
 import json
 
@@ -48,7 +48,7 @@ def test_a_solid_stops_on_its_hugoniot():
     v = found.speed
     assert found.pressure == pytest.approx(2670.0 * (5340.0 + 1.34 * v) * v, rel=0.02)
     assert found.highest[0] == pytest.approx(0.5 * v**2, rel=1e-6)
-    assert -4e5 < found.lowest[0] < -2e5  # the heat that it has at room temperature
+    assert -4e5 < found.lowest[0] < -2e5  # its heat at room temperature
 
 
 @pytest.mark.parametrize(("option", "speed"), [
@@ -84,7 +84,7 @@ def doubted(simulation):
 
 @pytest.mark.parametrize("body", [0, 2])
 def test_a_body_that_is_too_hot_or_too_cold_in_one_cell_is_a_doubt(body):
-    """In a cell that it fills; what fills less than a hundredth of its cell does not count."""
+    """In a cell that it fills; a body that fills less than a hundredth of its cell does not count."""
     simulation = Simulation(decks.loads(SHOT))
     s, found, name = simulation.state, simulation._reach, simulation.table.names[body]
     assert doubted(simulation) == []
@@ -115,7 +115,7 @@ def test_a_temperature_of_zero_is_a_doubt():
     assert sentence.startswith('body "plate" is too cold with -')
 
 
-#: bodies that begin at no temperature, alone in the void, as in Sedov's problem
+#: bodies that start at zero temperature, alone in the void, as in Sedov's problem
 COLD = (
     mesh(("1 mm", 4), ("-4 mm", "8 mm", "0.25 mm"), geometry="planar")
     + box("hot", "gas", z=["-4 mm", "2 mm"], density=1.0, energy=1e6)
@@ -127,7 +127,7 @@ COLD = (
 
 @pytest.mark.parametrize(("share", "doubtful"), [(1e-6, False), (9e-4, False), (1.1e-3, True), (0.1, True)])
 def test_a_temperature_of_zero_is_missed_by_round_off(share, doubtful):
-    """A gas behind a blast, of 0.034 J/kg below no temperature where it can reach 20 500, is sound."""
+    """A gas behind a blast, 0.034 J/kg below zero temperature where it can reach 20 500, is sound."""
     simulation = Simulation(decks.loads(COLD))
     found = simulation._reach
     simulation.state.e[0, 20, 4] = -share * (found.highest[0] - found.lowest[0])
@@ -135,7 +135,7 @@ def test_a_temperature_of_zero_is_missed_by_round_off(share, doubtful):
 
 
 def test_elastic_energy_is_no_heat():
-    """In a cell under a stress of its own, whatever the shot: p^2/(2 K rho) + q^2/(6 G rho)."""
+    """In a cell with a stress of its own, in any shot: p^2/(2 K rho) + q^2/(6 G rho)."""
     simulation = Simulation(decks.loads(SHOT, ["body.flyer.velocity=[0.0, 10.0]", "body.air.pressure=1.0"]))
     s, found = simulation.state, simulation._reach
     j, i = np.argwhere(s.vof[0] == 1.0)[5]
@@ -149,7 +149,7 @@ def test_elastic_energy_is_no_heat():
 
 
 def test_an_elastic_element_that_a_piston_squeezes_is_sound():
-    """By a fourteenth: 89 kJ/kg, where 50 m/s alone give 1.25. What the edge has not done is no excuse."""
+    """By a fourteenth: 89 kJ/kg, where 50 m/s alone give 1.25. More work than the edge has done is doubted."""
     simulation = Simulation(decks.loads(
         mesh(("4 mm", 4), ("20 mm", 20), geometry="planar")
         + walls("r_max", "z_min", z_max="piston", z_max_piston=[[0.0, 0.0], [5e-6, -50.0], [1e-3, -50.0]])
@@ -178,7 +178,7 @@ GASES = (
 
 @pytest.mark.parametrize("to", [3e5, 1e7])
 def test_work_compresses_all_bodies_to_one_pressure(to):
-    """e ~ p^((g - 1)/g) along the isentrope of each. A light gas has more of it for every kg than what is beside it."""
+    """e ~ p^((g - 1)/g) along the isentrope of each. A light gas gets more of it per kg than its neighbour."""
     simulation = Simulation(decks.loads(GASES))
     gamma, p0, rho = np.array([1.4, 5 / 3]), np.array([1e5, 2e5]), np.array([0.1, 10.0])
     heat = p0 / rho / (gamma - 1) * ((to / p0) ** ((gamma - 1) / gamma) - 1)
@@ -189,7 +189,7 @@ def test_work_compresses_all_bodies_to_one_pressure(to):
 
 
 def test_what_a_source_gives_to_one_body_reaches_the_others():
-    """A gas that is heated presses the one beside it, to eight times its energy: no doubt, but where nothing was heated."""
+    """A gas that is heated presses its neighbour, to eight times its energy: doubtful only without enough heat."""
     beam = entry("source", name="beam", kind="heating", body="heavy", power=[[0.0, 0.0], [1.0, 1.0]])
     simulation = Simulation(decks.loads(GASES + beam))
     s, audit, found = simulation.state, simulation.audit, simulation._reach
@@ -203,7 +203,7 @@ def test_what_a_source_gives_to_one_body_reaches_the_others():
         assert bool(simulation.doubts()) == doubtful
 
 
-#: edges beside which bodies fly along z and meet nothing: none, the walls of a tube, the axis and a wall
+#: edges next to which bodies fly along z and hit nothing: none, the walls of a tube, the axis and a wall
 BESIDE = {"nothing": ["boundaries.r_max=outflow", "boundaries.r_min=outflow"], "tube": [],
           "axis": ["mesh.geometry=cylindrical"]}
 
@@ -211,7 +211,7 @@ BESIDE = {"nothing": ["boundaries.r_max=outflow", "boundaries.r_min=outflow"], "
 @pytest.mark.parametrize("open_ends", BESIDE.values(), ids=BESIDE)
 @pytest.mark.parametrize("by", [3000.0, -500.0])
 def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by, open_ends):
-    """But where an edge stands across their way, which they meet."""
+    """Unless an edge lies across their path, which they hit."""
     moved = [f"body.{name}.velocity=[0.0, {by + own}]" for name, own in (("flyer", 1000.0), ("plate", 0.0), ("air", 0.0))]
     here, there = reach(*open_ends), reach(*open_ends, *moved)
     for name in ("lowest", "highest", "cell_lowest", "cell_highest", "worked", "speed", "pressure", "stands"):
@@ -248,7 +248,7 @@ def test_what_was_doubtful_once_is_not_forgotten(tmp_path):
 
 
 def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):
-    """Once 2.3e8 J/kg, 320 000 K, and trusted: the heat of the viscosity and the pressure of the metal went into the air."""
+    """It used to reach 2.3e8 J/kg, 320 000 K, and was trusted: the viscous heat and the metal's pressure went into the air."""
     summary = run(decks.loads(SHOT), tmp_path / "run", quiet=True)
     assert exit_status(summary) == 3
     assert not summary["trustworthy"]
@@ -257,7 +257,7 @@ def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):
 
 
 def test_a_gas_beside_a_moving_metal_has_the_heat_of_its_shock():
-    """Air before a flyer at 1 km/s, not yet crushed: some 7e5 J/kg behind the shock, where metal and air share cells."""
+    """Air ahead of a flyer at 1 km/s, not yet crushed: some 7e5 J/kg behind the shock, where metal and air share cells."""
     simulation = Simulation(decks.loads(SHOT))
     while simulation.time < 0.45e-6:
         simulation.step()

@@ -1,4 +1,4 @@
-"""Gauges that stay on a surface: where it is, on which side, and the velocity of a free surface."""
+"""Gauges that stay on a surface: its position, its side, and the velocity of a free surface."""
 
 import numpy as np
 import pytest
@@ -175,7 +175,7 @@ time = "2 us"
 
 @pytest.mark.parametrize("thickness", [0.03, 0.06, 0.09, 0.15])
 def test_gauges_stay_on_a_body_narrower_than_a_cell(thickness):
-    """Ten cells of way: both surfaces, and the velocity of the foil between them."""
+    """Over ten cells of flight: both surfaces, and the velocity of the foil between them."""
     sim = Simulation(decks.loads(THIN.replace("END", f"{1.03 + thickness}")))
     places = np.array([1.03 + thickness, 1.03]) * 1e-3
     np.testing.assert_allclose(sim.stations.places[:, 1], places, atol=1e-9)

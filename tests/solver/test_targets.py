@@ -1,4 +1,4 @@
-"""Several targets, one behind the other: which they are, and what is measured of the rod behind each and of the hole in it."""
+"""Several targets, one behind the other: which they are, and measurements of the rod behind each and of its hole."""
 
 import json
 
@@ -27,7 +27,7 @@ TEXT = (
     + stop("30 us", perforation=True)
     + table("output", history_interval="0.05 us", vtk_interval="10 us")
 )
-#: the same, flying to -z
+#: as above, but flying to -z
 BACK = ['body.ball.centre="6 mm"', 'body.ball.velocity="-1500 m/s"', 'body.rear.z_front="-16 mm"',
         'body.front.z_front="-3 mm"', 'mesh.z_start="-31 mm"', 'mesh.z.0.to="13 mm"']  # fmt: skip
 RING = '[[body]]\nname = "ring"\nmaterial = "Al6061_T6"\nshape = "box"\nr = ["10 mm", "12 mm"]\nz = ["5 mm", "8 mm"]\n'

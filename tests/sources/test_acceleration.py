@@ -1,4 +1,4 @@
-"""Forces per mass: free fall, hydrostatic pressure, what audits say of them, walls, two bodies, restarts."""
+"""Forces per mass: free fall, hydrostatic pressure, their audit, walls, two bodies, restarts."""
 
 import numpy as np
 import pytest
@@ -93,7 +93,7 @@ def test_wrong_tables(override, words):
 
 #: cells, their height, and the material of the column
 N, H = 20, 0.5e-3
-#: its energy at the start, J/kg: with none, what round-off changes would be more than all there is
+#: its energy at the start, J/kg: at zero energy, changes by round-off would exceed the whole
 ENERGY = 1e3
 
 
@@ -107,7 +107,7 @@ def density_at(material, p):
 
 
 def column(names):
-    """Densities from the top down in which every vertex is in balance: its half cells weigh what the pressure differs by."""
+    """Densities from the top down in which every vertex is in balance: the pressure difference carries its half cells."""
     found, p = [], 0.0
     weight = 0.0  # of the half cell above
     for name in names:
@@ -186,7 +186,7 @@ def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
 
 
 def test_without_the_source_the_same_column_rises():
-    """The check above can fail: without its weight the column springs up."""
+    """The check above can fail: without its weight the column expands upwards."""
     text = standing(["Al5083"] * N)
     simulation = Simulation(deck.loads(text[: text.index("[[source]]")]))
     for _ in range(20):
@@ -210,7 +210,7 @@ hard = ["block"]
 
 @pytest.mark.parametrize("pushed", ["plate", "block"])
 def test_a_force_beside_a_contact_passes_on_through_it(pushed):
-    """A plate falls onto a block, or the block is driven into the plate: momentum of both, but for crumbs, and the audit."""
+    """A plate falls onto a block, or the block is driven into the plate: momentum of both, except for crumbs, and the audit."""
     push = G if pushed == "plate" else -G
     text = FALL.replace('body = "plate"', f'body = "{pushed}"').replace("axial = -2e8", f"axial = {push}")
     text = text.replace('velocity = "100 m/s"', "velocity = 0.0")

@@ -1,4 +1,4 @@
-"""Detonations in decks: light times in bodies, what a deck is told, what burns and what stays as it is."""
+"""Detonations in decks: light times in bodies, messages for decks, what burns and what stays as it is."""
 
 import math
 
@@ -73,7 +73,7 @@ def test_an_own_speed_and_width_and_several_sources():
 
 
 def test_nothing_burns_before_its_point_is_lit():
-    """The cells at a point begin to burn with it, and have burnt when they would have; where it is lit later as well."""
+    """The cells at a point start to burn with it, and have burnt at the expected time; also if it is lit later."""
     simulation = Simulation(deck.loads(TEXT, ['source.fuse.points=[[0, 0, 0], ["8 mm", "18 mm", "1 us"]]']))
     found, duration = light(simulation), light(simulation, jwl.BURN_TIME)
     arrival, whole = math.hypot(0.25e-3, 0.25e-3) / 6930.0, 2.5 * 0.5e-3 / 6930.0

@@ -1,4 +1,4 @@
-"""Sources of energy: the tables of a deck, what they give and what the audit says of it."""
+"""Sources of energy: the tables of a deck, the energy deposited and its audit."""
 
 import numpy as np
 import pytest
@@ -71,7 +71,7 @@ def test_two_sources_of_one_name():
 
 
 def test_the_share_of_cells_within_reach():
-    """In r-z the share of the volume: of a cell from 1 to 2 mm, what lies within 1.5 mm is 5/12 of it."""
+    """In r-z the share of the volume: of a cell from 1 to 2 mm, the part within 1.5 mm is 5/12."""
     grid = Grid([0.0, 1e-3, 2e-3, 3e-3], [0.0, 1e-3, 2e-3])
     beam = Heating(name="beam", kind="heating", body="plate", r=[0.0, 1.5e-3], z=[0.25e-3, 5e-3], power=ROWS)
     np.testing.assert_allclose(beam.share(grid), np.outer([0.75, 1.0], [1.0, 5 / 12, 0.0]), rtol=1e-13, atol=1e-15)
@@ -99,7 +99,7 @@ def test_what_is_not_within_reach_stays_cold():
         simulation.step()
     e = simulation.grid.interior(simulation.state.e)[0]
     assert e[11, 1] > 4e3
-    assert np.all(np.abs(e[20:]) < 1e-30)  # what sound of a few bits leaves of its motion as heat
+    assert np.all(np.abs(e[20:]) < 1e-30)  # heat left by sound waves of a few bits
     assert np.all(np.abs(e[:9]) < 1e-30)
 
 
@@ -118,7 +118,7 @@ def test_a_restart_goes_on_heating_to_the_same_bits():
 
 
 def test_a_source_may_set_variables_before_the_first_step(monkeypatch):
-    """What programmed burn needs: a made-up kind gives every cell of a porous block another distention."""
+    """Programmed burn needs this: a made-up kind gives every cell of a porous block another distention."""
     simulation = Simulation(deck.load("problems/verification/porous_compaction.toml"))
 
     class Crushed(Source):

@@ -1,4 +1,4 @@
-"""The page of `hydro2d view` in a real browser: pictures, numbers, lines, histories, keys, on a desk and on a phone."""
+"""The page of `hydro2d view` in a real browser: pictures, numbers, lines, histories, keys, on a desktop and on a phone."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from hydro2d.output import vtk
 from tests.results import made_run
 
 PHONE, DESK = 390, 1440
-#: what the questions use: when the page is drawn, a pixel of a section, pointers that press and drag, keys
+#: helpers of the questions: when the page is drawn, a pixel of a section, pointers that press and drag, keys
 TOOLS = r"""
   const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
   const settled = async () => { await pause(50); while (drawnStep() !== state.step) await pause(20); await update(); };
@@ -77,7 +77,7 @@ def page(shot, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def pair(shot, tmp_path_factory):
-    """The page of this run beside one with another mesh, which ends earlier."""
+    """The page of this run together with one on another mesh, which ends earlier."""
     folder = tmp_path_factory.mktemp("pair")
     other = hydro2d.open_run(made_run.write(folder / "other", shape=(40, 20), dumps=4, time=30e-6, stations=False))
     return shot.view(other).save(folder / "view.html")
@@ -141,7 +141,7 @@ def test_the_slider_changes_the_picture_and_colours_are_those_of_the_values(brow
 
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_each_half_has_its_own_bar_which_says_so(browser, page, width):
-    """One bar where both halves show one field; else one beside each half, with its name above and its unit along it."""
+    """One bar if both halves show one field; otherwise one next to each half, with its name above and its unit along it."""
     script = r"""
       const words = [], plainFill = CanvasRenderingContext2D.prototype.fillText;
       CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
@@ -268,7 +268,7 @@ def test_on_a_desk_the_table_stands_beside_the_picture_alone(browser, page):
 
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_the_first_view_is_the_projectile(browser, page, shot, width):
-    """The rod at all times with a rod's diameter around it, and not the mesh, whose fine part alone is half as wide again."""
+    """The rod at all times with a rod's diameter around it, not the mesh, whose fine part alone is half as wide again."""
     script = r"""
       const { box } = SECTIONS[0], first = { ...state.view };
       const seen = [SECTIONS[0].x(box.left), SECTIONS[0].x(box.left + box.width)];
@@ -514,7 +514,7 @@ def test_keys(browser, page):
     assert (found["open"], found["asleep"], found["probe"]) == (True, 4, None)
     assert (found["playing"], found["label"]) == (True, "Pause")
     assert found["ended"] == [4, False]  # from the first to the last
-    assert found["theme"] == "dark"  # a key in a choice is the choice's own
+    assert found["theme"] == "dark"  # a key pressed in a choice belongs to the choice
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
