@@ -1,4 +1,4 @@
-"""Names that a deck may have: every printable character but / and \ in one of them, and those with a meaning in some format."""
+"""Names that a deck may have: every printable character but / and \\ in one of them, and those special to some format."""
 
 import string
 import sys

@@ -65,7 +65,7 @@ wrong: int = hydro2d.Simulation(deck).run(until=1e-6)
 
 
 def test_a_type_checker_finds_hydro2d_from_any_folder(tmp_path):
-    """In an editable install as well: the mistake is found, and nothing is missing."""
+    """In an editable install as well: the mistake is found, and no name is missing."""
     (tmp_path / "program.py").write_text(TYPED)
     (tmp_path / "mypy.ini").write_text("[mypy]\nfollow_imports = skip\n[mypy-hydro2d.*]\nfollow_imports = silent\n")
     done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", "cache", "program.py"], cwd=tmp_path, text=True,
@@ -372,7 +372,7 @@ def test_a_mesh_that_travels_says_where_it_is(tmp_path):
 
 
 def test_a_mesh_that_will_travel_has_its_dimensions_from_the_first_dump_on(tmp_path):
-    """A script must not break on how far a run has come."""
+    """A script must not depend on how far a run has come."""
     directory = made_run.write(tmp_path / "run", dumps=1)
     assert hydro2d.open_run(directory).fields.pressure.dims == ("time", "z", "r")
     (directory / "deck.toml").write_text(made_run.DECK_TEXT.format(geometry="cylindrical").replace(
@@ -456,7 +456,7 @@ def test_a_sweep_of_a_deck_object_and_of_a_study_file(tmp_path):
 
 
 def test_a_sweep_of_a_deck_object_resolves_its_defaults_anew(tmp_path):
-    """The surface from which the depth counts and the intervals of output follow the case, not the deck that it was made of."""
+    """The surface from which the depth counts and the intervals of output follow the case, not the original deck."""
     deck = hydro2d.Deck.from_toml(TEXT)
     plan = api._plan(deck, {"body.plate.z_front": ["0 mm", "1 mm"], "stop.time": ["10 us", "20 us"]}, (), tmp_path / "study")
     cases = [hydro2d.Deck.from_toml(case.text) for case in plan.cases]
@@ -482,7 +482,7 @@ def test_what_is_no_study_is_refused(tmp_path):
 # ---------------------------------------------------------------------------------------------------- plain numbers, threads
 
 
-#: the shot as it stands, without the line that lets numbers be in SI units
+#: the deck of the shot, without the line that lets numbers be in SI units
 WITH_UNITS = TEXT.replace('numbers = "SI"\n', "")
 
 
@@ -558,7 +558,7 @@ def test_reprs_are_short(deck, shot):
 
 
 def test_without_xarray_and_pandas_the_extra_is_told(shot, deck, tmp_path, monkeypatch):
-    """Results are read without them; what needs them says which extra brings them, a sweep before it runs anything."""
+    """Results are read without them; functions that need them name the extra that brings them, a sweep before it runs."""
     for name in ("pandas", "xarray"):
         monkeypatch.setitem(sys.modules, name, None)
     assert shot.history["time"].size > 1

@@ -1,4 +1,4 @@
-"""The checksum in a file fits at any moment, is in nobody's way, and gives way to a user who means a change."""
+"""The checksum in a file matches at any moment, is in nobody's way, and yields to a user's deliberate change."""
 
 import json
 import os
@@ -32,7 +32,7 @@ def done(simulation, tmp_path):
 
 
 def is_sealed(file: Path) -> bool:
-    """Whether one bit more in the middle is refused."""
+    """Whether one changed bit in the middle is refused."""
     data = bytearray(file.read_bytes())
     data[len(data) // 2] ^= 1
     other = file.with_name(f"other{file.suffix}")
@@ -53,7 +53,7 @@ def test_every_file_of_a_run_has_one(done):
 
 
 def test_every_file_fits_whenever_it_is_replaced(simulation, tmp_path, monkeypatch):
-    """So that a reader, or a process that is killed, finds no file without its checksum."""
+    """So that a reader, or a killed process, finds no file without its checksum."""
     seen = []
 
     def replace(source, target):
@@ -116,7 +116,7 @@ def test_files_of_earlier_versions_are_read(tmp_path):
 
 
 def test_a_file_that_another_program_added_to_is_read(done):
-    """h5py leaves out what stands behind the end."""
+    """h5py ignores data behind the end."""
     with h5py.File(done / "history.h5", "a") as file:
         file["mine"] = np.zeros(len(file["time"]))
     assert "mine" in history.read(done / "history.h5")
@@ -143,7 +143,7 @@ def test_nothing_but_files_is_read(tmp_path):
 @pytest.mark.parametrize("name", ["deck.toml", "summary.json", "progress.json", "study.json", "series.pvd", "history.h5",
                                   "restart.h5", "dump_000000.vtr"])  # fmt: skip
 def test_the_size_of_a_file_is_looked_at_before_it_is_read(tmp_path, name):
-    """One of a terabyte takes no memory."""
+    """A file of a terabyte takes no memory."""
     file = tmp_path / name
     with open(file, "wb") as sparse:
         sparse.truncate(1 << 40)

@@ -60,7 +60,7 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
 
 
 def test_a_lock_that_goes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
-    """The holder before removes the file after it was opened here: a lock on what has no name any more keeps nobody out."""
+    """The previous holder removes the file after it was opened here: a lock on a file without a name excludes nobody."""
     lock, taken, calls = tmp_path / "a.lock", files._taken, []
 
     def late(file):
@@ -91,7 +91,7 @@ def _race(lock, inside, most, rounds):
 
 
 def test_no_race_has_two_winners(tmp_path):
-    """Three processes take and leave one lock as fast as they can."""
+    """Three processes take and release one lock as fast as they can."""
     spawn = multiprocessing.get_context("spawn")
     lock, inside, most = tmp_path / "a.lock", spawn.Value("i", 0), spawn.Value("i", 0)
     racers = [spawn.Process(target=_race, args=(lock, inside, most, 200)) for _ in range(3)]

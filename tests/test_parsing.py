@@ -1,4 +1,4 @@
-"""Python text is parsed by one thread at a time, and nowhere else."""
+"""Python text is parsed by one thread at a time, and only there."""
 
 import ast
 import re
@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_no_two_threads_parse_at_once(monkeypatch):
-    """What parses here takes its time, and would see another that has begun."""
+    """The parsing here is slow, and would notice another one that has begun."""
     inside, most = [0], [0]
 
     def slow(text, mode):

@@ -1,4 +1,4 @@
-"""What is printed, logged and drawn: text from someone else's files steers no terminal, no table and no page."""
+"""Printed, logged and drawn output: text from someone else's files controls no terminal, no table and no page."""
 
 import ast
 import io
@@ -15,7 +15,7 @@ from hydro2d.terminal import duration, one_line, say, shown
 from tests import fake
 from tests.rules import source
 
-#: sets the title of a terminal, clears it, turns the direction of writing, and forges a line
+#: sets the title of a terminal, clears it, reverses the direction of writing, and forges a line
 NASTY = "a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r\nd"
 SPELLED = r"a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r"
 

@@ -1,4 +1,4 @@
-"""Cells that are solved together: every cell has the answer of `plastic_increment`, whatever its place and its company."""
+"""Cells solved together: each has the answer of `plastic_increment`, wherever it is and whichever cells are with it."""
 
 import inspect
 import math
@@ -15,7 +15,7 @@ from strength.dispatch import WEAKENS
 from strength.radial_return import next_trial, plastic_increment, return_together
 from tests.contract.test_models import STRENGTH_CASES
 
-#: what a cell brings, in the order of the arguments of `plastic_increment`
+#: input of a cell, in the order of the arguments of `plastic_increment`
 BROUGHT = (lanes.TRIAL, lanes.STRAIN, lanes.HEAT, lanes.PRESSURE, lanes.DENSITY)
 RANDOM = np.random.default_rng(7)
 
@@ -26,13 +26,13 @@ def materials():
         for variant in (None, *library.load(name).variants):
             material = library.load(name, variant)
             module = STRENGTH_MODELS[material.strength.name]
-            if module.NAME != "hydrodynamic" and module.ID not in WEAKENS:  # those are solved cell by cell
+            if module.NAME != "hydrodynamic" and module.ID not in WEAKENS:  # they are solved cell by cell
                 yield pytest.param(module, material.strength, material.eos.values["reference_density"],
                                    id=name if variant is None else f"{name}-{variant}")
 
 
 def states(module, par, density, number):
-    """trial, strain, temperature, pressure, density and shear modulus of cells, melted and unstrained ones among them."""
+    """trial, strain, temperature, pressure, density and shear modulus of cells, some of them melted or unstrained."""
     strain = np.where(RANDOM.random(number) < 0.1, 0.0, 10.0 ** RANDOM.uniform(-20.0, 1.5, number))
     T = np.where(RANDOM.random(number) < 0.1, 5000.0, RANDOM.uniform(0.0, 1500.0, number))
     p, rho = RANDOM.uniform(-2e9, 3e10, number), density * RANDOM.uniform(0.94, 1.4, number)
@@ -53,7 +53,7 @@ def together(model, par, dt, factor, trial, strain, T, p, rho, G):
 
 
 def alone(model, par, dt, factor, *cells):
-    """The same of `plastic_increment`, cell by cell."""
+    """(dep, flow stress) of `plastic_increment`, cell by cell."""
     found = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par, 0.0)
              for trial, ep, T, p, rho, G in zip(*cells, strict=True)]
     return tuple(np.array(found).T)
@@ -101,7 +101,7 @@ def test_neither_place_nor_company_changes_a_bit(name):
     assert np.isnan(found[:, ::2][:, cells[5][::2] > 0.0]).all()
 
 
-#: of what the flow stress of each model depends on
+#: arguments on which the flow stress of each model depends
 FEELS = {
     "johnson-cook": ("strain", "T"), "steinberg-guinan": ("strain", "T", "p", "rho"), "power-law": ("strain",),
     "zerilli-armstrong": ("strain", "T"), "elastic-plastic": ("strain", "T"), "kinematic-hardening": ("strain",),

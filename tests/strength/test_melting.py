@@ -1,4 +1,4 @@
-"""The melting line of a material: Lindemann's slope, what is solid, and the lines of the library."""
+"""The melting line of a material: Lindemann's slope, which states are solid, and the lines of the library."""
 
 import math
 

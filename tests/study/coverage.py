@@ -1,4 +1,4 @@
-"""How often the 90 % intervals of searches with a budget hold the truth: `python -m tests.study.coverage [SEARCHES] [RUNS]`.
+"""How often the 90 % intervals of searches with a budget contain the truth: `python -m tests.study.coverage [SEARCHES] [RUNS]`.
 
 Every outcome is made up: it is logistic in velocity, with known v50 and width. The searches begin on several intervals, with
 seeds that no test uses. A search ends as `hydro2d transition` ends it: with its budget, or after two rounds of one outcome.
@@ -41,7 +41,7 @@ TRANSITIONS = (
 
 
 class Held(NamedTuple):
-    """Of searches for one transition, those with an estimate, and of these those whose intervals hold v50 and the width."""
+    """Number of searches for one transition that give an estimate, and of those whose intervals contain v50 and the width."""
 
     told: int
     v50: int
@@ -60,12 +60,12 @@ def searched(true: Transition, seed: int, runs: int = 40) -> tuple[list[float], 
 
 
 def within(value: float, low: float | None, high: float | None) -> bool:
-    """Whether an interval holds a value; an end that is None is open."""
+    """Whether an interval contains a value; an end that is None is open."""
     return (low is None or low <= value) and (high is None or value <= high)
 
 
 def measure(searches: int, runs: int) -> list[Held]:
-    """Searches so many times for each transition with so many runs, prints how often the intervals hold, and returns it."""
+    """Makes so many searches for each transition with so many runs, prints how often the intervals hold, and returns it."""
     print(f"{'v50':>6} {'width':>6}  {'interval':<12} {'told':>5} {'v50 held':>9} {'width held':>11}  "
           "median size of the interval of v50 and median estimate of the width, both over the width")  # fmt: skip
     held = []

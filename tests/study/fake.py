@@ -1,4 +1,4 @@
-"""Run directories and studies that nobody ran: what a report reads, written in milliseconds."""
+"""Run directories and studies that nobody ran: the input of a report, written in milliseconds."""
 
 from __future__ import annotations
 

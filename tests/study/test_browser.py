@@ -1,4 +1,4 @@
-"""The page in a real browser: on a phone, on a desk, on paper."""
+"""The page in a real browser: on a phone, on a desktop, on paper."""
 
 import json
 from unicodedata import normalize
@@ -18,7 +18,7 @@ AXES = {
 PHONE, DESK = 360, 1440
 SCHEMES = ("light", "dark")
 
-#: what the questions use: contrast of two colours, the background behind an element, words that stand in two lines
+#: helpers of the questions: contrast of two colours, the background behind an element, words that break into two lines
 TOOLS = r"""
   const all = (selector) => [...document.querySelectorAll(selector)];
   const numbers = (colour) => colour.match(/[\d.]+/g).map(Number);
@@ -181,7 +181,7 @@ def test_table_decks_and_pictures_can_be_saved(browser, page):
 
 
 def test_faults_are_seen(browser, page, tmp_path):
-    """A picture that is none, an error of a script, a request, a box that is too wide, a torn key and faint text are found."""
+    """An invalid picture, an error of a script, a request, a box that is too wide, a torn key and faint text are found."""
     spoilt = tmp_path / "spoilt.html"
     text = page.read_text(encoding="utf-8")
     wrong = ('<img alt="x" src="data:image/png;base64,AAAA"><img alt="y" src="https://example.invalid/x.png">'
@@ -246,7 +246,7 @@ def test_it_prints(browser, page):
 
 
 def test_headings_are_repeated_on_paper(browser, page, tmp_path):
-    """A table of several sheets, made of one of the page's rows."""
+    """A table of several sheets, made from one of the page's rows."""
     text = page.read_text(encoding="utf-8")
     row = text[text.index("<tbody>") + len("<tbody>") :].split("</tr>")[0] + "</tr>"
     long = tmp_path / "long.html"

@@ -1,4 +1,4 @@
-"""Searches with a budget: which shots run, what is told of them, interruptions, bad input, and a real shot."""
+"""Searches with a budget: which shots run, the report on them, interruptions, bad input, and a real shot."""
 
 import base64
 import csv
@@ -56,7 +56,7 @@ def names(folder):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    """A search of one worker that nobody disturbed: folder, client, exit status, result."""
+    """An undisturbed search of one worker: folder, client, exit status, result."""
     folder, client = tmp_path_factory.mktemp("chance"), made_up.Client(chancy)
     return folder, client, *search(folder, client)
 
@@ -215,7 +215,7 @@ def test_a_ballistic_limit_has_the_estimate_of_the_military_standard_as_well(tmp
 
 @pytest.mark.parametrize(("of", "slow", "fast"), [("deeper", "shallower", "deeper"), ("shallower", "deeper", "shallower")])
 def test_a_threshold_of_depth(tmp_path, of, slow, fast):
-    """Fast shots go less deep here, so that only the search for that finds a transition."""
+    """Fast shots go less deep here, so only the search for a depth finds a transition."""
     text = STUDY.replace('"erosion"', f'"{of}"\ndepth = "30 cm"')
     found = search(tmp_path, made_up.Client(chancy), text)[1]
     assert {run["regime"] for run in found["runs"]} == {slow, fast}
@@ -238,7 +238,7 @@ def test_erosion_is_found_by_bisection_too(tmp_path):
     assert found["estimate"] is None
 
 
-# ------------------------------------------------------------------------------------------------ what is told
+# ------------------------------------------------------------------------------------------------ the report
 
 
 def test_what_is_printed_and_drawn(tmp_path, capsys):

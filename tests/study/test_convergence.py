@@ -1,4 +1,4 @@
-"""Meshes with scatter: what is extrapolated, what is not and why, and how the mesh of a deck is refined."""
+"""Meshes with scatter: which results are extrapolated, which are not and why, and how the mesh of a deck is refined."""
 
 import dataclasses
 import json
@@ -26,7 +26,7 @@ def limit(means, scatter, count=4, seed=0, cells=CELLS):
 
 @pytest.mark.parametrize(("order", "factor"), [(1.0, 10.0), (2.0, 60.0)])
 def test_the_interval_covers_the_true_value(order, factor):
-    """45 + factor / cells^order with scatter: a 90 % interval covers 45 in at least 32 of 40 repeats, and is not idle."""
+    """45 + factor / cells^order with scatter: a 90 % interval covers 45 in at least 32 of 40 repeats, and is not too wide."""
     found = [limit([45.0 + factor * cells**-order for cells in CELLS], 0.02, seed=seed) for seed in range(40)]
     given = [each for each in found if each.value is not None]
     assert len(given) >= 36
@@ -57,7 +57,7 @@ def test_two_meshes_show_no_order():
 
 @pytest.mark.parametrize("file", [SHOT, "problems/classic/long_rod.toml", "problems/cth_nose_shape/hemi_5083_1086_layer.toml"])
 def test_a_mesh_is_refined_by_one_factor(file):
-    """Exactly so many cells across the rod; the ends of the mesh stay within a cell; cells grow as fast over a length."""
+    """Exactly so many cells across the rod; the ends of the mesh move by less than a cell; cells grow as fast over a length."""
     before = decks.load(file)
     _, radius = members.projectile(before)
     after = decks.load(file, meshes.settings(before, 11.5))

@@ -1,4 +1,4 @@
-"""Study files: what is wrong is told in one line with file, line, key and the nearest name; the cases that come out."""
+"""Study files: each error is reported in one line with file, line, key and the nearest name; the resulting cases."""
 
 import re
 import tomllib
@@ -56,7 +56,7 @@ NOSES = ["ogive", "hemispherical", "conical"]
 
 
 def noses(folder, more="", overrides=(), change=("", "")):
-    """The cases of the axis over noses in the guide, of a deck with an ogive."""
+    """The cases of the guide's axis over noses, for a deck with an ogive."""
     page = (source.ROOT / "docs/how-to/run-a-study.md").read_text(encoding="utf-8")
     axis = next(block for block in re.findall(r"```toml\n(.*?)```", page, flags=re.S) if 'name = "nose"' in block)
     text = 'deck = "problems/cth_nose_shape/ogive_7039_1291.toml"\n' + more + re.sub("^deck = .*", "", axis).replace(*change)

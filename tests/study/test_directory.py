@@ -1,4 +1,4 @@
-"""A study directory is read back as it was written, in any state of completion."""
+"""A study directory is read back as it was written, at any stage of completion."""
 
 import io
 from dataclasses import replace
@@ -35,7 +35,7 @@ def state(directory, name):
 
 
 def pretend(directory, plan, name, status, **extra):
-    """What a run of a case leaves behind."""
+    """The files that the run of a case leaves behind."""
     place = directory / "cases" / name
     place.mkdir(exist_ok=True)
     planned = next(case for case in plan.cases if case.name == name)
@@ -117,7 +117,7 @@ def test_time_left():
 
 
 def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
-    sweep.changes(plan, written, resume=False, overwrite=False)  # nothing has begun
+    sweep.changes(plan, written, resume=False, overwrite=False)  # no case has begun
     pretend(written, plan, "ke_0.1", "done")
     with pytest.raises(StudyError, match=r"1 of 6 done.*--resume continues it"):
         sweep.changes(plan, written, resume=False, overwrite=False)
@@ -142,7 +142,7 @@ def test_a_changed_study_is_told(plan, written, tmp_path):
         "2 cases (ke_0.3, momentum_0.3) new",
         "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; the files in cases are kept",
     ]
-    search = Velocities("body.rod.velocity", ("100 m/s",), 1.0)  # it may draw again what had not ended
+    search = Velocities("body.rod.velocity", ("100 m/s",), 1.0)  # it may draw unfinished velocities again
     assert sweep.changes(replace(wider, search=search), written, resume=True, overwrite=False) == told[:1]
     layout.write(wider, written)
     other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
@@ -183,7 +183,7 @@ def test_the_live_table_fits_the_terminal(plan, written):
 
 
 def test_the_board_says_how_far_compilation_is(tmp_path):
-    """The cases wait for it meanwhile."""
+    """The cases wait meanwhile."""
     board = monitor.Board(layout.Study(tmp_path, "", "a", (), ()), io.StringIO(), quiet=True)
     board.compiling = lambda: "compiling kernels: 14 of 23, 21 s"
     assert board.summary() == "0 of 0 done; compiling kernels: 14 of 23, 21 s"

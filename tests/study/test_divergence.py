@@ -1,4 +1,4 @@
-"""Where and when two runs part: growth times, the first cell, what is refused. The runs are made up; their growth is known."""
+"""Where and when two runs diverge: growth times, the first cell, refusals. The runs are made up, with known growth."""
 
 import csv
 import shutil

@@ -1,4 +1,4 @@
-"""Figures show what they say."""
+"""Figures show their subject."""
 
 from dataclasses import replace
 
@@ -99,7 +99,7 @@ def test_runs_experiments_rear_and_models_are_drawn(contents, panel):
         assert title in found
 
 
-#: what is said of a run that ended before its projectile stood
+#: the label of a run that ended before its projectile stopped
 CUT = "reached its end time, still moving at 80 m/s"
 
 
@@ -142,7 +142,7 @@ def test_legends_are_short_enough_for_a_phone():
 
 
 def test_models_are_those_of_the_command(contents):
-    """Tate's depth as `hydro2d model` gives it; a model without its inputs is a reason, not a line."""
+    """Tate's depth is that of `hydro2d model`; a model without its inputs gives a reason, not a line."""
     from hydro2d.analytic import models
 
     shot = contents.records[0].shot
@@ -169,7 +169,7 @@ def test_histories_are_thinned(panel):
 
 
 def patches(axes):
-    """Extents in cm of the rod as it began and as it ended: r_min, z_min, r_max, z_max."""
+    """Extents in cm of the rod at the start and at the end: r_min, z_min, r_max, z_max."""
     return [patch.get_path().get_extents().extents for patch in axes.patches]
 
 

@@ -1,4 +1,4 @@
-"""No space at any write of a search: it ends with a message, and with --resume finds what an undisturbed one finds."""
+"""No space at any write of a search: it ends with a message, and with --resume gets the result of an undisturbed one."""
 
 import json
 
@@ -19,8 +19,8 @@ BUDGET = test_chance.STUDY.replace("budget = 16", "budget = 5\nround = 3")
     pytest.param(BUDGET, test_chance.chancy, True, id="budget, full for one file", marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_no_space_at_any_write_of_a_search(tmp_path, monkeypatch, capsys, text, becomes, once):
-    """A search with a budget goes on without the outcome of a shot for which there was no space, and makes it later: only then
-    may other velocities be chosen."""
+    """A search with a budget goes on without the outcome of a shot for which there was no space, and makes it later; only then
+    may it choose other velocities."""
     disk = Disk(monkeypatch)
 
     def search(folder, **options):

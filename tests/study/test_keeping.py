@@ -1,4 +1,4 @@
-"""Rows that a study keeps: which runs are up to date, which are stale, and what a table says that mixes versions."""
+"""Rows that a study keeps: which runs are up to date or stale, and the note on a table that mixes versions."""
 
 import csv
 from dataclasses import replace
@@ -133,7 +133,7 @@ def test_rows_of_another_study_are_refused(study, tmp_path):
 
 
 def test_a_search_with_all_its_rows_is_complete(tmp_path):
-    """Four shots of each of two alloys; a larger budget wants more of them, and --overwrite all of them again."""
+    """Four shots of each of two alloys; a larger budget needs more of them, and --overwrite all of them again."""
     file = tmp_path / "search.toml"
 
     def search(budget):
@@ -178,7 +178,7 @@ def test_a_label_that_a_spreadsheet_would_compute(tmp_path):
 
 
 def test_an_older_run_in_a_directory_is_not_taken(tmp_path):
-    """Of a finished run of this deck only the version of the method is changed."""
+    """Only the version of the method is changed in a finished run of this deck."""
     file, out = tubes.write(tmp_path), tmp_path / "out"
     command = [file, "--out", out, "--workers", 1, "--only", "ke_0.1"]
     status, said = tubes.sweep(*command)

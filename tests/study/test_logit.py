@@ -136,7 +136,7 @@ def test_a_round_does_not_wait_for_its_own_outcomes():
 
 
 def test_one_strange_shot_is_found_out():
-    """A shot at 1300 m/s that holds by chance, although the transition is at 1000 m/s, is not believed for ever."""
+    """A shot at 1300 m/s that holds by chance, although the transition is at 1000 m/s, does not mislead the search for ever."""
     speeds, outcomes = [], []
     for number in range(32):
         speeds.append(sequence.next_speed(speeds, outcomes, ENDS, 4))
@@ -155,7 +155,7 @@ def test_outcomes_that_are_all_alike_end_a_search():
 
 
 def test_v50_of_the_military_standard():
-    """Two of each within 18 m/s: 804 and 806 were held, 801 and 810 were not."""
+    """Two of each within 18 m/s: 804 and 806 were stopped, 801 and 810 were not."""
     assert v50.military([790, 804, 806, 801, 810, 850], [False, False, False, True, True, True]) == (805.25, 4)
 
 

@@ -1,4 +1,4 @@
-"""Members of an ensemble: what is changed, by how much, and what is refused."""
+"""Members of an ensemble: the changes, their size, and refusals."""
 
 import numpy as np
 import pytest
@@ -69,7 +69,7 @@ def test_amounts_cover_their_range_and_do_not_depend_on_the_number_of_members():
 
 
 def test_amounts_stay_the_same_for_ever():
-    """Written in pages and records: a change of the sequence would make other members of the same seed."""
+    """They are written in pages and records: a change of the sequence would make other members from the same seed."""
     assert members.amounts(Ensemble(repeats=2), 1) == {"mesh offset": 0.0993, "first step": 0.998343}
 
 

@@ -1,4 +1,4 @@
-"""Studies of parts: what they cost, their order, and what of them is up to date."""
+"""Studies of parts: their cost, their order, and which parts are up to date."""
 
 import csv
 import signal

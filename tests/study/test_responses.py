@@ -1,4 +1,4 @@
-"""What a report draws is found by name, and sensible where no name is given."""
+"""Quantities drawn in a report are found by name, and chosen sensibly where no name is given."""
 
 import shutil
 
@@ -120,7 +120,7 @@ def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_p
 
 
 def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
-    """A row for each combination, with the depths of all of its runs, beside the figure against an axis."""
+    """A row for each combination, with the depths of all of its runs, next to the figure against an axis."""
     axes = {"law": LAWS, "courant": {"0.3": ("numerics.courant=0.3",), "0.6": ("numerics.courant=0.6",)}}
     contents = study(tmp_path, axes)
     (panel,) = panels.panels(contents, choice := chosen(contents))
@@ -187,7 +187,7 @@ def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
 
 
 def test_a_motion_stands_only_where_its_model_applies(tmp_path):
-    """No rigid rod beside one that erodes; no motion beyond the rear of the target."""
+    """No rigid rod for one that erodes; no motion beyond the rear of the target."""
     fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3, regime="eroding")
     (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
     _, by = panels._motions(panel, panel.members)[1086.0]

@@ -1,4 +1,4 @@
-"""Searches: the study file, which cases run, what is told of them, and a real shot from rigid to eroding."""
+"""Searches: the study file, which cases run, the report on them, and a real shot from rigid to eroding."""
 
 import json
 import shutil
@@ -18,7 +18,7 @@ from tests.decks import mesh, plate, rod, stop, table
 from tests.study import made_up, tubes
 from tests.study.html import Page
 
-#: a deck whose mesh stands, on which the plate may move as well
+#: a deck with a fixed mesh, in which the plate may move too
 BASE = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 STUDY = f"""
 title = "A search"
@@ -163,7 +163,7 @@ def test_every_combination_has_its_brackets(finished):
 
 
 def test_a_free_worker_gets_its_next_case_before_the_last_one_is_told(finished):
-    """Asked of the first case, two have been given out, and so on; the last has no other behind it."""
+    """When the first outcome is requested, two cases have been given out, and so on; none follows the last."""
     client = finished[1]
     assert client.ahead == [*range(2, len(client.submitted) + 1), len(client.submitted)]
 
@@ -225,7 +225,7 @@ def test_an_interrupted_search_goes_on_where_it_was(tmp_path, finished, capsys):
 
 
 def test_a_search_that_broke_off_runs_no_case_twice(tmp_path, finished):
-    """It ends in the middle of a case, with no last word; transition.json is not there yet."""
+    """It ends in the middle of a case, without a last message; transition.json does not exist yet."""
 
     def dying(velocity, deck):
         if len(first.submitted) == 6:
@@ -251,7 +251,7 @@ def test_more_workers_than_combinations_try_several_velocities(tmp_path):
 
 
 def test_a_case_that_fails_does_not_sink_the_rest(tmp_path, capsys):
-    """Its bracket stays as wide as it is and says why; the others are found; --resume tries it again."""
+    """Its bracket stays as wide as it is and gives the reason; the others are found; --resume tries it again."""
 
     def failing(velocity, deck):
         lost = deck["numerics"]["advection"] == "ke" and velocity in (1050, 1100)
@@ -422,7 +422,7 @@ LIMIT = ALONE.replace("[transition]", '[transition]\nof = "perforation"')
 
 
 def plate(velocity, deck):
-    """A target that is shot through from 1185 m/s on, with the velocity left that Recht and Ipson's model has."""
+    """A target that is perforated from 1185 m/s on, with the residual velocity of Recht and Ipson's model."""
     if velocity < 1185.0:
         return {"regime": "rigid", "depth": 0.3}
     left = (velocity**2 - 1185.0**2) ** 0.5
@@ -447,7 +447,7 @@ def test_a_ballistic_limit_is_searched(tmp_path, capsys):
 
 
 def test_a_rod_that_stops_in_a_bulge_has_not_perforated(tmp_path):
-    """Its nose was beyond the rear, and it turned round."""
+    """Its nose was beyond the rear, and it turned back."""
     stuck = {"regime": "rigid", "depth": 0.6, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 2.0,
              "stop_reason": "rebound of rod"}  # fmt: skip
     client = made_up.Client(lambda velocity, deck: stuck if velocity < 1185.0 else plate(velocity, deck))
@@ -485,7 +485,7 @@ LENGTH = ALONE.replace("[transition]", '[transition]\nof = "length"')
 
 
 def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
-    """The regime, which is eroding from 1000 m/s on, has no say in this search."""
+    """The regime, which is eroding from 1000 m/s on, does not matter in this search."""
     def rod(velocity, deck):
         left = 0.0977 * (0.68 if velocity < 1185.0 else 0.65)
         return {"regime": "eroding" if velocity > 1000.0 else "rigid", "depth": 4.0 * left, "rod_length_m": left}

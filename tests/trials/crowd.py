@@ -1,7 +1,7 @@
-"""Small random decks of all kinds beside their twins: the mirrored one, one in another order, one that goes on from a restart.
+"""Small random decks of all kinds with their twins: the mirrored one, one in another order, one continued from a restart.
 
 ``python -m tests.trials.crowd 0 1000 FILE`` adds a line of JSON for each deck from 0 up to 1000 to FILE, then prints how many
-there were by what is wrong with them. What has a line already is not run again.
+there were by fault. Decks that already have a line are not run again.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from tests.solver.test_audit import unexplained_by_sound
 from tests.trials.campaign import kept
 
 CYCLES = 100
-#: what may not be exceeded: by totals, and beside products of an explosive (tests/solver/test_audit.py); by sums of twins, in
-#: which round-off decides what is tidied away; by the way of a body off its course, in cells
+#: limits: of totals, and next to products of an explosive (tests/solver/test_audit.py); of sums of twins, in which round-off
+#: decides what is tidied away; of the deviation of a body from its course, in cells
 CLOSES, CLOSES_BESIDE_PRODUCTS, TWINS, COURSE = 1e-12, 1e-9, 1e-3, 0.1
 #: arrays of a state that a restart gives back to the bit
 ARRAYS = ("q", "vof", "u", "v", "centroid")
@@ -65,7 +65,7 @@ def mirrored(text: str) -> str:
 
 
 def reordered(text: str) -> str:
-    """The deck with its first two bodies, which do not overlap, in the other order, but for that in which cells are cut."""
+    """The deck with its first two bodies, which do not overlap, in the other order, but with the same interface order."""
     deck = tomllib.loads(text)
     deck["numerics"]["interface_order"] = [body["name"] for body in deck["body"]]
     deck["body"][:2] = deck["body"][1::-1]
@@ -73,7 +73,7 @@ def reordered(text: str) -> str:
 
 
 def image(text: str, of: Simulation) -> Simulation:
-    """The simulation of a mirrored deck before its first cycle, with the bits of the other, which the deck rounds otherwise."""
+    """The mirrored deck's simulation before its first cycle, with the other's bits, which the deck would round differently."""
     twin = Simulation(decks.loads(mirrored(text)))
     for name in ("vof", "q", "centroid"):
         here, there = (one.grid.interior(getattr(one.state, name)) for one in (twin, of))
@@ -89,7 +89,7 @@ def image(text: str, of: Simulation) -> Simulation:
 
 
 def sums(simulation: Simulation) -> dict[str, float]:
-    """Sums over cells and vertices, made of nothing but the arrays of the state: of every body by its name."""
+    """Sums over cells and vertices, from the arrays of the state only: of every body by its name."""
     s, grid = simulation.state, simulation.grid
     mass = s.vof * s.q[RHO] * grid.volume
     inside = (slice(None), *grid.inside)
@@ -108,7 +108,7 @@ def sums(simulation: Simulation) -> dict[str, float]:
 
 
 def restarted(text: str) -> Simulation:
-    """The simulation of a deck that was written down halfway, by JSON where a restart file has it, and went on from there."""
+    """The simulation of a deck stored halfway, as JSON where a restart file uses it, and continued from there."""
     first = advanced(text, CYCLES // 2)
     second = Simulation(decks.loads(text))
     second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
@@ -119,13 +119,13 @@ def restarted(text: str) -> Simulation:
 
 
 def text_of(number: int) -> str:
-    """The deck of a number; after all choices the numbers go on with the next seed."""
+    """The deck of a number; after all choices the numbers continue with the next seed."""
     kinds = list(audited.all_choices())
     return audited.deck(1000 + number // len(kinds), kinds[number % len(kinds)])
 
 
 def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
-    """The deck of a number, and what is wrong with it: {what: by how much or what was said}; None if it ends as unphysical."""
+    """The deck of a number, and its faults: {what: by how much, or the message}; None if it ends as unphysical."""
     text = text_of(number)
     try:
         plain = advanced(text)

@@ -1,4 +1,4 @@
-"""A few of the random decks of `crowd`, and that their twins are what they should be."""
+"""A few of the random decks of `crowd`; their twins give the expected results."""
 
 import tomllib
 
@@ -12,7 +12,7 @@ from tests.trials import crowd
 
 @pytest.mark.parametrize("number", range(2000, 2336, 13))
 def test_a_deck_beside_its_twins(number):
-    """A run that is off its course says so itself; friction of a contact has an order (explanation/sliding)."""
+    """A run that is off its course reports it itself; friction of a contact has an order (explanation/sliding)."""
     text, wrong = crowd.wrong(number)
     assert set(wrong or ()) <= ({"course", "mirror"} if "friction" in text else {"course"}), (wrong, text)
 

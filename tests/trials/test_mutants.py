@@ -1,4 +1,4 @@
-"""Changed decks: `check` takes them or refuses them in words, and what it takes reaches nothing that it cannot, or says so."""
+"""Changed decks: `check` accepts them or refuses them in words, and accepted ones stay within reach, or say so."""
 
 import json
 
@@ -12,7 +12,7 @@ from tests.trials import campaign, mutants
 from tests.trials.reach import Reach
 from tests.trials.screen import Screen
 
-#: what a shot of the short trial has, and a gas that is shocked to its limit
+#: the bodies of the short trial, and a gas that is shocked to its limit
 FLAT, NOH = "shapes/flat.toml", "verification/noh_planar.toml"
 
 
@@ -29,7 +29,7 @@ def failures(numbers):
 
 def test_a_mutant_follows_from_its_number():
     assert mutants.mutant(17) == mutants.mutant(17)
-    assert len({mutants.mutant(number)[2] for number in (*range(20), 4382)}) == 21  # of the last, a body to join is gone
+    assert len({mutants.mutant(number)[2] for number in (*range(20), 4382)}) == 21  # in the last, a body to join is missing
 
 
 @pytest.mark.parametrize("name", ["cth_nose_shape/hemi_5083_1086_layer.toml", "verification/sod_z.toml"])

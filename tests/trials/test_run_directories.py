@@ -12,7 +12,7 @@ FURTHER = ["--set", "stop.cycles=40"]
 
 
 def commands(run, study, folder, chance):
-    """A command that reads what is spoiled, and the statuses that it may end with."""
+    """A command that reads the spoiled directory, and the statuses with which it may end."""
     picture = str(folder / "picture.png")
     return chance.choice((
         (["plot", run, "--out", picture], (0, 2, 4)),
@@ -27,7 +27,7 @@ def commands(run, study, folder, chance):
 
 
 def spoiled_directories(seeds, finished, folder):
-    """Spoils one or two files of a copy, and runs a command on it; returns how many said that they could not use it."""
+    """Spoils one or two files of a copy, and runs a command on it; returns how many reported that they could not use it."""
     told = 0
     for seed in seeds:
         chance, place = random.Random(seed), folder / "place"

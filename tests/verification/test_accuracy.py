@@ -1,6 +1,6 @@
-"""Runs of problems with exact solutions on cheap meshes: what is true of their errors today, and what is wished for.
+"""Runs of problems with exact solutions on cheap meshes: bands of their present errors, and desired errors.
 
-The bands hold the errors of `problems/verification/README.md`, in per cent. A wish that is not fulfilled is expected to fail.
+The bands contain the errors of `problems/verification/README.md`, in per cent. A wish not yet fulfilled is expected to fail.
 """
 
 import pytest
@@ -71,7 +71,7 @@ def test_errors_of_today(errors, name, cells, quantity, low, high):
     assert low <= errors(name, cells)[quantity] <= high
 
 
-#: problem, cells, quantity, the error that one would wish for, and why it is not reached
+#: problem, cells, quantity, the desired error, and why it is not reached
 WISHES = [
     ("sedov", 100, "spread over seven rays", 1.0, "a blast is not round on a square mesh"),
     ("guderley", 100, "rays apart at 0.2 m", 7.0, "the smeared front is not on all rays alike; a cell is 7 %"),

@@ -1,4 +1,4 @@
-"""The standard copper bar at 227 m/s, on a wall and on its own like, and the Johnson-Cook bar, against Lagrangian solutions."""
+"""The standard copper bar at 227 m/s, on a wall and on its like, and the Johnson-Cook bar, against Lagrangian solutions."""
 
 import functools
 
@@ -55,7 +55,7 @@ def test_on_a_wall_with_32_cells():
 
 @pytest.mark.slow
 def test_two_bars_do_as_the_wall_does():
-    """As one body they are mirror images, but for round-off that grows, and each has the length of the bar on the wall."""
+    """As one body they are mirror images, except for growing round-off, and each has the length of the bar on the wall."""
     simulation, bars = history("copper_bar_pair", "body.other.join=bar")
     vof = simulation.grid.interior(simulation.state.vof)[0]
     assert np.sum(np.abs(vof - vof[::-1])) < 1e-3 * np.sum(vof)

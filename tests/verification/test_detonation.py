@@ -22,7 +22,7 @@ EXPLOSIVES = {"TNT": [], "gamma law": GAMMA_LAW}
 
 
 def charge(explosive: str, cells: int, *overrides: str):
-    """The plane charge on its rigid wall, with so many cells along it and four columns as wide."""
+    """The plane charge on its rigid wall, with so many cells along it and four columns of the same width."""
     size = LENGTH / cells
     points = [[(column + 0.5) * size, 0.0, 0.0] for column in range(4)]
     return decks.load(f"{FOLDER}/plane_charge.toml", ["numbers=SI",
@@ -176,7 +176,7 @@ def test_a_driven_detonation_and_its_reflection(explosive, low, high):
 
 
 def test_discarded_kinetic_energy_makes_a_detonation_weak():
-    """Why the deck asks for advection "both", and `hydro2d check` warns of the others."""
+    """This is why the deck asks for advection "both", and `hydro2d check` warns about the others."""
     deck = charge("gamma law", 200, "numerics.advection=momentum")
     assert [text for text in decks.warnings(deck) if "pressures behind it are too low" in text]
     line = Line(simulation := finish(deck))

@@ -21,7 +21,7 @@ SPEED = 1000.0
 
 
 def leaves_unchanged(simulation: Simulation, m: int, velocity: tuple[float, float]) -> None:
-    """Runs to the end: body m keeps its velocity to 1e-6 and its pressure below 1 MPa until nothing of it is left."""
+    """Runs to the end: body m keeps its velocity to 1e-6 and its pressure below 1 MPa until none of it is left."""
     s, g = simulation.state, simulation.grid
     mass = simulation.body_sums(m)[0].sum()
     while simulation.stop_reason() is None:
@@ -44,7 +44,7 @@ def leaves_unchanged(simulation: Simulation, m: int, velocity: tuple[float, floa
 @pytest.mark.parametrize("choice", ADVECTION)
 @pytest.mark.parametrize("direction", [(0, 1), (0, -1), (1, 0), (-1, 0), (0.6, 0.8)], ids=str)
 def test_free_flight_through_an_open_edge(direction, choice, options):
-    """All bodies move alike. Before, `ke` braked the body to 122 m/s and put it under 2.5 GPa."""
+    """All bodies move together. Earlier, `ke` braked the body to 122 m/s and put it under 2.5 GPa."""
     velocity = (SPEED * direction[0], SPEED * direction[1])
     bodies = [f"body.{name}.velocity=[{velocity[0]}, {velocity[1]}]" for name in ("block", "gas")]
     leaves_unchanged(Simulation(decks.loads(FLIGHT, [*bodies, advection(choice), *options])), 0, velocity)
@@ -92,7 +92,7 @@ def middle(simulation: Simulation, component: str) -> np.ndarray:
 def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, time):
     """A pulse of 5 m/s goes out; a free surface sends all of it back, the edge 3.3 % (longitudinal) and 5.4 % (shear).
 
-    The pulse is eight cells long, and what comes back is mostly the ringing behind its steep ends.
+    The pulse is eight cells long, and the reflection is mostly the ringing behind its steep ends.
     """
     options = [f"body.kick.velocity={list(velocity)}", f"stop.time={time[0]}e-6"]
     left = middle(Simulation(decks.loads(WAVE, options)), component)
@@ -151,7 +151,7 @@ def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
         audit = simulation.conservation()
         worst = max(worst, abs(audit["total_energy"]), abs(audit["axial_momentum"]), abs(audit["mass"]["ball"]))
     assert worst < 1e-12
-    assert simulation.audit.sinks["outflow"].mass.sum() > 0.1 * simulation.audit.start.mass.sum()  # there is much to audit
+    assert simulation.audit.sinks["outflow"].mass.sum() > 0.1 * simulation.audit.start.mass.sum()  # much has to be audited
     assert simulation.faults() == []
 
 
@@ -183,7 +183,7 @@ def test_a_slab_rebounds_from_an_anvil_as_a_wall_holds_it_until_then():
     for simulation in (wall, anvil):
         while simulation.time < 24e-6:
             simulation.engine.advance()
-    assert 19.0 < anvil.mean_velocity(0) < 20.0  # 19.42: what is lacking is in the front, which is some cells thick
+    assert 19.0 < anvil.mean_velocity(0) < 20.0  # 19.42: the rest is in the front, some cells thick
     assert wall.mean_velocity(0) < 10.0
 
 
@@ -203,7 +203,7 @@ def test_a_bar_rebounds_from_an_anvil():
 
 @pytest.mark.parametrize("sliding", ["", "contact"], ids=["bonded", "contact"])
 def test_a_ball_goes_about_between_four_anvils(sliding):
-    """It meets one side after another, and beside a block that lies about: nothing leaves, and the audit closes."""
+    """It hits one side after another, once with a loose block in its way: nothing leaves, and the audit closes."""
     text = (
         mesh(("20 mm", 20), ("20 mm", 20), geometry="planar")
         + table("boundaries", r_min="anvil", r_max="anvil", z_min="anvil", z_max="anvil")

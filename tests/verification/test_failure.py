@@ -22,7 +22,7 @@ variant = "strain-failure"
 damage = "material"
 """
 FLIGHT = ROD.replace("W_alloy", "rod_fails") + STRAIN_FAILURE
-#: two halves of a bar of one material, which part in the middle, at r = const nothing happens
+#: two halves of a bar of one material, which part in the middle; at r = const nothing happens
 BAR = (
     mesh(("2 mm", 4), ("-20 mm", "20 mm", 80))
     + walls("r_max")
@@ -31,7 +31,7 @@ BAR = (
     + stop("5 us")
     + STRAIN_FAILURE
 )
-#: a short rod that fails at a strain of 0.5, so that much of it does within a few microseconds
+#: a short rod that fails at a strain of 0.5, so that much of it fails within a few microseconds
 SHOT = (
     mesh(("9 mm", 18), ("-12 mm", "18 mm", 60))
     + rod("2 mm", "10 mm", material="rod_fails", nose="flat", tip=0.0, velocity="2000 m/s")
@@ -71,7 +71,7 @@ def test_what_has_failed_stays_failed_while_it_moves(advection):
 
 @pytest.mark.parametrize("cells", [4, 8])
 def test_a_thin_failed_layer_does_not_heal_as_it_moves(cells):
-    """Rows of a rod that have failed, across 24 cells: what mixes with sound material by halves counts as failed."""
+    """Rows of a rod that have failed, across 24 cells: half-and-half mixtures with sound material count as failed."""
     simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us"]))
     grid, s = simulation.grid, simulation.state
     middle = int(np.median(np.nonzero(grid.interior(s.vof)[0].sum(axis=1))[0]))
@@ -124,7 +124,7 @@ def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
 
 # ------------------------------------------------------------------------------------------------ the largest principal stress
 
-#: a copper ring that flies apart, all of it at 150 m/s along r: hoop stress alone, E v t/R while it is elastic
+#: a copper ring that flies apart, at 150 m/s along r everywhere: hoop stress only, E v t/R while it is elastic
 RING = (
     mesh(("36 mm", "62 mm", "0.5 mm"), ("-5 mm", "5 mm", "0.5 mm"))
     + table("materials.ring",
@@ -166,14 +166,14 @@ def test_a_ring_breaks_when_its_hoop_stress_is_due():
 
 
 def test_a_ring_breaks_by_its_hoop_stress_and_not_by_its_pressure():
-    """A ring that has failed flies on with what it had; one that holds is braked by its yield stress."""
+    """A ring that has failed keeps its velocity; an intact one is braked by its yield stress."""
     by_stress, by_pressure = (to_the_end(Simulation(deck.loads(RING, [f'materials.ring.fracture_{kind}="0.2 GPa"'])))
                               for kind in ("stress", "pressure"))
     for simulation in (by_stress, by_pressure):
         assert simulation.faults() == []
         assert abs(simulation.conservation()["total_energy"]) < 1e-12
     assert share_failed(by_pressure) == 0.0
-    assert share_failed(by_stress) > 0.999  # it is carried, though no damage model is
+    assert share_failed(by_stress) > 0.999  # it is carried, although there is no damage model
     kept = [simulation.conservation()["kinetic_energy_J"] / (2 * np.pi * simulation.audit.start.kinetic)
             for simulation in (by_stress, by_pressure)]
     assert kept[0] > 0.99

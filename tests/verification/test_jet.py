@@ -1,6 +1,6 @@
 """Jets without strength along a cylinder, against compressible Bernoulli: velocity of the interface, stagnation pressure.
 
-Both are means over several diameters of depth, since the impact sets jet and target ringing.
+Both are means over several diameters of depth, because jet and target oscillate after the impact.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""A piston: with a constant table it is an edge with a velocity, and a ramp sends out the isentrope of a simple wave."""
+"""A piston: with a constant table it equals an edge with a velocity, and a ramp sends out the isentrope of a simple wave."""
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_a_constant_table_is_a_constant_velocity_to_the_last_bit():
 
 @pytest.mark.parametrize("edge", ["z_min", "z_max"])
 def test_a_simple_wave(edge):
-    """Gas that a slow ramp of velocity sets in motion has u = 2 (c - c0)/(gamma - 1), on the way out; energy closes."""
+    """Gas set in motion by a slow ramp of velocity has u = 2 (c - c0)/(gamma - 1), on the way out; energy closes."""
     sign = 1.0 if edge == "z_min" else -1.0
     other = {"z_min": "z_max", "z_max": "z_min"}[edge]
     ramp = f'boundaries={{r_max="wall", {other}="wall", {edge}="piston", {edge}_piston=[[0.0, 0.0], [0.4, {0.2 * sign}]]}}'

@@ -1,4 +1,4 @@
-"""A table in place of the equation of state that it was made from: a shock from a wall, and the state at rest."""
+"""A table instead of the equation of state from which it was made: a shock from a wall, and the state at rest."""
 
 import functools
 
@@ -46,7 +46,7 @@ def text(number):
 
 @functools.cache
 def behind(velocity, number=None):
-    """Mean pressure behind the shock in a bar that meets a wall, Pa, from a table of so many points or the model; audit."""
+    """Mean pressure behind the shock in a bar that hits a wall, Pa, from a table of so many points or the model; audit."""
     given = {"body.bar.velocity": velocity}
     if number:
         given |= {"body.bar.material": "al", "materials.al": {"eos": {

@@ -1,7 +1,7 @@
-"""The verdict on a run beside its error: what is wrong is not trusted, and what is right is.
+"""The verdict on a run against its error: wrong runs are not trusted, and right ones are.
 
-A run that is wrongly judged is an expected failure that says why. It fails here when it comes to be judged rightly, or when
-its error comes to the other side of its bound (`verdicts`).
+A run that is wrongly judged is an expected failure with its reason. It fails here when it is judged rightly, or when its error
+moves to the other side of its bound (`verdicts`).
 """
 
 from pathlib import Path
