@@ -46,7 +46,7 @@ def test_importing_hydro2d_is_cheap_and_the_names_are_there():
 
 
 @pytest.mark.parametrize("first", ["", "import eos; "])
-def test_another_package_called_eos_is_told(tmp_path, first):
+def test_another_package_called_eos_is_reported(tmp_path, first):
     (tmp_path / "eos.py").write_text("ROTATION = 1\n")
     found = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
                            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
@@ -303,7 +303,7 @@ def test_a_field_that_is_not_there_is_refused(deck, key, body, told):
         hydro2d.Simulation(deck).field(key, body)
 
 
-def test_a_deviator_asked_for_by_its_old_name_is_told_its_new_one(deck):
+def test_the_message_on_an_old_name_of_a_deviator_has_the_new_one(deck):
     sim = hydro2d.Simulation(deck)
     with pytest.raises(FieldError, match="stress_zz is now called deviator_zz"):
         sim.array("stress_zz")
@@ -464,7 +464,7 @@ def test_a_sweep_of_a_deck_object_resolves_its_defaults_anew(tmp_path):
     assert [case.output.history_interval for case in cases] == [1e-8, 2e-8, 1e-8, 2e-8]
 
 
-def test_what_is_no_study_is_refused(tmp_path):
+def test_a_sweep_with_wrong_arguments_is_refused(tmp_path):
     with pytest.raises(hydro2d.StudyError, match="give `axes`, the keys to vary"):
         hydro2d.sweep(hydro2d.Deck.from_toml(tubes.TUBE))
     for axes, told in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
@@ -557,7 +557,7 @@ def test_reprs_are_short(deck, shot):
 # ---------------------------------------------------------------------------------------------------- extras
 
 
-def test_without_xarray_and_pandas_the_extra_is_told(shot, deck, tmp_path, monkeypatch):
+def test_without_xarray_and_pandas_the_extra_is_named(shot, deck, tmp_path, monkeypatch):
     """Results are read without them; functions that need them name the extra that brings them, a sweep before it runs."""
     for name in ("pandas", "xarray"):
         monkeypatch.setitem(sys.modules, name, None)

@@ -176,7 +176,7 @@ def test_a_series_that_is_damaged_is_read_from_the_dumps(done):
 
 
 @pytest.mark.parametrize("suffix", [*checksums.FORMS, ".h5"])
-def test_what_is_sealed_holds_what_it_was_made_of(suffix):
+def test_sealed_data_contain_their_original(suffix):
     begin = checksums.FORMS[suffix].begin if suffix in checksums.FORMS else b"\x89HDF\r\n\x1a\n"
     found = sealed(begin + b"the rest", suffix)
     assert found.startswith(begin)

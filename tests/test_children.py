@@ -80,11 +80,11 @@ def test_workers(planted):
     assert os.environ.get(children.SAFE) == before
 
 
-def test_workers_of_slurm_are_told():
+def test_workers_of_slurm_get_the_setting():
     assert f"export {children.SAFE}=1" in cluster.Slurm(cores=1, memory="1 GB").arguments(1)["job_script_prologue"]
 
 
-def test_model_files_beside_a_deck_are_found_from_elsewhere(planted, tmp_path):
+def test_model_files_next_to_a_deck_are_found_from_elsewhere(planted, tmp_path):
     """Files named in a deck are run, relative to the deck."""
     (tmp_path / "shot").mkdir()
     (tmp_path / "shot" / "my_model.py").write_text(VOCE)

@@ -74,7 +74,7 @@ def test_one_line_moves_while_a_kernel_is_waited_for(place):
     assert len(place.rested) == 2
 
 
-def test_what_is_compiled_is_counted_though_nobody_expected_it(place):
+def test_unexpected_compilations_are_counted(place):
     inner = numba.njit(lambda x: x + 1)
     outer = numba.njit(lambda x: inner(x) * 2)
     with announced(place) as compiled:

@@ -24,7 +24,7 @@ def test_a_lock_says_who_holds_it_and_goes(tmp_path):
     assert holder(lock) is None
 
 
-def test_what_a_dead_process_left_is_taken_over_even_if_its_number_lives(tmp_path):
+def test_a_lock_of_a_dead_process_is_taken_over_even_if_its_number_lives(tmp_path):
     lock = tmp_path / "a.lock"
     lock.write_text(f"{socket.gethostname()} 1")
     assert holder(lock) is None
@@ -59,7 +59,7 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
         pass
 
 
-def test_a_lock_that_goes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
+def test_a_lock_that_vanishes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
     """The previous holder removes the file after it was opened here: a lock on a file without a name excludes nobody."""
     lock, taken, calls = tmp_path / "a.lock", files._taken, []
 

@@ -29,7 +29,7 @@ def test_a_time_has_one_form(seconds, shown, measured):
     assert duration(seconds, tenths=True) == measured
 
 
-def test_what_steers_a_terminal_is_spelled():
+def test_terminal_control_characters_are_spelled():
     assert shown(NASTY) == SPELLED + "\nd"
     assert one_line(NASTY) == SPELLED + r"\nd"
     for text in ("µ × 10⁻³ Größe 鋼", "two\nlines\tand a tab", ""):

@@ -102,7 +102,7 @@ def test_the_order_of_sources():
     assert found["nose.shape"] == Given("hemispherical", "default")
 
 
-def test_the_example_is_taken_whole_where_nothing_is_chosen():
+def test_without_choices_the_whole_example_is_used():
     values = {"rod.diameter": 0.01, "rod.mass": 0.5, "rod.strength": 1e9, "nose.shape": "ogival"}
     found = models.example(toy(values=values)).inputs
     assert found["nose.shape"] == Given("ogival", models.EXAMPLE)
@@ -210,7 +210,7 @@ def test_the_example_that_is_shown_runs(name, capsys):
     assert {key: shown[key] for key in numbers} == pytest.approx(numbers, rel=1e-3, abs=1e-12)
 
 
-def test_every_input_is_told_with_its_source(capsys):
+def test_every_input_is_printed_with_its_source(capsys):
     assert call(["model", "tate", *W_INTO_5083, "--velocity", "1086m/s", "--set", "rod.diameter=6.7568mm"]) == 0
     shown = capsys.readouterr().out
     for entry in catalogue.MODELS["tate"].inputs:
@@ -237,7 +237,7 @@ def test_table_files_and_json(capsys, tmp_path):
     assert [row["velocity"] for row in data["results"]] == [float(row["velocity [m/s]"]) for row in rows]
 
 
-def test_a_deck_stands_for_materials_geometry_and_velocity(capsys):
+def test_a_deck_gives_materials_geometry_and_velocity(capsys):
     assert call(["model", "tate", "--deck", HEMI, "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
     assert data["results"][0]["velocity"] == 1086.0

@@ -30,7 +30,7 @@ def test_a_word_says_what_it_is_called_here(word, capsys):
 
 
 @pytest.mark.parametrize("word", words.WORDS)
-def test_what_a_word_leads_to_exists(word):
+def test_targets_of_words_exist(word):
     entry = words.WORDS[word]
     for name in entry.names:
         assert "(a word)" not in (text := info.page(name)) or "\n\n" in text
@@ -60,7 +60,7 @@ def test_a_word_that_is_also_a_key_says_both(capsys):
     ("presure", 'did you mean "pressure", '), ("reference_densty", 'did you mean "reference_density"'),
     ("spal", 'did you mean "spall"'), ("W_aloy", 'did you mean "W_alloy"? '),
 ])  # fmt: skip
-def test_an_unknown_name_is_told_the_few_near_it(name, told):
+def test_an_unknown_name_gets_the_nearest_ones(name, told):
     with pytest.raises(DeckError) as caught:
         info.page(name)
     said = str(caught.value)

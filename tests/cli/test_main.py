@@ -230,7 +230,7 @@ def test_every_command_has_an_example():
 
 
 @pytest.mark.parametrize("command", ["run", "plot", "movie", "view", "export", "report", "sweep", "transition"])
-def test_what_a_command_makes_has_one_name(command, capsys):
+def test_the_output_option_has_one_name(command, capsys):
     assert call([command, "--help"]) == 0
     said = capsys.readouterr().out
     assert "--out" in said

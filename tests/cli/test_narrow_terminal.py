@@ -26,7 +26,7 @@ def printed(capsys, *arguments):
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_a_deck_is_told_in_so_many_columns(name, capsys, monkeypatch):
+def test_a_deck_is_printed_in_so_many_columns(name, capsys, monkeypatch):
     """Lines break at words, under their text, and nothing is lost."""
     monkeypatch.delenv("COLUMNS", raising=False)
     whole = printed(capsys, "check", shipped(name), "--threads", "2")
@@ -67,7 +67,7 @@ def test_every_case_of_a_study_has_one_line(command, name, capsys, monkeypatch):
     assert all(row[:place].endswith("  ") and row[place].isdigit() and row.endswith(" s") for row in rows)
 
 
-def test_the_deck_of_all_cases_is_told_once(capsys, monkeypatch):
+def test_the_deck_of_all_cases_is_printed_once(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
     told = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), "--check")
     assert [line for line in told if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]

@@ -54,7 +54,7 @@ def test_the_list_has_a_line_for_each_kind(capsys):
         (["rod", "--out", "there.toml"], "there.toml exists; give another name"),
     ],
 )
-def test_what_is_wrong_is_told(arguments, said, tmp_path, monkeypatch, capsys):
+def test_mistakes_are_reported(arguments, said, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "there.toml").write_text("mine")
     assert call(["new", *arguments]) == 2

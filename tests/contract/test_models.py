@@ -254,7 +254,7 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.cracks, spoilt("damage", "cochran-banner", full_opening=lambda par: 0.0), "full_opening is 0 m"),
     ],
 )  # fmt: skip
-def test_a_model_that_does_not_keep_it_is_found(check, case, words):
+def test_a_model_that_breaks_the_contract_is_found(check, case, words):
     with pytest.raises(contract.Broken, match=words):
         check(case)
 

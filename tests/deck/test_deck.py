@@ -151,7 +151,7 @@ def test_text_that_is_no_toml_names_the_line():
     assert message(changed("tip = 0.0", "tip = ")).startswith("deck.toml:16: not valid TOML: invalid value")
 
 
-def test_all_mistakes_are_told_at_once():
+def test_all_mistakes_are_reported_at_once():
     text = changed('thickness = "30 mm"', 'thickness = "-30 mm"').replace('"10 us"', '"10 m"')
     assert [line.split(": ")[1] for line in message(text).splitlines()] == ["body[1].thickness", "stop.time"]
 
@@ -411,7 +411,7 @@ def test_a_sphere_that_flies_is_a_penetrator(speed, surface):
     assert deck.surface(d) == surface
 
 
-def test_all_that_is_wrong_is_told_at_once():
+def test_mistakes_of_every_kind_are_reported_at_once():
     """Values, names, materials and fields, each with its line."""
     wrong = changed('"W_alloy"', '"W_aloy"').replace('"4 mm"', '"4 kg"') + '[output]\nfields = ["strain_rate"]\n'
     told = message(wrong).splitlines()
@@ -423,7 +423,7 @@ def test_all_that_is_wrong_is_told_at_once():
 
 
 @pytest.mark.parametrize("density", ["1.2 kg/m^3", "1000 kg/m^3"])
-def test_gas_beside_solids_is_warned_of(density):
+def test_gas_next_to_solids_gives_a_warning(density):
     """With contact and without; a gas without solids gives no warning."""
     options = [f'materials.air.eos.reference_density="{density}"']
     warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
@@ -477,7 +477,7 @@ def test_failure_that_is_left_out_is_warned_of(text, warned):
     assert deck.warnings(deck.loads(text)) == ([warned] if warned else [])
 
 
-def test_what_has_no_strength_is_told_only_that_it_bears_tension():
+def test_fluids_are_only_reported_to_bear_tension():
     fluid = """\
 [failure]
 tensile = "material"

@@ -61,7 +61,7 @@ def test_values_and_units(text, unit, value):
         ("0" * 20 + "1", "is not a formula"),
     ],
 )
-def test_what_is_refused(text, said):
+def test_refused_formulas(text, said):
     with pytest.raises(ExpressionError, match=None) as refused:
         parse(text, KNOWN)
     assert said in str(refused.value)
@@ -69,11 +69,11 @@ def test_what_is_refused(text, said):
 
 @pytest.mark.parametrize("text", ["depth / (ratio - 3)", "log(ratio - 3)", "sqrt(ratio - 4)", "9 ** 9 ** 9",
                                   "exp(ratio * 1000)", "1e999", "1e308 * 10", "(ratio - 4) ** 0.5"])  # fmt: skip
-def test_what_has_no_value(text):
+def test_formulas_without_a_value(text):
     assert parse(text, KNOWN).evaluate(NUMBERS) is None
 
 
-def test_what_is_not_known_yet():
+def test_names_not_known_yet():
     assert parse("depth / length0", KNOWN).evaluate({**NUMBERS, "length0": None}) is None
     assert parse("depth / length0", KNOWN).evaluate({"depth": 1.0}) is None
 

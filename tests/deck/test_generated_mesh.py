@@ -40,7 +40,7 @@ WORDS = 'cells_across = 8\nreach = "10 radii"'
 
 @pytest.mark.parametrize("follow", ["", 'follow = "rod"'])
 @pytest.mark.parametrize("body", BODIES)
-def test_cells_across_and_reach_are_what_the_deck_asks_for(body, follow):
+def test_cells_across_and_reach_are_those_of_the_deck(body, follow):
     """8 cells across 4 mm; 10 radii ahead of the body and to its side; no jumps; an edge between cells at the leading end."""
     deck = load(f"{WORDS}\n{follow}", body)
     r, z = decks.edges(deck)
@@ -99,7 +99,7 @@ def test_a_body_may_be_named_and_a_reach_may_be_a_length():
         ('cells_across = 8\nreach = "900 km"', "mesh.reach: would need"),
     ],
 )
-def test_what_is_wrong_is_told(mesh, said):
+def test_mistakes_are_reported(mesh, said):
     with pytest.raises(decks.DeckError, match=r"deck\.toml:\d+: ") as caught:
         load(mesh)
     assert said in str(caught.value)

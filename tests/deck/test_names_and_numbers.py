@@ -110,7 +110,7 @@ def test_a_byte_order_mark_is_no_statement(tmp_path):
     assert definition.read(tmp_path / "study.toml", [])[0].axis[0].name == "v"
 
 
-def test_decks_and_studies_are_told_apart(tmp_path, capsys):
+def test_decks_and_studies_are_distinguished(tmp_path, capsys):
     (tmp_path / "shot.toml").write_text(TEXT)
     (tmp_path / "study.toml").write_text(STUDY)
     assert call(["sweep", str(tmp_path / "shot.toml")]) == 2
@@ -128,7 +128,7 @@ def test_a_deck_of_the_user_is_not_overwritten(tmp_path, capsys):
     assert run.run(deck.loads(TEXT, ["stop.cycles=1"]), tmp_path / "out", overwrite=True, quiet=True)["cycles"] == 1
 
 
-def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
+def test_an_end_that_nearly_fits_whole_cells_is_met_and_reported():
     """For example 13.291833 mm where 13.2918335 mm was meant."""
     meant = deck.loads(TEXT, ['mesh.z=[{to="20 mm", size="0.5 mm"}]'])
     assert [text for text in deck.warnings(meant) if text.startswith("mesh")] == []
@@ -151,7 +151,7 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
         ('{to="1 mm", size="3 cm"}', "3 cm do not divide 1 mm; to = 30 mm would fit, or cells = 1 (of 0.1 cm)"),
     ],
 )  # fmt: skip
-def test_a_size_that_does_not_divide_is_told_in_the_units_of_the_deck(segment, told):
+def test_a_size_that_does_not_divide_is_reported_in_the_units_of_the_deck(segment, told):
     with pytest.raises(DeckError, match=r"mesh\.z\[0\]") as error:
         deck.loads(TEXT, [f"mesh.z=[{segment}]"])
     assert told in str(error.value)

@@ -78,7 +78,7 @@ def test_two_of_density_pressure_and_temperature_give_the_third():
         state(temperature="718 K", pressure="1 GPa", density="8960 kg/m^3")
 
 
-def test_a_temperature_that_no_density_has_without_pressure_is_told():
+def test_a_temperature_that_no_density_has_without_pressure_is_reported():
     with pytest.raises(deck.DeckError, match='body "bar": at no density has copper a pressure of -1e.11 Pa at 718 K'):
         state(temperature="718 K", pressure="-100 GPa")
 
@@ -102,7 +102,7 @@ def test_a_hot_bar_at_rest_stays_at_rest():
     (box_of("a", (0, 3), (0, 3)), box_of("b", (3, 6), (0, 3)), ""),
     (box_of("a", (0, 3), (0, 3)), box_of("b", (0, 3), (2, 5), join="a"), ""),
 ])  # fmt: skip
-def test_overlaps_are_told_with_their_volume(first, second, told):
+def test_overlaps_are_reported_with_their_volume(first, second, told):
     found = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
     assert [text.startswith(told) and "the earlier one" in text for text in found] == [True] * bool(told)
 
@@ -121,7 +121,7 @@ def lines(text):
     return "\n".join(check.check(deck.loads(text)).lines(1))
 
 
-def test_ties_are_told():
+def test_ties_are_reported():
     pair = box_of("flyer", (0, 3), (-2, 0), velocity="100 m/s") + box_of("target", (0, 3), (0, 10), material="W_alloy")
     said = "flyer is tied to target where they touch, until one of them fractures, at "
     assert said in lines(MESH + pair)
@@ -131,13 +131,13 @@ def test_ties_are_told():
     assert "where they touch, for ever" in lines(MESH + pair + table("failure", tensile="none"))
 
 
-def test_walls_that_hold_are_told():
+def test_walls_that_bear_tension_are_reported():
     alone = box_of("bar", (0, 3), (-14, 0), velocity="-20 m/s")
     assert "what touches a wall (z_min) is held in tension as well" in lines(MESH + alone + table("boundaries", z_min="wall"))
     assert "touches a wall" not in lines(MESH + alone)
 
 
-def test_liquids_that_bear_any_tension_are_told():
+def test_liquids_that_bear_any_tension_are_reported():
     def told(material, **failure):
         text = MESH + box_of("a", (0, 3), (0, 3), material=material) + (table("failure", **failure) if failure else "")
         return [text for text in warnings(deck.loads(text)) if "bears any tension" in text]

@@ -126,7 +126,7 @@ def test_the_burn_fraction_rises_around_the_light_time():
     assert burn([0.7, 2e-6, 0.5e-6], 1.9e-6)[0] == 0.7, "it never falls"
 
 
-def test_virgin_material_burns_at_no_time_and_by_compression_only_if_told():
+def test_virgin_material_never_burns_and_by_compression_only_on_request():
     virgin = [field.at_rest(ROW) for field in jwl.INTERNAL]
     assert burn(virgin, 1.0)[0] == 0.0
     assert burn(virgin, 1e-6, rho=1630.0 / 0.8)[0] == 0.0

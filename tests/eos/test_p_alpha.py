@@ -75,7 +75,7 @@ def test_the_elastic_range_ends_on_the_crush_curve():
     assert p_alpha.solid_density(rho, VIRGIN, ROW)[0] / rho == pytest.approx(ROW[p_alpha.DISTENTION], rel=1e-6)
 
 
-def test_what_has_been_crushed_stays_so():
+def test_crushed_material_stays_crushed():
     crushed = after(2400.0)
     back = 2700.0 / crushed  # the density at zero pressure
     assert back > 2000.0

@@ -17,7 +17,7 @@ def test_printed_states(j, rho, p, e):
 
 
 @pytest.mark.parametrize("j", [2, 3])
-def test_what_is_untouched(j):
+def test_the_untouched_radius(j):
     """The path of the first sound from the surface, by integration; the collapse takes 2 ms."""
     found = Collapse(j, e0=5e4, end=2e-3)
     radius, time, steps = 1.0, 0.0, 20000

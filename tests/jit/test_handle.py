@@ -97,7 +97,7 @@ def test_a_name_has_one_meaning():
     assert len(handles.declared()) == len(names.NAMES) + len(names.LIGHT)
 
 
-def test_names_exchange_what_they_stand_for():
+def test_names_exchange_their_arrays():
     handle, one, other = jit.Handle(), np.full((2, 1, 3, 4), 1.0), np.full((2, 1, 3, 4), 2.0)
     handle.give(velocity=one, velocity0=other)
     before = handle._words.copy()

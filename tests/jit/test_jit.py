@@ -74,7 +74,7 @@ def seen_by(name: str) -> set[str]:
 
 
 @pytest.mark.parametrize("file", KERNELS, ids=lambda file: file.stem)
-def test_whatever_a_kernel_can_call_is_among_the_sources_of_its_cache(file):
+def test_all_functions_that_a_kernel_can_call_are_sources_of_its_cache(file):
     """Every compiled function that its module knows, and those that their modules know, and so on."""
     seen, waiting, known = cache.seen_by(file), [importlib.import_module(f"hydro2d.kernels.{file.stem}")], set()
     while waiting:
@@ -141,7 +141,7 @@ RELIED_ON = [
 
 
 @pytest.mark.parametrize(("owner", "name", "words"), RELIED_ON, ids=[name for _, name, _ in RELIED_ON])
-def test_what_numba_does_not_promise_is_there(owner, name, words):
+def test_unpromised_features_of_numba_exist(owner, name, words):
     found = getattr(owner, name)
     assert not words or set(words) <= set(inspect.signature(found).parameters)
 
@@ -218,7 +218,7 @@ def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_i
 
 
 @pytest.mark.parametrize("apart", [True, False])
-def test_arrays_of_kernels_are_promised_to_be_apart(apart):
+def test_arrays_of_kernels_are_promised_not_to_overlap(apart):
     """The option is numba's own; without it the compiler compares addresses before every loop."""
     def add(n, a, b):
         for i in range(n):
@@ -233,7 +233,7 @@ def test_arrays_of_kernels_are_promised_to_be_apart(apart):
 
 
 @pytest.mark.parametrize("only_calls", [True, False])
-def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, monkeypatch):
+def test_kernels_are_not_optimised_again_in_their_callers(only_calls, monkeypatch):
     """A phase calls its kernels by their names; without the option, a kernel as short as this one is inlined into it."""
     def named_kernel(part, parts, a):
         for j in range(parts[part], parts[part + 1]):
@@ -252,7 +252,7 @@ def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, mon
 
 
 @pytest.mark.parametrize("inner", [True, False])
-def test_what_only_compiled_code_calls_has_no_code_of_its_own(inner, monkeypatch):
+def test_functions_called_only_by_compiled_code_have_no_code_of_their_own(inner, monkeypatch):
     """A kernel is part of the machine code of the phase that calls it, and is not compiled by itself."""
     def kernel_of_a_phase(a):
         a[0] += 2.0

@@ -34,7 +34,7 @@ def test_a_list_becomes_a_function():
     ]  # fmt: skip
 
 
-def test_what_a_phase_takes():
+def test_arguments_of_a_phase():
     phase = Phase("made", "Made for a test.", when("travels", alone(thermodynamics.least_step)))
     assert phase.takes == {"parts", "gate", "travels", "row_step", "bad", "least_row"}
 

@@ -54,7 +54,7 @@ def kept(tmp_path):
     return file
 
 
-def test_what_was_compiled_comes_back(kept, said):
+def test_compiled_code_comes_back(kept, said):
     again = made(add, kept.parent)
     assert again._cache.has((numba.float64,))
     assert not again._cache.has((numba.int64,))
@@ -71,7 +71,7 @@ def test_the_file_has_no_path_in_it(kept):
     assert str(cache.ROOT).encode() not in kept.read_bytes()
 
 
-def test_a_folder_that_stands_first_is_read_and_not_written(kept, tmp_path, said):
+def test_the_first_folder_is_read_and_not_written(kept, tmp_path, said):
     own = tmp_path / "own"
     compiled = made(add, kept.parent, own)
     assert (compiled(1.0), hits(compiled)) == (8.0, 1)
@@ -160,7 +160,7 @@ PLACES = {"a folder": lambda file: (file.unlink(), file.mkdir()), "a pipe": lamb
 
 
 @pytest.mark.parametrize("damage", PLACES.values(), ids=PLACES)
-def test_what_is_no_file_does_not_end_a_run(damage, kept, said):
+def test_a_path_that_is_no_file_does_not_end_a_run(damage, kept, said):
     damage(kept)
     compiled = made(add, kept.parent)
     assert (compiled(1.0), hits(compiled)) == (8.0, 0)

@@ -45,7 +45,7 @@ def test_a_target_that_is_not_there_is_an_error(monkeypatch):
 
 
 @pytest.mark.parametrize(("machine", "name", "lacks"), [("x86_64", "x86-64-v3", "avx2"), ("aarch64", "generic", "neon")])
-def test_a_processor_without_the_features_is_told_which(machine, name, lacks, monkeypatch):
+def test_missing_features_of_a_processor_are_named(machine, name, lacks, monkeypatch):
     monkeypatch.setattr(platform, "machine", lambda: machine)
     monkeypatch.setenv("HYDRO2D_TARGET", name)
     has = dict.fromkeys(target.named().features, True)
@@ -68,7 +68,7 @@ def test_numba_compiles_for_the_target():
 
 
 @needs_name
-def test_a_program_that_has_used_numba_before_is_told(tmp_path):
+def test_a_program_that_has_used_numba_before_gets_a_message(tmp_path):
     """The target stays as it was, also in the names of the files."""
     done = in_process("import numba; numba.njit(lambda x: x)(1); from hydro2d.jit import target; print(target.PROCESSOR)",
                       HYDRO2D_TARGET=NAME)
@@ -217,7 +217,7 @@ def test_shipped_code_for_something_else_is_said_in_one_line(changes, said, ship
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "{}", "1"])
-def test_what_does_not_say_what_it_is_for_is_not_used(text, shipped):
+def test_code_without_a_target_is_not_used(text, shipped):
     (line,) = shipped(text)
     assert "about.json" in line
     assert "does not say what it is for" in line

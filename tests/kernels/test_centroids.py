@@ -99,7 +99,7 @@ def test_a_slab_that_flies_through_several_cells_keeps_its_centre(thickness, dj,
 
 @pytest.mark.parametrize("dj", [0, 1])
 @pytest.mark.parametrize("order", [[0, 1, 2], [2, 1, 0], [1, 0, 2]])
-def test_a_slab_between_two_others_that_are_wide_keeps_its_centre_whatever_the_order(order, dj):
+def test_a_slab_between_two_wide_ones_keeps_its_centre_in_any_order(order, dj):
     """Between a gas from the edge on and a third body behind a gap, all of them moving."""
     cells = Cells(nr=20, nz=20, bodies=3)
     for m, (first, last) in enumerate([(4.2, 7.3), (7.3, 7.6), (7.6, 9.9)]):
@@ -137,7 +137,7 @@ def carry(cells, dj, **more) -> None:
 
 @pytest.mark.parametrize("second", [False, True])
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_a_full_cell_gives_lies_at_the_face_all_across(dj, second):
+def test_the_flux_of_a_full_cell_lies_at_the_face_all_across(dj, second):
     """A quarter, in the first quarter of the next cell; its place was not written, and the full cell keeps none."""
     cells = crossed(dj, 0.25, place=(np.nan, np.nan))
     target = (3 + dj, 4 - dj)
@@ -203,7 +203,7 @@ def test_a_centroid_moves_with_the_cell_where_only_void_flows(dj):
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_comes_in_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_strip(dj):
+def test_inflow_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_strip(dj):
     """Across, it has the place of the ghost cell, whose volumes are not kept; the place written for the face is not read."""
     for side in (0, 1):
         cells = Cells()
@@ -223,7 +223,7 @@ def test_what_comes_in_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_st
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_leaves_through_the_edge_of_the_mesh_is_taken_off_at_its_place(dj):
+def test_outflow_through_the_edge_of_the_mesh_is_removed_at_its_place(dj):
     """A slab of 0.3 m at the lower edge, of which 0.1 m leaves; the cell had 1.1 m^3."""
     cells = Cells()
     face = cells.fz if dj else cells.fr
@@ -236,7 +236,7 @@ def test_what_leaves_through_the_edge_of_the_mesh_is_taken_off_at_its_place(dj):
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_leaves_through_either_face_is_taken_off_where_it_lies_in_the_strip(dj):
+def test_outflow_through_either_face_is_removed_at_its_place_in_the_strip(dj):
     """From a cell of 1.1 m^3: a fiftieth of one, at a quarter of a strip of 0.1 m off its middle, and at 0.1 across."""
     for side, place in ((0, 0.25), (0, -0.25), (1, 0.25), (1, -0.25)):
         cells = Cells()
@@ -350,7 +350,7 @@ def test_a_body_at_a_face_stays_there_as_others_take_and_give(side, axis):
 @AXES
 @SIDES
 @pytest.mark.parametrize("void", [0.6, 0.1, 1e-3, 1e-9])
-def test_void_that_opens_beside_void_opens_there_the_more_the_more_there_was(void, side, axis):
+def test_the_more_void_there_was_the_more_opens_next_to_it(void, side, axis):
     """A body at the face loses a tenth: in its midst opens the share gained / (void + gained) of that."""
     f = 1.0 - void
     within = 0.1 * 0.1 / (void + 0.1)
@@ -414,7 +414,7 @@ def test_a_body_that_was_not_there_before_is_not_pushed(axis):
 
 @AXES
 @pytest.mark.parametrize("change", [0.0, 1e-12])
-def test_a_push_changes_in_proportion_to_what_a_body_grows_by(change, axis):
+def test_a_push_changes_in_proportion_to_the_growth_of_a_body(change, axis):
     changes_in_proportion(lambda more: pushed([0.3, 0.2], [0.3 + more, 0.2], [-0.35, -0.1], axis), change, 1.0)
     assert largest_jump(lambda more: pushed([0.3, 0.2], [0.3 + more, 0.2], [-0.35, -0.1], axis), -0.3, 0.5) < 1e-12
 

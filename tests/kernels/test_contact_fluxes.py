@@ -72,7 +72,7 @@ def test_a_full_cell_takes_its_own_body_from_a_cell_with_a_gap():
     assert flux(0.3, 0.6, -0.01) == pytest.approx((-0.01, 0.0), abs=1e-15)
 
 
-def test_what_flows_lies_where_it_was():
+def test_the_flux_lies_where_the_body_was():
     """The ordered interfaces place the hard body; a body that gives nothing or comes from a full cell is in the middle."""
     place, centroid = np.full((2, 2, *SHAPE), np.nan), np.zeros((2, 2, *SHAPE))
     centroid[0, :, :, GIVER] = np.array([-0.498, 0.2])[:, None]
@@ -98,7 +98,7 @@ def test_without_void_all_that_is_swept_is_body():
 
 
 @pytest.mark.parametrize("swept", [-0.01, -0.02])
-def test_who_takes_the_rest_does_not_hang_on_a_sign(swept):
+def test_the_body_that_takes_the_rest_does_not_depend_on_a_sign(swept):
     """The soft body would come from where there is none as soon as the face sweeps more than the hard body does."""
     vof = oblique(0.1, 0.9)
     assert fluxes(vof, 0.01, (swept, 0.01)) == pytest.approx((0.01, 0.0), abs=1e-15)
@@ -217,7 +217,7 @@ def test_a_body_takes_no_more_than_it_has_there():
     assert taken(0, 0.5, [[0.0, 0.5], [1.0, 0.0], [0.0, 0.5]], [0.0, 0.0, 0.0]) == (0.5, [0.0, 0.0, 0.0])
 
 
-def test_what_flows_the_other_way_ends_first():
+def test_flow_the_other_way_ends_first():
     """No body gives from a cell that it is not in: the third flows from the right, and is not on the left."""
     vof = [[0.3, 0.1], [0.7, 0.0], [0.0, 0.9]]
     assert taken(0, 0.2, vof, [-0.1, 0.0, -0.3]) == (0.0, pytest.approx([-0.05, 0.0, -0.15]))

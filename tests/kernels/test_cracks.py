@@ -59,7 +59,7 @@ def block():
     return Block()
 
 
-def test_what_is_left_of_the_tension():
+def test_the_remaining_tension():
     """By hand: 1 - D^(2/3)."""
     row = cochran_banner.row({"opening": OPENING})
     assert [cochran_banner.tension_left(d, row) for d in (0.0, 0.125, 1.0)] == pytest.approx([1.0, 0.75, 0.0], abs=1e-15)

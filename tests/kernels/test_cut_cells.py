@@ -72,7 +72,7 @@ STEEL, ALUMINIUM = (1.0, 0.5), (0.45, 0.17)  # bulk and shear modulus
 
 
 @pytest.mark.parametrize("change", [0.0, 0.01, -0.01])
-def test_a_body_beside_void_relaxes_and_void_takes_the_rest(change):
+def test_a_body_next_to_void_relaxes_and_void_takes_the_rest(change):
     cell = Cell((0.7, 0.006, *STEEL), kind=FREE_SURFACE).strained(-0.001, 0.002)
     assert cell.meet(change) == 0.0
     e = (0.006 + 0.001 - 0.002) / (1.0 + 4.0 / 3.0 * 0.5)
@@ -152,7 +152,7 @@ def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight)
     assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
 
 
-def test_what_bodies_grow_by_falls_with_the_pressure_as_stated():
+def test_growth_of_bodies_falls_with_the_pressure_as_stated():
     cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM), weight=0.6).strained([-0.002, 0.001], [0.003, -0.001])
     low, give = grow(0, 0, 0.0, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     by_hand = sum(f * (0.6 / (k + 0.6 * 4.0 / 3.0 * g) + 0.4 / k) for f, (k, g) in ((0.3, STEEL), (0.5, ALUMINIUM)))
@@ -295,7 +295,7 @@ def test_the_normal_of_a_flat_interface_is_found(degrees, dz):
 
 
 @pytest.mark.parametrize("degrees", [20, 45, 70])
-def test_a_surface_beside_void_has_the_normal_of_its_group(degrees):
+def test_a_surface_next_to_void_has_the_normal_of_its_group(degrees):
     body = half_plane(np.radians(degrees))
     with_void = surfaces([np.zeros_like(body), body])[:, 4, 4]
     with_other = surfaces([body, 1.0 - body])[:, 4, 4]
@@ -358,7 +358,7 @@ def test_a_surface_between_bodies_of_one_group_has_the_normal_of_a_free_one(degr
     assert abs(with_solid[:2] @ with_void[:2]) == pytest.approx(1.0)
 
 
-def test_what_a_body_has_of_vertices_in_a_gas_is_tied_to_it():
+def test_the_share_of_a_body_in_vertices_in_a_gas_is_tied_to_it():
     """A cell of 3 m^2 per radian on r = 1 to 2 m, 2 m high, with 0.25 of 2 kg/m^3 beside gas, and a normal of (0.6, 0.8)."""
     cell = Cell((0.25, 0.0, 1.0, 0.5), (0.75, 0.0, 0.001, 0.0), kind=BESIDE_GAS)
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.6, 0.8

@@ -109,7 +109,7 @@ def test_the_filter_works_against_the_hourglass():
     assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-3, 3], [3, -3]]))
 
 
-def test_what_sources_push_comes_on_top():
+def test_the_push_of_sources_is_added():
     pushed = np.zeros((2, 1, 9, 9))
     pushed[0, 0, 3, 3], pushed[1, 0, 4, 4] = 2.0, 3.0
     cells = accelerated(pushed, sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
@@ -124,7 +124,7 @@ def limited(**given) -> Cells:
     return cells
 
 
-def test_a_node_that_is_thinly_filled_is_held_to_the_limit():
+def test_the_speed_of_a_thinly_filled_node_is_limited():
     """The energy is that of the mean velocity of the step."""
     cells, end = limited(), 0.2 / np.sqrt(2.0)
     assert cells.u[0, 3, 3:5] == pytest.approx([-end, end])
@@ -264,7 +264,7 @@ def test_a_full_cell_whose_groups_part_is_given_room():
     assert cells.mixed[3, :2].tolist() == [3, 4]
 
 
-def test_a_gap_beside_the_other_group_is_no_free_surface():
+def test_a_gap_next_to_the_other_group_is_no_free_surface():
     cells = halves()
     cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = 1.0
     cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[0.9], [0.0]], 0.0, 0.9

@@ -185,7 +185,7 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_a_cell_gives_does_not_jump_as_its_void_opens(dj):
+def test_the_flux_of_a_cell_does_not_jump_as_its_void_opens(dj):
     np.testing.assert_allclose(given(dj, 0.0).sum(axis=1), [-0.1, 0.2], rtol=1e-15)
     np.testing.assert_allclose(given(dj, 0.3)[:, 0], [-0.05, 0.0], rtol=1e-15)
     for void in (0.0, 1e-12):
@@ -195,7 +195,7 @@ def test_what_a_cell_gives_does_not_jump_as_its_void_opens(dj):
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_a_cell_gives_does_not_jump_as_the_body_around_a_corner_becomes_thin(dj):
+def test_the_flux_of_a_cell_does_not_jump_as_the_body_around_a_corner_becomes_thin(dj):
     """With void everywhere the body around fills no cell any more: it comes first, by a box of its own."""
     def amidst_void(void):
         return given(dj, void, everywhere=True)
@@ -250,7 +250,7 @@ def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases
 
 @pytest.mark.parametrize("along_z", [False, True])
 @pytest.mark.parametrize("order", list(permutations(range(3))))
-def test_a_plate_between_two_bodies_lies_where_it_is_whatever_the_order(order, along_z):
+def test_a_plate_between_two_bodies_keeps_its_place_in_any_order(order, along_z):
     """Each body has in each strip the part of it that is there, where it is; only the plate is thin."""
     strips = strips_of(*stack(along_z=along_z), order, along_z)
     for n, ends in enumerate([(-0.5, -0.1), (-0.1, 0.5), (-0.5, 0.5)]):
@@ -259,7 +259,7 @@ def test_a_plate_between_two_bodies_lies_where_it_is_whatever_the_order(order, a
     np.testing.assert_array_equal(strips[0, THIN], [0.0, 1.0, 0.0])
 
 
-def test_a_plate_beside_void_lies_where_it_is_too():
+def test_a_plate_next_to_void_keeps_its_place_too():
     """A gas from the left, a plate 0.2 thick behind a gap of 0.1, and no other body."""
     slabs = ((-2.5, -0.2), (-0.1, 0.1))
     for order in ((0, 1), (1, 0)):
@@ -312,7 +312,7 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
         np.testing.assert_allclose(found[:2, SHARE], [low, low], atol=1e-14)
 
 
-def test_bodies_keep_their_order_beside_another_group():
+def test_bodies_keep_their_order_next_to_another_group():
     vof, _ = stack()
     two_groups = np.array([1, 0, 0])
     assert keeps_order(2, 2, two_groups, SOLIDS, vof, 0.0) == (1.0, 1.0)
@@ -338,7 +338,7 @@ def test_void_parts_the_groups_of_a_contact_and_the_order_ends():
     assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.5) == (1.0, 1.0)  # a gas keeps it
 
 
-def test_what_comes_after_the_body_that_is_asked_for_is_left_out():
+def test_bodies_after_the_requested_one_are_left_out():
     vof, centroid = stack()
     all_of_them = strips_of(vof, centroid, (0, 1, 2))
     for m in range(3):

@@ -90,7 +90,7 @@ def test_around_an_obstacle_of_first_order(inert, exact, largest):
     assert np.log2(means[0] / means[2]) / 2.0 > 0.95
 
 
-def test_what_no_way_leads_to_is_never_lit():
+def test_unreachable_explosive_is_never_lit():
     r, z, light, share = arrival([(*POINT, 0.0)], 20, lambda r, z: (z > 0.0) & (z < 1.0) & (r >= 0.0))
     assert np.isinf(light[(z[:, 0] > 1.0)]).all()
     assert np.isfinite(light[(z[:, 0] < 0.0)]).all()

@@ -63,13 +63,13 @@ def test_a_body_with_memory_alone_carries_no_deviators():
     assert carried(fields, strength=True, damage=True) == [1, 2, 3, 4, 5, 6, INTERNAL]
 
 
-def test_no_memory_is_taken_where_no_equation_of_state_has_any():
+def test_no_memory_is_used_without_an_equation_of_state_that_has_it():
     sim = Simulation(deck.loads(BLOCK))
     assert not hasattr(sim.state, "before")
     assert sim.engine.given.handle.before.size == 0
 
 
-def test_a_model_is_told_what_has_happened(monkeypatch):
+def test_a_model_receives_the_changes_of_a_step(monkeypatch):
     """Density, strain and damage before and after; work is stress times strain; damage weakens nothing here."""
     told = {}
 

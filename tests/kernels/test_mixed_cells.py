@@ -132,7 +132,7 @@ def test_a_gas_counts_where_it_is():
     assert not cell.run(cut_cells.is_beside_gas)
 
 
-def test_what_is_in_a_cell():
+def test_the_contents_of_a_cell():
     """Its groups, whether several bodies are in it one of which has strength, and which fills most of it."""
     cell = Cell(strong=True, group=(0, 1))
     assert cell.run(cut_cells.holds, g=0)
@@ -160,7 +160,7 @@ def test_sides_of_a_joint():
     assert cell.run(cut_cells.side_of_joint, m=0, first=1, gas=False) == 0.0
 
 
-def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
+def test_motion_lost_to_ties_heats_the_body_next_to_the_gas():
     """Half of 1 kg of the body is tied: 0.125 kg by (4 m/s)^2 for the pair below, at the start and at the end alike."""
     cell = Cell()
     cell.known["gases"][1] = True
@@ -174,7 +174,7 @@ def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
     assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
 
 
-def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
+def test_next_to_a_gas_each_pressure_works_on_its_own_change_of_volume():
     """Changes of -0.08 and -0.02 m^3 at 10 + 1 and 20 + 1 Pa are 0.88 and 0.42 J; of 2 J there remain 0.7, by 1 and 4 kg."""
     cell = Cell()
     cell.pm[:, *AT], cell.ph[AT], cell.mix[2, SOFT] = (10.0, 20.0), 16.0, (0.5, 0.125)
@@ -183,7 +183,7 @@ def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
     assert cell.mix[2, HEAT].sum() == pytest.approx(2.0)
 
 
-def test_relaxation_beside_a_gas_works_too_and_makes_no_energy():
+def test_relaxation_next_to_a_gas_works_too_and_makes_no_energy():
     """A tenth of the excess of -2 and 8 Pa: volumes of 0.1 * 0.5 * (-2/1, 8/4) at (10 + 0.1, 20 - 0.4) Pa."""
     cell = Cell()
     cell.pm[:, *AT], cell.ph[AT] = (10.0, 20.0), 15.0
@@ -213,7 +213,7 @@ def test_a_cell_that_bodies_fill_goes_on_by_their_shares():
     assert cell.q[E, :, *AT] == pytest.approx([1 + 0.8 * 1.0 + 0.5 * 0.7 + 0.01, 1 + (0.2 * 1.0 + 0.5 * 0.7 + 0.02) / 4])
 
 
-def test_pressures_relax_by_a_change_of_volume_that_adds_up_to_none():
+def test_pressures_relax_by_changes_of_volume_that_sum_to_zero():
     """Half of 0.5 * 0.5 * (-0.02/1, 0.08/4) m^3; the body that is compressed gains p dV."""
     cell = Cell()
     cell.pm[:, *AT] = 11.98, 12.08
@@ -277,7 +277,7 @@ def test_void_opens_where_a_mixed_cell_fractures():
     assert (cell.solid[AT], cell.skin[KIND, *AT]) == (pytest.approx(0.65), FREE_SURFACE)
 
 
-def test_what_bears_the_tension_and_what_belongs_to_a_contact_stays_closed():
+def test_a_cell_that_bears_the_tension_or_is_in_a_contact_stays_closed():
     cell = Cell()
     cell.known["materials"][1, TENSILE] = 10.0  # weighted by volume they bear 8.5
     assert pulled(cell).opened[2] == 0.0
@@ -354,7 +354,7 @@ def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
     assert cell.mix[2, ALONG, 0] == pytest.approx(-1)
 
 
-def test_what_has_failed_or_is_thin_has_no_yield_stress():
+def test_failed_or_thin_material_has_no_yield_stress():
     cell = Cell(strong=True)
     cell.q[DMG, 0, *AT], cell.known["materials"][1, CUTOFF_DENSITY] = 2.0, 8.0
     assert cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME) == 0.0

@@ -112,7 +112,7 @@ def test_shear_alone_has_no_viscosity():
     assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == (0.0, 0.0, 0.0)
 
 
-def test_what_is_not_finite_is_counted():
+def test_cells_that_are_not_finite_are_counted():
     cells = gas()
     cells.q[E, 0, *AT], cells.u[0, 3, 3] = np.nan, np.inf
     closed(cells)

@@ -248,7 +248,7 @@ def test_the_second_order_goes_by_degrees_where_a_cell_is_not_full(swept, share)
     assert largest_jump(lambda filled: carried_along(filled, swept), 0.5, 1.0) < 1e-11
 
 
-def test_second_order_where_the_body_fills_the_cells_around_and_first_order_beside_others():
+def test_second_order_where_the_body_fills_the_cells_around_and_first_order_next_to_others():
     whole, part = carried_along(1.0)[0], carried_along(0.5)[0]
     first = 0.2 * (3.0 + np.sin(np.arange(12)))
     assert np.abs(whole[3:10] - first[2:9]).max() > 1e-3

@@ -71,7 +71,7 @@ def test_the_row_of_the_least_step_and_of_what_is_not_finite():
 
 @pytest.mark.parametrize(("u", "v", "cause"), [(1.0, 0.0, "sound"), (60.0, 0.0, "radial velocity"),
                                                (0.0, -60.0, "axial velocity")])
-def test_what_sets_the_step(u, v, cause):
+def test_causes_of_the_step(u, v, cause):
     """Sound of 10 m/s crosses half a cell in 0.05 s, 60 m/s a whole one in less; a uniform velocity changes no volume."""
     cells = Cells()
     cells.rhobar[3, 3:5], cells.cl[3, 3], cells.cl[3, 4] = 1.0, 9.0, 10.0

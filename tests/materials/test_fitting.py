@@ -53,7 +53,7 @@ def test_errors_of_the_constants_are_those_of_the_scatter():
     assert error == pytest.approx(found.rms / math.sqrt(len(points)), rel=0.05)
 
 
-def test_groups_share_what_they_are_told_to_share():
+def test_groups_share_the_chosen_constants():
     hard = STEEL | {"yield_stress": 1.5e9, "hardening": 0.9e9}
     soft, other = made("johnson-cook", STEEL, group=38.0), made("johnson-cook", hard, group=49.0)
     cold = other.chosen(other.temperature < 350.0)  # alone, these do not determine the thermal exponent

@@ -161,7 +161,7 @@ def test_the_numbers_of_the_study():
     assert W.strength.values["pressure_coefficient"] == 1.03e-11
 
 
-def test_the_sintered_tungsten_says_what_is_recalled_and_what_is_taken_over():
+def test_the_sintered_tungsten_names_recalled_and_adopted_constants():
     material, W = library.load("W_sintered"), library.load("W_alloy")
     recalled = {key: n.value for key, n in material.strength.numbers.items() if n.confidence == "recalled"}
     assert recalled == {
@@ -343,7 +343,7 @@ def test_bodies_that_join_share_a_slot():
     assert library.resolve(deck.loads(text + 'based_on = "Al7039"\n')).names == ("a",)
 
 
-def test_what_a_model_refuses_is_a_deck_error():
+def test_a_refusal_by_a_model_is_a_deck_error():
     text = 'based_on = "Al5083"\nstrength.poisson_ratio = 0.7\n'
     with pytest.raises(deck.DeckError, match="material A: power-law: poisson_ratio = 0.7"):
         library.resolve(with_material(text))

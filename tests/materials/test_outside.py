@@ -25,7 +25,7 @@ def folder(tmp_path):
 # ------------------------------------------------------------------------------------------------ decks
 
 
-def test_a_deck_names_a_file_beside_it_and_carries_its_text(folder, monkeypatch):
+def test_a_deck_names_a_file_next_to_it_and_carries_its_text(folder, monkeypatch):
     monkeypatch.chdir("/")
     loaded = deck.load(folder / "shot.toml")
     model = loaded.materials["Al5083"].strength
@@ -41,7 +41,7 @@ def test_a_deck_names_a_file_beside_it_and_carries_its_text(folder, monkeypatch)
     assert run.models_from_outside(again) == [outside.from_text(VOCE, "my_model.py", "strength").about()]
 
 
-def test_the_file_of_an_included_deck_is_beside_that(folder):
+def test_the_file_of_an_included_deck_is_next_to_it(folder):
     (folder / "below").mkdir()
     (folder / "below" / "shot.toml").write_text('include = "../shot.toml"\nstop.time = "2 us"\n')
     assert deck.load(folder / "below" / "shot.toml").materials["Al5083"].strength.name == "voce"
@@ -69,7 +69,7 @@ name = "law"
 """
 
 
-def test_a_file_of_a_study_is_beside_the_study(folder, tmp_path_factory, monkeypatch):
+def test_a_file_of_a_study_is_next_to_the_study(folder, tmp_path_factory, monkeypatch):
     """The file of an override on the command line is in the working folder, for a study as for a deck."""
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     for place, name in ((folder, "study"), (elsewhere, "command")):
@@ -182,7 +182,7 @@ LATE = """
 """
 
 
-def test_a_model_that_comes_after_the_kernels_is_told_when_it_is_used(folder):
+def test_a_model_that_comes_after_the_kernels_is_reported_when_it_is_used(folder):
     told = python(LATE, folder).splitlines()
     assert len(told) == 2
     kernels = "the kernels of this process were loaded without the strength model voce of my_model.py"
@@ -210,7 +210,7 @@ CHOSEN = """
 """
 
 
-def test_only_what_sees_the_model_is_compiled_anew(folder):
+def test_only_code_that_sees_the_model_is_compiled_anew(folder):
     """Kernels that do not choose among strength models use the cache of runs without models from outside."""
     assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "voce", "True", "240000000.0", "False", "0"]
 
@@ -222,7 +222,7 @@ PHASES = """
 """
 
 
-def test_phases_that_see_the_model_are_kept_apart(folder):
+def test_phases_that_see_the_model_are_kept_separately(folder):
     """They used to replace each other: every deck with another model, or with none, compiled them anew."""
     load = 'from hydro2d.deck import deck; deck.load("shot.toml")\n'
     without, given = python(PHASES, folder).split(), python(load + textwrap.dedent(PHASES), folder).split()
@@ -238,7 +238,7 @@ LOADED = """
 """
 
 
-def test_what_comes_before_a_deck_does_not_load_the_kernels(tmp_path):
+def test_steps_before_a_deck_do_not_load_the_kernels(tmp_path):
     assert python(LOADED, tmp_path) == "set()\n"
 
 

@@ -40,7 +40,7 @@ def strange(finished, mark):
     return finished
 
 
-def test_what_reads_a_run_runs_nothing(strange, mark, tmp_path, capsys):
+def test_commands_that_read_a_run_execute_none_of_its_code(strange, mark, tmp_path, capsys):
     run, picture = str(strange), str(tmp_path / "a.png")
     for command in (
         ["report", run, "--out", str(tmp_path / "report")],
@@ -57,7 +57,7 @@ def test_what_reads_a_run_runs_nothing(strange, mark, tmp_path, capsys):
     assert "1.09" in said or "1086" in said
 
 
-def test_what_python_reads_runs_nothing(strange, mark):
+def test_reading_a_run_in_python_executes_none_of_its_code(strange, mark):
     assert len(hydro2d.open_run(strange).fields.time) == len(hydro2d.open_run(strange).dumps)
     hydro2d.open_study(strange).table()
     found = record.read(layout.load(strange).cases[0])

@@ -42,7 +42,7 @@ def test_the_axis_is_an_inner_edge_alone():
     assert "axis" not in {*words("r_max"), *words("z_min"), *words("z_max")}
 
 
-def test_every_sink_is_told():
+def test_every_sink_is_described():
     assert [kind.name for kind in KINDS if not (kind.sink in SINKS or kind.sink_meaning)] == []
 
 
@@ -58,7 +58,7 @@ def test_a_piston_moves_by_its_table():
     assert made("z_min", {"z_min": "piston", "z_min_piston": PISTON}).speeds() == (0.0, 100.0, -50.0)
 
 
-def test_what_moves_with_an_edge_crosses_the_cell_beside_it():
+def test_matter_that_moves_with_an_edge_crosses_the_cell_next_to_it():
     """The piston is at 50 m/s after 0.5 us, at 75 m/s after 1.33 us, and at 100 m/s in between; widths of 1 to 4 mm."""
     widths, still = [3e-3, 2e-3, 1e-3, 4e-3], of("wall")
     assert still.least_crossing(widths, 0.0, 1.0)[0] == np.inf

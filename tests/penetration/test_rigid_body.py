@@ -192,7 +192,7 @@ def test_depths_of_a_spherical_nose(velocity, depth):
 @pytest.mark.parametrize("friction", [0.0, 0.08])
 @pytest.mark.parametrize("nose", ["hemispherical", "ogival", "conical", "flat"])
 def test_along_the_axis_it_is_the_one_dimensional_model(nose, friction):
-    """The same rings, step, order of operations and stop: depth and time agree to round-off."""
+    """Rings, step, order of operations and stop are the same: depth and time agree to round-off."""
     body = projectile(nose, MASS, DIAMETER, LENGTH, rings=40, shank_rings=4, sectors=6)
     surface, pressure = nose_surface(nose, DIAMETER, rings=40), rigid_axial.Pressure(A * STRENGTH, B * DENSITY)
     axial = rigid_axial.penetrate(surface, MASS, 821.0, pressure, friction=friction, time_step=3e-7)

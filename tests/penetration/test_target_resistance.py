@@ -62,7 +62,7 @@ def test_order_of_the_forms(strength, ratio, nu):
     assert all(stiffer[name] > value for name, value in found.items())
 
 
-def test_a_given_resistance_is_taken():
+def test_a_given_resistance_is_used():
     assert forms.resistance_of(target_resistance=1.62e9) == 1.62e9
 
 
@@ -88,7 +88,7 @@ def test_a_chosen_form_is_used(name):
         ({"target_strength": 1e9, "target_youngs_modulus": 1e8}, "no longer small"),
     ],
 )
-def test_what_a_form_misses_is_named(values, message):
+def test_missing_inputs_of_a_form_are_named(values, message):
     with pytest.raises(InputError, match=message):
         forms.resistance_of(target_resistance=None, **values)
 

@@ -272,7 +272,7 @@ def test_no_velocity():
         Rod(17600.0, 2.0e9, 323e9, 4030.0, 1.237, 0.010, -0.1)
 
 
-def test_an_unfinished_motion_is_told(monkeypatch):
+def test_an_unfinished_motion_is_reported(monkeypatch):
     monkeypatch.setattr("hydro2d.penetration.centreline.LONGEST", 1e-3)
     with pytest.raises(InputError, match="do not come to an end"):
         walker_anderson.penetrate(1500.0, TUNGSTEN, STEEL)

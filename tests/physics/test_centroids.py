@@ -68,7 +68,7 @@ def about_the_middle(found, strip, high):
 
 @settings(deadline=None)
 @given(st.floats(-2.0, 2.0), UNIT)
-def test_a_centroid_leaves_room_for_what_it_is_of(offset, fraction):
+def test_a_centroid_leaves_room_for_its_piece(offset, fraction):
     """A piece as wide as its fraction, with this centroid, ends in the cell; an offset that allows this is kept."""
     kept = within(offset, fraction)
     assert abs(kept) + 0.5 * fraction <= 0.5 + 1e-15
@@ -160,7 +160,7 @@ def test_a_box_is_as_short_as_can_be_where_it_ends_and_as_long_where_it_goes_on(
 # ----------------------------------------------------------------------------------------- how neighbours place a piece
 
 
-def test_what_goes_on_in_either_of_the_next_cells_goes_on():
+def test_a_body_that_continues_in_either_neighbour_continues():
     assert goes_on(0.2, 0.0, 0.0) == 0.0
     assert goes_on(0.2, 0.05, 0.1) == 0.5
     assert goes_on(0.2, 0.1, 0.05) == 0.5
@@ -181,7 +181,7 @@ def test_a_cell_two_away_is_reached_as_far_as_the_one_between_is_fuller_than_the
         changes_in_proportion(lambda near: reached(0.3, near, 0.9), near, 1.5 / GROWING)
 
 
-def test_the_most_around_is_that_of_a_cell_beside_or_of_one_behind_a_fuller_one():
+def test_the_most_around_is_that_of_a_neighbour_or_of_one_behind_a_fuller_one():
     """On the axes and on the diagonals; the middle cell does not count itself."""
     def most(**others):
         return most_around(tuple(others.get(f"c{row}{column}", 0.2) for row, column in CELLS))
@@ -199,12 +199,12 @@ def test_the_most_around_is_that_of_a_cell_beside_or_of_one_behind_a_fuller_one(
             assert most(**{f"c{row}{column}": 0.7, f"c{other[0]}{other[1]}": 0.21 + GROWING}) == 0.21 + GROWING
 
 
-def test_what_is_not_filled_is_the_rest_of_each_cell():
+def test_the_unfilled_share_is_the_rest_of_each_cell():
     f = tuple(0.05 * k for k in range(17))
     assert rest_of(f) == tuple(1.0 - each for each in f)
 
 
-def test_one_full_cell_around_places_a_body_and_one_empty_cell_what_is_beside_it():
+def test_one_full_cell_around_places_a_body_and_one_empty_cell_the_rest():
     middle = 0.5 * (1.0 + FILLED)
     for n in (0, 1, 2, 3, 5, 6, 7, 8):
         for most, by in ((1.0, 1.0), (FILLED, 0.0), (middle, 0.5), (0.5, 0.0)):
@@ -298,7 +298,7 @@ def test_the_cells_around_say_whether_line_box_or_gap_give_the_piece(high, along
 
 
 @pytest.mark.parametrize("high", [False, True])
-def test_beside_a_gas_void_has_no_box(high):
+def test_next_to_a_gas_void_has_no_box(high):
     """A body that fills a cell around is cut off by its line, though none is empty; one that fills none keeps its box."""
     f, bound = surround(GAP, 0.6, False)
     line = piece_of_surface(*bound, 0.6, 0.35, high)
@@ -367,7 +367,7 @@ def test_a_piece_does_not_jump_as_its_neighbours_cease_to_place_it(first, last, 
 
 
 @pytest.mark.parametrize("filled", [1.0, FILLED])
-def test_a_piece_changes_in_proportion_as_a_full_cell_beside_it_is_no_more_full(filled):
+def test_a_piece_changes_in_proportion_as_a_full_neighbour_ceases_to_be_full(filled):
     """The body lies on a full cell at the left, void is at the right: then it has no cell that it fills."""
     def pieces(share):
         f, bound = surround([[0.1, 0.0, 0.0], [share, 0.0, 0.0], [0.2, 0.0, 0.0]], 0.4, False)
@@ -379,7 +379,7 @@ def test_a_piece_changes_in_proportion_as_a_full_cell_beside_it_is_no_more_full(
 
 
 @pytest.mark.parametrize("filled", [0.0, 1.0 - FILLED])
-def test_a_piece_changes_in_proportion_as_an_empty_cell_beside_it_is_no_more_empty(filled):
+def test_a_piece_changes_in_proportion_as_an_empty_neighbour_ceases_to_be_empty(filled):
     def pieces(share):
         f, bound = surround([[1.0, 1.0, 0.9], [1.0, 1.0, share], [1.0, 1.0, 0.8]], 0.6, False)
         return piece(f, False, 0.0, 0.1, False, bound, 0.3, True)
@@ -400,7 +400,7 @@ def test_a_piece_becomes_the_strip_as_the_body_fills_the_cell(pattern):
 
 @settings(deadline=None)
 @given(FRACTION, UNIT, st.floats(-0.1, 0.1))
-def test_slabs_side_by_side_push_each_other_by_half_of_what_they_grow_by(fraction, share, change):
+def test_slabs_side_by_side_push_each_other_by_half_of_their_growth(fraction, share, change):
     """Centroids that are half of both widths apart, or more."""
     other = share * (1.0 - fraction)
     apart = 0.5 * (fraction + other)
@@ -418,7 +418,7 @@ def test_a_slab_amidst_another_one_stays_and_off_its_middle_it_is_pushed_in_prop
 
 @settings(deadline=None)
 @given(st.floats(0.05, 0.8), UNIT, st.floats(0.0, 1.0))
-def test_a_slab_inside_of_void_keeps_the_proportion_of_the_gaps_beside_it(fraction, share, growth):
+def test_a_slab_inside_void_keeps_the_proportion_of_its_gaps(fraction, share, growth):
     """As it grows into the void, which is all the rest and loses its gain."""
     void = 1.0 - fraction
     growth *= void
@@ -429,6 +429,6 @@ def test_a_slab_inside_of_void_keeps_the_proportion_of_the_gaps_beside_it(fracti
     assert 0.5 - (after + 0.5 * (fraction + growth)) == pytest.approx(up * (1.0 - growth / void), abs=1e-14)
 
 
-def test_a_push_does_not_jump_where_slabs_come_to_lie_beside_each_other():
+def test_a_push_does_not_jump_where_slabs_come_to_lie_side_by_side():
     for side in (-1.0, 1.0):
         changes_in_proportion(lambda own: pushed(own, 0.0, 0.2, 0.3, 0.1), side * 0.25, 0.21)

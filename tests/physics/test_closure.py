@@ -56,7 +56,7 @@ def test_void_does_not_change_the_density():
     assert thin == pytest.approx(full)
 
 
-def test_what_an_absent_body_has_does_not_count():
+def test_values_of_an_absent_body_do_not_count():
     present = [(0.5, 8.0, 1.0), (0.5, 4.0, 3.0)]
     assert dense([present[0], (0.0, np.nan, 0.0), present[1]]) == dense(present)
 

@@ -48,7 +48,7 @@ def test_a_face_seen_from_its_other_end_has_the_same_apertures(first, last):
 
 @settings(deadline=None)
 @given(LEVEL.filter(bool), LEVEL.filter(bool))
-def test_what_the_one_group_leaves_the_other_has(first, last):
+def test_one_group_has_the_rest_of_the_other(first, last):
     np.testing.assert_allclose(np.add(end_apertures(first, last), end_apertures(-first, -last)), 1.0, rtol=1e-14)
 
 
@@ -157,7 +157,7 @@ def test_groups_meet_in_a_cell_of_both():
 
 
 @pytest.mark.parametrize(("cell", "beside"), [((1, 1), (2, 1)), ((1, 1), (1, 2)), ((2, 2), (1, 2)), ((2, 2), (2, 1))])
-def test_a_full_cell_meets_a_full_cell_of_the_other_group_beside_it(cell, beside):
+def test_a_full_cell_meets_a_full_neighbour_of_the_other_group(cell, beside):
     assert meet(*cell, {cell: 1.0}, {beside: 1.0})
     assert meet(*cell, {beside: 1.0}, {cell: 1.0})
 
@@ -177,7 +177,7 @@ def test_a_neighbour_may_have_a_gap_of_void_of_one_per_cent():
 
 
 @pytest.mark.parametrize("cell", [(1, 1), (1, 2), (2, 1), (2, 2)])
-def test_what_is_beyond_the_mesh_meets_nothing(cell):
+def test_cells_beyond_the_mesh_meet_nothing(cell):
     assert not meet(*cell, {cell: 1.0}, {})
     assert not meet(*cell, {}, {cell: 1.0})
 
@@ -202,7 +202,7 @@ def at_face(first, last, shape, at):
 
 @settings(deadline=None)
 @given(st.lists(VELOCITY, min_size=4, max_size=4), LEVEL, LEVEL)
-def test_through_an_r_face_flows_what_each_group_carries_through_its_part(velocities, first, last):
+def test_the_flow_through_an_r_face_is_that_of_each_group_through_its_part(velocities, first, last):
     """Twice the mean over the face of the velocity of the group that wets it, both linear along it."""
     soft_low, hard_low, soft_high, hard_high = velocities
     u = ends((soft_low, hard_low), (soft_high, hard_high), (4, 3), (2, 1), (1, 0))

@@ -554,7 +554,7 @@ def test_a_corner_has_no_weight_in_a_cell_without_void():
         assert surface_of(f, void=share * interfaces.ROOM)[4] == pytest.approx(weight)
 
 
-def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it():
+def test_a_corner_keeps_the_fraction_and_the_proportion_of_its_neighbours():
     width, height = corner_size(0.3, 0.4, 0.6)
     assert width * height == pytest.approx(0.3)
     assert width / height == pytest.approx(0.6 / 0.4)
@@ -564,7 +564,7 @@ def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it()
 
 @settings(deadline=None)
 @given(COMPONENT, COMPONENT, SIGN, SIGN, st.floats(0.01, 0.99), st.booleans(), st.booleans())
-def test_a_strip_has_what_lies_in_it_of_the_corner(width, height, to_x, to_y, strip, high, filled):
+def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, high, filled):
     """A rectangle away from (to_x, to_y), or all but one that lies towards them."""
     left = 0.0 if (to_x > 0.0) == filled else 1.0 - width
     bottom = 0.0 if (to_y > 0.0) == filled else 1.0 - height
@@ -721,7 +721,7 @@ def test_a_line_becomes_a_corner_little_by_little():
 
 
 @pytest.mark.parametrize("beside", [0.0, interfaces.THIN])
-def test_a_corner_goes_where_nothing_of_it_is_beside(beside):
+def test_a_corner_vanishes_where_its_neighbours_have_none_of_it(beside):
     def thin(share):
         f = np.zeros((5, 5))
         f[:2, :2], f[2, 2], f[:2, 2], f[2, :2] = 1.0, 0.3, 0.005, max(share, 0.0)
@@ -761,7 +761,7 @@ def test_the_area_below_a_line_does_not_know_when_it_is_level(tilt):
         changes_in_proportion(lambda m1: area_below(abs(m1), 1.0 - abs(m1), alpha), tilt, 1.0)  # noqa: B023
 
 
-def test_nested_interfaces_keep_within_what_there_is():
+def test_nested_interfaces_keep_within_their_bounds():
     """The lower bound is that of the bodies before, the upper one the rest of the strip and of the cell."""
     nested = interfaces.nested.py_func
     assert nested(0.15, 0.1, 0.2, 0.5, 0.4) == 0.15  # no bound applies

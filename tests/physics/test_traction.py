@@ -211,7 +211,7 @@ def test_an_elastic_body_gives_way_by_its_two_moduli(weight):
     assert softer == pytest.approx(weight / (K + weight * 4.0 / 3.0 * G) + (1.0 - weight) / K, rel=1e-12)
 
 
-def test_what_a_body_grows_by_does_not_jump_with_the_weight():
+def test_growth_does_not_jump_with_the_weight():
     for weight in (0.0, 1e-12, 0.5):
         changes_in_proportion(lambda weight: strain_across(0.02, 0.0, 1.0, 0.5, 0.05, 0.06, -0.1, 0.01, weight)[:2], weight,
                               1.0, sides=(1.0,))

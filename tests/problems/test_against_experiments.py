@@ -12,7 +12,7 @@ def test_the_page_has_every_line_of_the_tables():
     assert [line for line in told if line not in lines] == []
 
 
-def test_what_was_chosen_stands_apart():
+def test_sets_with_choices_are_separate():
     told = "\n".join(against.tables()).split("\n\n")
     assert len(told) == 3
     for each in against.SETS:

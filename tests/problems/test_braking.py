@@ -35,7 +35,7 @@ def lengths(rod, cells):
     return [float(row["length_mm"]) for row in braking.kept("first_90us") if (row["rod"], row["cells"]) == (rod, cells)]
 
 
-def test_what_the_page_says_of_the_meshes():
+def test_statements_of_the_page_on_the_meshes():
     """A rod that the force does not overcome is as long on every mesh; one that it does is shorter on the finer ones."""
     for rod, most in (("undeformable", 0.1), ("plastic", 0.1), ("no-rate", 0.25)):
         assert np.ptp([float(np.median(lengths(rod, cells))) for cells in ("8.5", "12.5", "16.5")]) < most
@@ -43,7 +43,7 @@ def test_what_the_page_says_of_the_meshes():
     assert np.ptp(lengths("sintered", "12.5")) > 0.3
 
 
-def test_what_the_page_says_of_the_force():
+def test_statements_of_the_page_on_the_force():
     """It grows by some per cent over 500 m/s, in either plate, and more so less the pressure on the flank."""
     for plate, share, borne in (("5083", 1.07, 1.19), ("7039", 1.05, 1.23)):
         here = [row for row in braking.kept("nose_force") if row["plate"] == plate]

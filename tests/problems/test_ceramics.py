@@ -37,7 +37,7 @@ def depths(cells, ceramic, thickness):
     return sorted(float(row["depth_mm"]) for row in read.cases(TILES)[cells, ceramic, thickness])
 
 
-def test_what_the_page_says_of_the_tiles():
+def test_statements_of_the_page_on_the_tiles():
     """Alumina 1.1 to 1.2, boron carbide 4 to 5; the reference is 12 % below Odermatt's fit."""
     coarse = efficiencies("5.5")
     assert {round(coarse["alumina_995", each], 1) for each in (10, 20, 30)} == {1.1, 1.2}
@@ -45,7 +45,7 @@ def test_what_the_page_says_of_the_tiles():
     assert read.references(TILES)["5.5"] / 38.7 == pytest.approx(0.875, abs=0.005)
 
 
-def test_what_the_page_says_of_chance_and_the_mesh():
+def test_statements_of_the_page_on_chance_and_the_mesh():
     """One member of boron carbide stops early; finer meshes are within the others. Steel changes by more than chance."""
     least, *others = depths("5.5", "boron_carbide", "20.0")
     assert (least, others[0], others[-1]) == pytest.approx((21.3, 24.2, 25.4), abs=0.05)
@@ -59,7 +59,7 @@ def test_what_the_page_says_of_chance_and_the_mesh():
         assert found[-1] - found[0] < 0.2
 
 
-def test_what_the_page_says_of_the_transition():
+def test_statements_of_the_page_on_the_transition():
     """Without a cover the interface stands still at 0.8 and 0.9 km/s, creeps at 1.0, and penetrates from 1.2 km/s on."""
     assert max(INTERFACE["bare", 800], INTERFACE["bare", 900]) < 5.0
     assert 50.0 < INTERFACE["bare", 1000] < 200.0 < INTERFACE["bare", 1200]
@@ -71,7 +71,7 @@ def test_what_the_page_says_of_the_transition():
     assert ratios[1] < dwell.BOUNDS[0]
 
 
-def test_what_the_page_says_of_the_members():
+def test_statements_of_the_page_on_the_members():
     """Without a cover it stands still at 0.9 km/s, and creeps by chance at 1.0; with it, two velocities differ by more."""
     found = {case: sorted(int(row["u_m_s"]) for row in rows)
              for case, rows in kept.grouped(MEMBERS, ("face", "velocity_m_s")).items()}

@@ -40,7 +40,7 @@ def test_schemes_are_compared_shot_by_shot(found):
     assert findings.schemes(found, "hemispherical")[2:] == ["| contact, P | momentum | -10.0 ± 2.5 % | +50.0 % | +20.0 % |"]
 
 
-def test_what_each_way_has_right(found):
+def test_scores_of_each_scheme(found):
     head, _, *rows = findings.scores(found)
     assert head.startswith("| sliding, failure, advection | shots |")
     assert [row.split(" | ")[:3] for row in rows] == [

@@ -36,7 +36,7 @@ def differences(quantity, *metals):
     return [float(row["difference_percent"]) for row in of_metals]
 
 
-def test_what_the_pages_say_of_the_differences():
+def test_statements_of_the_pages_on_the_differences():
     """15 % too hot where melting begins, pressures within 17 %, iron more than half off, melts 36 % too hot, 11 % at 0 GPa."""
     rows = {(row["material"], row["at_GPa"]): float(row["difference_percent"]) for row in BESIDE if row["at_GPa"]}
     assert (rows["Al6061_T6", "125"], rows["copper_OFHC", "237"]) == (15.0, 16.0)

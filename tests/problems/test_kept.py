@@ -23,7 +23,7 @@ def test_a_file_without_a_column_is_none(tmp_path):
         kept.rows(path, ["case", "time_us", "depth_cm"])
 
 
-def test_members_are_told_by_their_median_and_ends():
+def test_members_are_shown_by_their_median_and_range():
     rows = [{"length_mm": text, "u_m_s": text[:2]} for text in ("96.53", "96.74", "96.60", "9.10")]
     assert kept.told(rows[:3], "length_mm") == "96.60 (96.53 to 96.74)"
     assert kept.told(rows[:1], "length_mm") == "96.53"

@@ -51,7 +51,7 @@ def test_the_shots_have_the_published_limits():
         assert lambert_jonas.fit(*zip(*pairs, strict=True)).limit_velocity == pytest.approx(published, rel=0.02)
 
 
-def test_what_is_no_study(tmp_path, capsys):
+def test_a_folder_that_is_no_study(tmp_path, capsys):
     assert residual.main([str(tmp_path / "nothing")]) == 2
     assert "nothing" in capsys.readouterr().err
 

@@ -116,7 +116,7 @@ def test_another_table_is_no_file_of_rows(capsys):
     assert "experiments.csv: holds no rows of a study: it has no column " in capsys.readouterr().err
 
 
-def test_later_rows_replace_earlier_ones_and_old_ones_are_told(study, tmp_path, capsys):
+def test_later_rows_replace_earlier_ones_and_old_ones_are_reported(study, tmp_path, capsys):
     newer = write(tmp_path / "newer.csv", [row({"law": "A", "shot": "5083-1086"}, 0.3, 0.05, method="2020-01-01")])
     assert rigid_rod.main([str(study), str(newer)]) == 0
     said = capsys.readouterr().out

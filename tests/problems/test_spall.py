@@ -24,7 +24,7 @@ def off(shot, failure, cells):
     return PULL_BACK[shot, failure, cells] / PULL_BACK[shot, failure, 400] - 1.0
 
 
-def test_what_the_page_says_of_the_meshes():
+def test_statements_of_the_page_on_the_meshes():
     """The flyer within 1 % with either model. The pulse: cracks are at the acoustic value, and the plain model still rises."""
     for failure in ("cracks", "plain"):
         assert max(abs(off("flyer", failure, cells)) for cells in (100, 200, 800)) < 0.01

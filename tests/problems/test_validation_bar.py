@@ -56,7 +56,7 @@ def test_shape_of_every_dump(shortening):
     assert not found["ended"]
 
 
-def test_beside_the_reference_at_its_times(shortening):
+def test_comparison_with_the_reference_at_its_times(shortening):
     """At 20 us and 40 us, between two dumps; 80 us lie beyond the last dump."""
     found = bar.measure(shortening)["compared"]
     assert [pair["found"]["time"] for pair in found] == [20e-6, 40e-6]
@@ -98,7 +98,7 @@ def test_every_dump_without_a_reference(tmp_path, capsys):
     assert "| 0.0 | 32.400 |  |  | 3.200 |  |  | 0.00 |  |" in capsys.readouterr().out
 
 
-def test_missing_fields_are_told(tmp_path, capsys):
+def test_missing_fields_are_reported(tmp_path, capsys):
     fields = ("Volume Fraction for bar", "Density of bar")
     directory = wrote(tmp_path / "bare", {0.0: (filled(32.4e-3, 3.2e-3), np.zeros((180, 60)))}, fields=fields)
     assert bar.main([str(directory)]) == 2

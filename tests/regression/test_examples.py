@@ -292,7 +292,7 @@ def test_toml_of_the_text_is_valid(page, folder):
             assert decks.load(file).body, f"{page}:{line}"
 
 
-def test_what_is_listed_is_in_the_pages():
+def test_listed_names_are_in_the_pages():
     """Names to fill in, pages, and commands that are not run; and every block is in a language that is checked."""
     given = [text for page in PAGES for _, _, text in of_kind(page, "sh")]
     assert [name for name in FILLED if not any(name in text for text in given)] == []

@@ -66,7 +66,7 @@ def test_the_word_at_the_experiments_line_is_not_below_the_legend(dump):
 
 
 @pytest.mark.parametrize("part", ["rr", "zz", "tt", "rz"])
-def test_the_old_name_of_a_deviator_is_told_where_the_whole_stress_was_not_written(dump, part):
+def test_the_old_name_of_a_deviator_is_reported_where_the_whole_stress_was_not_written(dump, part):
     del dump.fields[f"Stress {part} [Pa]"]
     with pytest.raises(FigureError, match=f"up to version 0.3, stress_{part} was the name of deviator_{part}"):
         figures.chosen(dump, f"stress_{part}")

@@ -60,7 +60,7 @@ def test_a_diagram_of_place_and_time_follows_the_nose(run):
     assert len(figure.axes) == 2
 
 
-def test_what_cannot_be_drawn_is_told(run, tmp_path):
+def test_requests_that_cannot_be_drawn_are_reported(run, tmp_path):
     with pytest.raises(FigureError, match="misses the mesh"):
         lines.curve(run, run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
     single = Results(made_run.write(tmp_path / "one", dumps=1))

@@ -69,7 +69,7 @@ def test_mp4(finished, tmp_path):
     assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"
 
 
-def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys):
+def test_without_ffmpeg_the_message_names_the_cure(finished, tmp_path, monkeypatch, capsys):
     from matplotlib import animation
 
     monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", classmethod(lambda _: False))
@@ -92,7 +92,7 @@ def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys
         (["-o", "x.gif", "--rate", "0"], "rate"),
     ],
 )
-def test_what_is_refused(finished, tmp_path, monkeypatch, capsys, arguments, said):
+def test_refused_movies(finished, tmp_path, monkeypatch, capsys, arguments, said):
     monkeypatch.chdir(tmp_path)
     assert call(["movie", str(finished), *arguments]) == 2
     assert said in capsys.readouterr().err

@@ -79,7 +79,7 @@ def test_a_run_without_anything_yet(under_way, capsys):
     assert not {"time", "depth", "rod"} & set(found)
 
 
-def test_what_is_no_run_is_told(tmp_path, capsys):
+def test_a_folder_that_is_no_run_is_reported(tmp_path, capsys):
     assert call(["status", str(tmp_path)]) == 2
     assert "is not a run directory" in capsys.readouterr().err
 

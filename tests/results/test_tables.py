@@ -82,7 +82,7 @@ def test_a_hole_has_the_numbers_of_the_picture(run, monkeypatch):
     np.testing.assert_allclose([row[2:] for row in table.rows], upper)
 
 
-def test_what_has_no_table_is_refused(run, tmp_path, capsys):
+def test_requests_without_a_table_are_refused(run, tmp_path, capsys):
     for arguments, said in ((["--kind", "section"], "--kind section has no table; a .csv is for --kind line, history, crater"),
                             (["--kind", "xt"], "--kind xt has no table"),
                             (["--kind", "line", "--log"], "are for pictures, not for a table"),

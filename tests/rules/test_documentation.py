@@ -311,7 +311,7 @@ FETCHED = re.compile(
 )
 
 
-def test_what_is_fetched_is_told_from_links():
+def test_fetched_addresses_are_distinguished_from_links():
     assert FETCHED.search('<script defer src="https://cdn.example.org/mathjax/tex-mml-chtml.js">')
     assert FETCHED.search('<link rel="stylesheet" href="//fonts.example.org/a.css" />')
     assert FETCHED.search("@font-face { src: url(https://fonts.example.org/a.woff2) }")

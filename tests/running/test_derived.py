@@ -116,7 +116,7 @@ def test_u_is_the_rate_of_the_depth():
     assert 0.3 * 900.0 < speeds[-1] < found["rod_tail_velocity_m_s"]
 
 
-def test_a_restart_may_change_what_is_derived(tmp_path):
+def test_a_restart_may_change_derived_quantities(tmp_path):
     run(decks.loads(DECK, ["stop.cycles=20"]), tmp_path / "run", quiet=True)
     summary = run(decks.loads(DECK + '"P/L" = "depth / length0"'), tmp_path / "run", quiet=True, restart=True)
     assert summary["derived"]["P/L"] > 0.0

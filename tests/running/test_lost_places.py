@@ -33,7 +33,7 @@ HOWS = ("removed", "renamed", "taken")
 
 
 @pytest.mark.parametrize("how", HOWS)
-def test_what_no_longer_stands_under_its_lock_is_not_written(tmp_path, how):
+def test_a_file_no_longer_under_its_lock_is_not_written(tmp_path, how):
     place = tmp_path / "place"
     place.mkdir()
     with locked(place / "run.lock"):
@@ -52,7 +52,7 @@ def test_what_no_longer_stands_under_its_lock_is_not_written(tmp_path, how):
     assert (place / "run.lock").exists() == (how == "taken"), "the lock of another process was removed"
 
 
-def test_what_is_lost_while_it_is_written_does_not_take_its_place(tmp_path):
+def test_a_file_lost_while_it_is_written_is_not_put_in_place(tmp_path):
     place = tmp_path / "place"
     place.mkdir()
     with locked(place / "run.lock"), pytest.raises(LostPlaceError), replacing(place / "one.txt") as temporary:  # noqa: PT012
@@ -104,7 +104,7 @@ def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
     assert {file: file.read_bytes() for file in (tmp_path / "out").rglob("*") if file.is_file()} == written
 
 
-def test_a_summary_of_another_deck_is_told(finished):
+def test_a_summary_of_another_deck_is_reported(finished):
     """As left by two runs that wrote into one directory."""
     assert Results(finished).summary["trustworthy"]
     assert layout.state(finished, None)["message"] == ""

@@ -59,7 +59,7 @@ def test_before_the_first_cycle_is_over_nothing_is_known():
     assert clock.look(SimpleNamespace(time=0.1, cycle=1)).left is None
 
 
-def test_the_end_is_that_which_status_foresees():
+def test_the_end_is_the_one_predicted_by_status():
     """A rod that slows by 2e6 m/s2 from 1000 m/s is below 10 m/s at 495 us, long before the end time."""
     stop = {"time": 1e-3, "cycles": None, "body": "rod", "speed_below": 10.0, "rebound": False}
     columns, now, clock = Columns(), 0.0, None
@@ -188,7 +188,7 @@ def closing(theory=(), **changes):
     }, theory)  # fmt: skip
 
 
-def test_the_last_lines_name_compilation_cycles_and_outputs_apart():
+def test_the_last_lines_name_compilation_cycles_and_outputs_separately():
     """The pace is that of the cycles; parts that took no time are not named."""
     assert closing()[:2] == ["done: end time", "9 cycles to 60.000 us in 2.5 s"]
     costs = {"cycles": 450, "time_s": 26.8e-6, "cycles_s": 3.14, "compilation_s": 77.2, "outputs_s": 0.41, "set_up_s": 151.0,
@@ -253,7 +253,7 @@ def test_the_last_lines_give_peaks_and_derived_quantities():
 
 @pytest.mark.parametrize(("quiet", "seconds", "said"), [
     (False, 2.0, "decks read: 2 of 6\ndecks read: 5 of 6\n"), (True, 2.0, ""), (False, 0.1, "")])
-def test_what_takes_long_is_counted_on_stderr(monkeypatch, capsys, quiet, seconds, said):
+def test_long_tasks_are_counted_on_stderr(monkeypatch, capsys, quiet, seconds, said):
     now = (seconds * n for n in range(1000))
     monkeypatch.setattr(progress.clock, "monotonic", lambda: next(now))
     assert list(progress.counted(range(6), "decks read", quiet)) == list(range(6))

@@ -33,7 +33,7 @@ def test_the_change_is_that_over_the_last_radius_of_flight():
     assert found(history, 1000.0, 20) == pytest.approx((-3.0, 5e-6))
 
 
-def test_a_change_since_it_was_through_is_told_if_that_is_less():
+def test_the_change_since_perforation_is_reported_if_that_is_less():
     """The exit may lie between two rows, or nothing else may be known."""
     exits = [{"exit_time_s": 17.5e-6, "exit_velocity_m_s": 1002.0}]
     assert found(rows((10, None), (18, 1001.5), (20, 1000.0)), 1000.0, 20, exits) == pytest.approx((-2.0, 2.5e-6))

@@ -57,7 +57,7 @@ def test_a_run_begins_with_the_warnings(simulation, tmp_path, capsys):
         assert text.index("warning") < text.index("done: ")
 
 
-def test_existing_run_is_kept_unless_told(simulation, tmp_path):
+def test_existing_run_is_kept_without_overwrite(simulation, tmp_path):
     run(fake.FakeDeck(), tmp_path, quiet=True)
     with pytest.raises(RunError, match="--restart"):
         run(fake.FakeDeck(), tmp_path, quiet=True)
@@ -99,7 +99,7 @@ def test_restart_gives_the_same_bits(simulation, tmp_path, cycles):
         assert file.read_bytes() == (parts / "vtk" / file.name).read_bytes()
 
 
-def test_restart_drops_what_came_after_the_restart_point(simulation, tmp_path):
+def test_restart_drops_rows_and_dumps_after_the_restart_point(simulation, tmp_path):
     """A run that went on after its last restart file, and was killed: later rows and dumps are written again."""
     run(fake.FakeDeck(), tmp_path, quiet=True, interrupt=interrupt_after(87, simulation))
     early = (tmp_path / "restart.h5").read_bytes()
@@ -191,7 +191,7 @@ def test_a_run_on_one_thread_compiles_in_one_process(simulation, tmp_path, monke
     assert [deck is not None for deck in found] == [helped]
 
 
-def test_what_a_run_spends_its_time_on_is_named(simulation, tmp_path, monkeypatch):
+def test_the_parts_of_a_runs_time_are_named(simulation, tmp_path, monkeypatch):
     """Each cycle takes 2 ms; the first waits another 50 ms for a kernel that another process compiles; a restart adds."""
     monkeypatch.setattr(compilation, "BEAT", 0.02)
     step = fake.Simulation.step

@@ -169,7 +169,7 @@ LATE = entry("source", name="late", kind="heating", body="block", power=[["1 us"
 
 @pytest.mark.parametrize("sliding", ["", contact("ball")], ids=["bonded", "contact"])
 @pytest.mark.parametrize("source", ["", LATE], ids=["cold", "heated"])
-def test_what_is_at_rest_adds_up(source, sliding):
+def test_bodies_at_rest_add_up(source, sliding):
     """Round-off of the stresses is not measured against an energy of zero."""
     simulation = Simulation(decks.loads(AT_REST + source + sliding))
     while simulation.time < 1.5e-6:
@@ -183,7 +183,7 @@ def test_what_is_at_rest_adds_up(source, sliding):
 
 
 @pytest.mark.parametrize(("edge", "sliding"), sorted({(each.edge, each.sliding) for each in audited.all_choices()}))
-def test_every_choice_beside_every_other(edge, sliding):
+def test_every_choice_with_every_other(edge, sliding):
     """Edges of all kinds, sliding, advection, sources, a mesh that follows."""
     found = {}
     for choices in audited.all_choices():

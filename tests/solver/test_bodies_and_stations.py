@@ -93,7 +93,7 @@ def test_bodies_have_the_momentum_of_the_vertices(struck):
     assert found["plate"]["velocity_m_s"] > 0.0
 
 
-def test_what_leaves_the_mesh_is_counted():
+def test_outflow_from_the_mesh_is_counted():
     sim = started(0, "mesh.z=[{ to = '-2 mm', cells = 26 }]", "gauge=[]", "body=[{ name = 'ball', material = 'W_alloy', "
                   "shape = 'sphere', centre = [0.0, '-7.5 mm'], radius = '5 mm', velocity = '800 m/s' }]")
     while sim.time < 4e-6:
@@ -151,7 +151,7 @@ def test_peaks_and_places_are_in_the_restart():
     assert second.stations.places.tobytes() == whole.stations.places.tobytes()
 
 
-def test_what_is_no_number_is_no_peak():
+def test_a_nan_is_no_peak():
     peaks = np.array([station_columns.NO_PEAKS])
     tracers.keep_peaks(1.0, np.full((1, len(station_columns.QUANTITIES)), np.nan), peaks)
     assert peaks.tobytes() == np.array([station_columns.NO_PEAKS]).tobytes()
@@ -167,7 +167,7 @@ def test_what_is_no_number_is_no_peak():
          'the name "a" is already used by an earlier gauge'),
     ],
 )
-def test_a_wrong_gauge_is_told(gauge, said):
+def test_a_wrong_gauge_is_reported(gauge, said):
     with pytest.raises(DeckError, match=said):
         decks.loads(DECK, [f"gauge=[{gauge}]"])
 

@@ -112,7 +112,7 @@ def test_a_piece_of_a_plate_that_still_holds_is_none():
     assert found.bodies == ["ring"]
 
 
-def test_what_flies_down_is_counted_along_its_flight():
+def test_debris_that_flies_down_is_counted_along_its_flight():
     turned = DECK
     for old, new in (('centre = "-6.3 mm"', 'centre = "16.3 mm"'), ('velocity = "800 m/s"', 'velocity = "-800 m/s"'),
                      ('z = ["8 mm", "10 mm"]', 'z = ["-6 mm", "-4 mm"]'), ('velocity = "300 m/s"', 'velocity = "-300 m/s"'),
@@ -127,7 +127,7 @@ def test_what_flies_down_is_counted_along_its_flight():
     assert found.fragments[0, 4] == pytest.approx(-100.0)
 
 
-def test_the_file_has_it_beside_the_holes(tmp_path):
+def test_the_file_has_the_debris_as_well_as_the_holes(tmp_path):
     sim, file = Simulation(decks.loads(DECK)), History(tmp_path / "history.h5")
     file.append({"time": 0.0, "P/L": 0.5})
     file.craters, file.debris = sim.holes(), sim.debris()

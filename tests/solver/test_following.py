@@ -41,7 +41,7 @@ def message(*options: str, text: str = TEXT) -> str:
     ("[stop]", '[boundaries]\nz_max = "wall"\n[stop]', "deck.toml:29: boundaries.z_max: a mesh that follows"),
     ('z_front = "20 mm"', 'z_front = "-40 mm"', 'deck.toml:22: body[2]: "second" lies outside the mesh'),
 ])  # fmt: skip
-def test_what_a_following_mesh_cannot_do_is_one_error_with_its_line(old, new, said):
+def test_a_wrong_use_of_a_following_mesh_is_one_error_with_its_line(old, new, said):
     assert TEXT.count(old) == 1
     text = message(text=TEXT.replace(old, new))
     assert said in text
@@ -70,7 +70,7 @@ def test_a_deck_chooses_how_the_mesh_moves():
     assert moving.engine.mesh.leading == 1
 
 
-def test_a_strip_is_what_the_deck_placed_there():
+def test_a_strip_has_the_bodies_placed_by_the_deck():
     simulation = Simulation(decks.loads(TEXT.replace("[stop]", "radius = '2.25 mm'\n[stop]")))
     space = UndisturbedSpace(simulation.deck, simulation.table, simulation.grid)
     second = simulation.table.names.index("second")
@@ -115,7 +115,7 @@ def test_impedances_of_an_elastic_cell():
     assert impedances.py_func(0, 0, rho, cl, np.zeros((1, 1)))[1] == 0.0
 
 
-def test_a_restart_places_anew_what_stands_ahead():
+def test_a_restart_places_bodies_ahead_anew():
     simulation = Simulation(decks.loads(TEXT, ['body.plate.thickness="12 mm"']))
     simulation.step()
     mesh, state = simulation.engine.mesh, simulation.state

@@ -37,7 +37,7 @@ def started(options) -> Simulation:
     return Simulation(deck.loads(SHOT, options))
 
 
-def test_every_name_is_taken_by_a_phase():
+def test_every_name_is_used_by_a_phase():
     """A name that no kernel uses is not a name of the step; the rows of q have names for those who read results."""
     taken = frozenset().union(*(phase.takes for phase in PHASES.values()))
     assert taken <= {name.symbol for name in names.NAMES}

@@ -163,7 +163,7 @@ def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz
 
 
 @pytest.mark.parametrize("cylindrical", [True, False])
-def test_cells_hold_what_their_parts_hold(cylindrical):
+def test_cells_contain_the_sum_of_their_parts(cylindrical):
     """Shares of cells equal those of cells cut in three by three, whose edges the curves cross elsewhere."""
     outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
                 shapes.sphere(3e-3, 2e-3, 6.1e-3)]
@@ -203,7 +203,7 @@ def test_fractions_agree_with_sampling():
 
 
 @pytest.mark.parametrize("cylindrical", [True, False])
-def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_what_it_has_there(cylindrical):
+def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_its_part_there(cylindrical):
     """Along r^2/2 (planar: r) and z, off the middle of the cell, in cells; a moment is that times the share."""
     r, z = np.array([0.001, 0.002, 0.004, 0.005]), np.array([-0.002, 0.0, 0.001, 0.004])
     ends_r, ends_z = (0.0013, 0.0043), (-0.0005, 0.0015)
@@ -303,7 +303,7 @@ def test_velocity_is_momentum_over_mass():
     assert ((vof[0] > 0) & (vof[1] > 0)).any()
 
 
-def test_body_groups_keep_their_momentum_apart():
+def test_body_groups_keep_their_momentum_separate():
     d = deck.loads(TEXT, ["body.rod.velocity=[3.0, 1000.0]", 'body.rod.tip="0.3 mm"', "body.plate.velocity=-50"])
     grid, table = Grid(*deck.edges(d), d.mesh.geometry), library.resolve(d)
     state = insertion.initial_state(d, grid, table, np.array([1, 0]))

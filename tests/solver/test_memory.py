@@ -18,7 +18,7 @@ from tests.solver.test_sanity import TEXT
 
 @pytest.mark.parametrize("groups", [1, 2])
 @pytest.mark.parametrize("internal", [0, 3])
-def test_what_is_needed_is_what_is_taken(groups, internal):
+def test_the_estimated_memory_is_that_used(groups, internal):
     own = tuple(Field(f"x{k}", "", "body", "1", 1, "mass", True, "a number") for k in range(internal))
     grid = Grid(np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 70))
     state = State(grid, 2, [0, groups - 1], [(), own], remembers=internal > 0)

@@ -36,7 +36,7 @@ def test_parts_cost_the_same_within_a_row(number):
     assert np.abs(parts - costs.sum() / number).max() <= costs.max()
 
 
-def test_what_is_dear_is_shared():
+def test_expensive_rows_are_shared():
     """Where half of the rows cost ten times as much, their part has a tenth of the rows that it would otherwise have."""
     costs = np.ones(440)
     costs[400:] = 10.0

@@ -133,7 +133,7 @@ def test_the_rule_of_the_regimes(length, radius, core, found):
     assert regime(length, radius, core) == found
 
 
-def test_the_rule_stands_among_the_words():
+def test_the_rule_is_among_the_words():
     """The page that explains the words has the numbers of the rule."""
     page = " ".join((source.ROOT / "docs/reference/words.md").read_text(encoding="utf-8").split())
     numbers = (f"{100 * RIGID_LENGTH:g} %", f"{1 + RIGID_RADIUS:g} times", f"{100 * ERODED_MASS:g} %",
@@ -156,7 +156,7 @@ def test_regimes(simulation):
     assert found["regime"] == "eroding"
 
 
-def test_what_has_failed_is_debris(simulation):
+def test_failed_material_is_debris(simulation):
     """The nose fails over 4 mm: it still counts for the depth and the mass of the rod, not for its core or its length."""
     before = simulation.diagnostics()
     _, z = cells(simulation)
@@ -170,7 +170,7 @@ def test_what_has_failed_is_debris(simulation):
     assert (found["target_failed_mass_kg"], found["regime"]) == (0.0, "eroding")
 
 
-def test_what_flies_back_does_not_stop_the_run(simulation):
+def test_material_that_flies_back_does_not_stop_the_run(simulation):
     """Half of the mass is torn off and flies back as fast as the core moves forward: the mean is at rest, the core is not."""
     fraction, z = cells(simulation)
     fraction[(z > -11e-3) & (z < -10e-3)] = 0.0

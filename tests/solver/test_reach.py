@@ -188,7 +188,7 @@ def test_work_compresses_all_bodies_to_one_pressure(to):
     assert found[0] == pytest.approx(heat[0], rel=2e-3)
 
 
-def test_what_a_source_gives_to_one_body_reaches_the_others():
+def test_energy_given_to_one_body_by_a_source_reaches_the_others():
     """A gas that is heated presses its neighbour, to eight times its energy: doubtful only without enough heat."""
     beam = entry("source", name="beam", kind="heating", body="heavy", power=[[0.0, 0.0], [1.0, 1.0]])
     simulation = Simulation(decks.loads(GASES + beam))
@@ -210,7 +210,7 @@ BESIDE = {"nothing": ["boundaries.r_max=outflow", "boundaries.r_min=outflow"], "
 
 @pytest.mark.parametrize("open_ends", BESIDE.values(), ids=BESIDE)
 @pytest.mark.parametrize("by", [3000.0, -500.0])
-def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by, open_ends):
+def test_a_velocity_added_to_all_bodies_changes_no_verdict(by, open_ends):
     """Unless an edge lies across their path, which they hit."""
     moved = [f"body.{name}.velocity=[0.0, {by + own}]" for name, own in (("flyer", 1000.0), ("plate", 0.0), ("air", 0.0))]
     here, there = reach(*open_ends), reach(*open_ends, *moved)
@@ -229,7 +229,7 @@ def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by, open_ends):
     assert reach(*open_ends, *moved, "boundaries.z_max=anvil").speed == pytest.approx(meets, abs=5.0)
 
 
-def test_what_was_doubtful_once_is_not_forgotten(tmp_path):
+def test_a_doubt_is_not_forgotten(tmp_path):
     """Not even after a restart: the run goes on, and is not trusted."""
     simulation = Simulation(decks.loads(SHOT, ["body.air.pressure=0.0", "body.air.material=Al5083"]))
     s = simulation.state
@@ -256,7 +256,7 @@ def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):
     assert "Leave the space empty" in summary["stop_reason"]
 
 
-def test_a_gas_beside_a_moving_metal_has_the_heat_of_its_shock():
+def test_a_gas_next_to_a_moving_metal_has_the_heat_of_its_shock():
     """Air ahead of a flyer at 1 km/s, not yet crushed: some 7e5 J/kg behind the shock, where metal and air share cells."""
     simulation = Simulation(decks.loads(SHOT))
     while simulation.time < 0.45e-6:

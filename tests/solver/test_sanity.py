@@ -73,7 +73,7 @@ def test_the_heat_of_plastic_work_is_no_fault(shot):
     assert not [fault for fault in shot.faults() if fault.startswith('body "flyer" has')]
 
 
-def test_what_is_left_of_a_body_is_not_looked_at_as_a_whole(shot):
+def test_the_remains_of_a_body_are_not_judged_as_a_whole(shot):
     """The last twentieth of a rod, which is about to leave the mesh, may be hot."""
     state, mass = shot.state, totals(shot.state).mass[0]
     full = np.nonzero((state.vof[0] > 0).any(axis=1))[0]
@@ -102,12 +102,12 @@ def test_a_clip_that_took_much(shot, clip):
     assert shot.faults(share=0.06) == []
 
 
-def test_what_is_no_number_is_a_fault(shot):
+def test_a_nan_is_a_fault(shot):
     shot.state.e[0, 10, 3] = np.nan
     assert shot.faults()
 
 
-def test_what_edges_put_in_counts(shot):
+def test_energy_put_in_by_edges_counts(shot):
     """A piston may bring any energy."""
     work = 10.0 * shot.audit.start.energy
     shot.state.e[1][shot.state.vof[1] > 0] += work / totals(shot.state).mass[1]

@@ -113,7 +113,7 @@ def until_it_ends(simulation: Simulation) -> tuple[str, int]:
     return reason, simulation.cycle
 
 
-def test_a_body_at_rest_is_waited_for_until_it_has_moved():
+def test_a_run_waits_until_a_body_at_rest_has_moved():
     """It is hit after 3.3 us; from then on it keeps its velocity."""
     simulation = Simulation(deck.loads(TWO + stop("20 us", body="second", speed_below="5 m/s")))
     assert until_it_ends(simulation)[0] == "end time"

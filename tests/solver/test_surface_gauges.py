@@ -129,7 +129,7 @@ def test_a_gauge_along_r():
         ("gauge.rear.along=x", "along"),
     ],
 )
-def test_what_is_refused(override, said):
+def test_refused_gauges(override, said):
     if not said:
         assert decks.loads(DECK, [override]).gauge[0].along == "z"
         return

@@ -68,7 +68,7 @@ def test_a_table_gives_its_integral():
     assert v[28] == pytest.approx(100.0 + 100.0, rel=1e-9)
 
 
-def test_what_is_not_within_reach_is_not_pushed():
+def test_material_out_of_reach_is_not_pushed():
     """A source over the lower half of the plate gives half of the momentum."""
     lower_half = ['source.gravity.z=["0 mm", "14.5 mm"]', 'stop.time="0.1 us"', "body.plate.velocity=0"]
     simulation = Simulation(deck.loads(FALL, lower_half))
@@ -209,7 +209,7 @@ hard = ["block"]
 
 
 @pytest.mark.parametrize("pushed", ["plate", "block"])
-def test_a_force_beside_a_contact_passes_on_through_it(pushed):
+def test_a_force_next_to_a_contact_passes_through_it(pushed):
     """A plate falls onto a block, or the block is driven into the plate: momentum of both, except for crumbs, and the audit."""
     push = G if pushed == "plate" else -G
     text = FALL.replace('body = "plate"', f'body = "{pushed}"').replace("axial = -2e8", f"axial = {push}")

@@ -93,7 +93,7 @@ def test_energy_and_audit_close_to_round_off():
     assert simulation.doubts() == []
 
 
-def test_what_is_not_within_reach_stays_cold():
+def test_material_out_of_reach_stays_cold():
     simulation = Simulation(deck.loads(TEXT))
     while simulation.time < 0.15e-6:
         simulation.step()

@@ -59,7 +59,7 @@ def alone(model, par, dt, factor, *cells):
     return tuple(np.array(found).T)
 
 
-def test_the_rows_of_lanes_are_apart_and_fill_the_array():
+def test_the_rows_of_lanes_do_not_overlap_and_fill_the_array():
     places = [value for name, value in inspect.getmembers(lanes) if name not in ("WIDTH", "LANES") and isinstance(value, int)]
     assert sorted(places) == list(range(0, LANE_ROWS * LANES, LANES))
     assert LANES % lanes.WIDTH == 0

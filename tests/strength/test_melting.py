@@ -145,12 +145,12 @@ def test_a_resolved_deck_keeps_the_line():
     ('based_on = "nylon"\nmelting.melt_exponent = 1.0', "needs melt_temperature"),
     ('based_on = "Al_porous"\nmelting.melt_temperature = 1220.0', "does not say the density of the solid"),
 ])  # fmt: skip
-def test_what_a_line_refuses(text, words):
+def test_refused_melting_lines(text, words):
     with pytest.raises(deck.DeckError, match=words):
         deck.loads(DECK + text)
 
 
-def test_a_body_that_never_melts_is_told():
+def test_a_body_that_never_melts_is_reported():
     from hydro2d.deck.warnings import warnings
 
     def said(name):

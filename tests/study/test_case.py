@@ -98,7 +98,7 @@ def test_a_case_that_died_before_its_first_restart_file_begins_anew(text, place)
     assert run_case(place, text).status == "done"
 
 
-def test_another_deck_is_a_failure_unless_told(text, place):
+def test_another_deck_is_a_failure_without_overwrite(text, place):
     run_case(place, text)
     kept = (place / "summary.json").read_text()
     other = decks.loads(DECK, ["numerics.courant=0.3"]).to_toml()
@@ -126,7 +126,7 @@ def test_a_fault_is_a_result_with_its_trace(simulation, text, place):
     assert outcome.first == outcome.message
 
 
-def test_what_fails_by_chance_is_tried_once_more(simulation, monkeypatch, text, place, tmp_path):
+def test_a_chance_failure_is_tried_once_more(simulation, monkeypatch, text, place, tmp_path):
     """For example two threads of Python that parse at once."""
     step, failed = simulation.step, []
 
@@ -219,7 +219,7 @@ def _alive(place, skew):
         (lambda place: _alive(place, -1e4), "in use by process 1 on elsewhere"),
     ],
 )
-def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
+def test_a_fault_that_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
     monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.5)
     monkeypatch.setattr("hydro2d.study.case.ENDING", 0.1)
     place = tmp_path / "cases" / "case"

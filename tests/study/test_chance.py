@@ -241,7 +241,7 @@ def test_erosion_is_found_by_bisection_too(tmp_path):
 # ------------------------------------------------------------------------------------------------ the report
 
 
-def test_what_is_printed_and_drawn(tmp_path, capsys):
+def test_the_printed_and_drawn_results(tmp_path, capsys):
     search(tmp_path, made_up.Client(chancy))
     shown = capsys.readouterr().out
     for words in ("v50 = ", "90 % interval", "width, 10 to 90 %", "bought with 16 of 16 runs", "wrote ", "velocity "):

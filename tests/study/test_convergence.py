@@ -85,7 +85,7 @@ def study(folder, regimes=("rigid",) * 3, scatter=0.001):
     return place
 
 
-def test_scatter_and_change_are_told_apart(tmp_path):
+def test_scatter_and_change_are_distinguished(tmp_path):
     place = study(tmp_path)
     depth, _ = convergence.sequences(collect(layout.load(place)))
     assert [each.cells for each in depth.levels] == [5.5, 8.5, 12.5]

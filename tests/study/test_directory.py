@@ -116,7 +116,7 @@ def test_time_left():
     assert monitor.left([done, waiting, running], 1, further=2) == 340.0
 
 
-def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
+def test_an_existing_study_is_kept_without_overwrite(plan, written, tmp_path):
     sweep.changes(plan, written, resume=False, overwrite=False)  # no case has begun
     pretend(written, plan, "ke_0.1", "done")
     with pytest.raises(StudyError, match=r"1 of 6 done.*--resume continues it"):
@@ -134,7 +134,7 @@ def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
         layout.make(tmp_path / "tube.toml" / "out")
 
 
-def test_a_changed_study_is_told(plan, written, tmp_path):
+def test_a_changed_study_is_reported(plan, written, tmp_path):
     pretend(written, plan, "ke_0.1", "done")
     wider = cases.plan(tubes.write(tmp_path, tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.3]")))
     told = sweep.changes(wider, written, resume=True, overwrite=False)

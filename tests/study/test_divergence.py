@@ -73,7 +73,7 @@ def test_the_time_at_which_a_size_is_exceeded(runs):
     assert found.first_beyond(0.9) is None
 
 
-def test_what_does_not_differ_has_no_growth(runs):
+def test_equal_quantities_have_no_growth(runs):
     found = curve(runs, "rod_length_m")
     assert (found.growth(0.01), found.first_beyond(1e-12)) == (None, None)
 
@@ -85,7 +85,7 @@ def test_a_level_a_jump_and_a_straight_line_are_no_exponential_growth(difference
     assert divergence.Curve("x", "history", 1.0, time, 1e-5 * np.exp(time / 1e-5)).growth(0.01).time == pytest.approx(1e-5)
 
 
-def test_what_is_printed_drawn_and_written(runs, tmp_path, capsys):
+def test_the_printed_drawn_and_written_results(runs, tmp_path, capsys):
     files = [tmp_path / "apart.png", tmp_path / "apart.csv"]
     assert call(["diverge", *map(str, runs), "--size", "0.001", "-o", str(files[0]), "--csv", str(files[1])]) == 0
     shown = capsys.readouterr().out
@@ -98,7 +98,7 @@ def test_what_is_printed_drawn_and_written(runs, tmp_path, capsys):
     assert {row["cell_body"] for row in rows if row["kind"] == "field"} == {"rod"}
 
 
-def test_keys_in_which_the_decks_differ_are_told(tmp_path, capsys):
+def test_keys_in_which_the_decks_differ_are_reported(tmp_path, capsys):
     one = write_run(tmp_path / "a")
     other = shutil.copytree(one, tmp_path / "b")
     text = fake.deck_text("body.rod.velocity=1086.0 m/s", "numerics.initial_dt_factor=0.0999999999")
@@ -109,7 +109,7 @@ def test_keys_in_which_the_decks_differ_are_told(tmp_path, capsys):
     assert "no field differs by more than 0.01 of its largest value" in shown
 
 
-def test_dumps_at_slightly_other_times_are_compared_and_that_is_told(tmp_path, capsys):
+def test_dumps_at_slightly_other_times_are_compared_with_a_note(tmp_path, capsys):
     one, other = write_run(tmp_path / "a", grown=True), write_run(tmp_path / "b", grown=True, late=2e-7)
     assert call(["diverge", str(one), str(other), "--size", "0.001"]) == 0
     assert "the times of the dumps differ, which alone makes up to" in capsys.readouterr().out
@@ -123,7 +123,7 @@ def test_dumps_at_slightly_other_times_are_compared_and_that_is_told(tmp_path, c
         ({"late": 2.4e-6}, "no dumps of the same time"),
     ],
 )
-def test_fields_that_cannot_be_compared_are_told(tmp_path, capsys, change, said):
+def test_fields_that_cannot_be_compared_are_reported(tmp_path, capsys, change, said):
     one, other = write_run(tmp_path / "a"), write_run(tmp_path / "b", **change)
     assert call(["diverge", str(one), str(other)]) == 0
     assert f"the fields are not compared: {said}" in capsys.readouterr().out

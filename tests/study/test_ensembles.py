@@ -219,7 +219,7 @@ def test_the_page_of_several_studies_has_their_ensembles(several, tmp_path):
     assert (single["ensemble"], single["member"]) == ("", "")
 
 
-def test_ensembles_of_bodies_without_a_projectile_are_not_told_apart_by_member(tmp_path):
+def test_ensembles_of_bodies_without_a_projectile_are_not_split_by_member(tmp_path):
     """If the velocity does not vary, each case has one place on the x axis."""
     for name in ("one", "other"):
         fake.write_study(tmp_path / name, {}, repeats=3)

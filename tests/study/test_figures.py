@@ -44,7 +44,7 @@ def lines(axes):
     return {line.get_label(): line for line in axes.lines}
 
 
-def test_series_are_what_the_velocity_does_not_tell_apart(panel, contents):
+def test_series_are_cases_that_differ_in_more_than_velocity(panel, contents):
     assert [(each.label, [record.velocity for record in each.records]) for each in panel.series] == [
         ("ke", [1086, 1200, 1296]), ("momentum", [1086, 1200, 1296])]  # fmt: skip
     assert [each.label for each in grouped(contents, ())] == ["advection ke", "advection momentum"]
@@ -195,7 +195,7 @@ def test_a_rod_in_a_planar_mesh_with_both_sides_is_drawn_as_it_is(contents):
     np.testing.assert_allclose(after[[0, 2]], [-0.2, radius - 0.2])
 
 
-def test_rods_far_apart_stand_tip_beside_tip(contents):
+def test_rods_far_apart_are_drawn_tip_to_tip(contents):
     measured = {contents.records[0].case.name: contents.belonging[contents.records[0].case.name]}
     assert rods.at_their_depths(contents.records, measured)
     assert lines(rods.draw(contents.records, measured, contents.records).axes[0])  # the experiment

@@ -177,7 +177,7 @@ def test_a_label_that_a_spreadsheet_would_compute(tmp_path):
     assert keeping._text(-1.5) == "-1.5"
 
 
-def test_an_older_run_in_a_directory_is_not_taken(tmp_path):
+def test_an_older_run_in_a_directory_is_not_used(tmp_path):
     """Only the version of the method is changed in a finished run of this deck."""
     file, out = tubes.write(tmp_path), tmp_path / "out"
     command = [file, "--out", out, "--workers", 1, "--only", "ke_0.1"]

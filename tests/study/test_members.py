@@ -24,7 +24,7 @@ def refused(deck=SHOT, axes=(), **ensemble):
     return line
 
 
-def test_the_first_member_is_the_deck_as_it_stands():
+def test_the_first_member_is_the_unchanged_deck():
     first = planned()[0]
     assert (first.name, first.member, first.changed) == ("m0", 0, {})
     assert first.text == decks.load(SHOT).to_toml()
@@ -96,7 +96,7 @@ def test_a_wrong_ensemble_is_one_message(ensemble, said):
 
 
 @pytest.mark.parametrize(("key", "by"), [("numerics.initial_dt_factor", "first step"), ("mesh.z_start", "mesh offset")])
-def test_an_axis_must_not_set_what_the_ensemble_changes(key, by):
+def test_an_axis_must_not_set_keys_that_the_ensemble_changes(key, by):
     axis = {"name": "mine", "key": key, "values": [0.1, 0.2]}
     line = refused(axes=[axis])
     assert f'axis "mine" sets {key}' in line

@@ -49,7 +49,7 @@ def test_parts_run_in_turn_and_once(tmp_path):
     assert (status, said) == (0, "first: 2 of 4 done, 2 waiting\ntubes: 2 of 4 done, 2 waiting\n")
 
 
-def test_what_a_study_takes(tmp_path, capsys):
+def test_the_cost_of_a_study(tmp_path, capsys):
     file = write(tmp_path)
     found = parts.plans(file, (), AS_IT_IS, quiet=True)
     assert [each.states for each in found] == [(2, 0, 0), (2, 0, 0)]

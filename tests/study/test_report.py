@@ -147,7 +147,7 @@ def test_a_study_that_has_not_begun(study):
     ],
 )  # fmt: skip
 @pytest.mark.filterwarnings("ignore")
-def test_what_cannot_be_read_is_said_and_the_rest_is_made(study, file, said):
+def test_unreadable_runs_are_reported_and_the_rest_is_made(study, file, said):
     (study / "cases" / "1086m-s_ke" / file).write_bytes(b"\x89HDF half a file")
     page, lines = page_of(study)
     assert page.faults == []
@@ -379,7 +379,7 @@ def test_the_command(study, tmp_path, capsys):
     assert not (tmp_path / "none").exists()
 
 
-def test_without_plotly_the_extra_is_told_and_nothing_is_written(study, tmp_path, monkeypatch, capsys):
+def test_without_plotly_the_extra_is_named_and_nothing_is_written(study, tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "plotly", None)
     monkeypatch.setitem(sys.modules, "plotly.offline", None)
     assert call(["report", str(study), "--out", str(tmp_path / "page")]) == 2

@@ -162,7 +162,7 @@ def test_no_second_strip(tmp_path, axes):
     assert not [each for each in panels.draw(contents, chosen(contents)) if each.name.startswith("strip")]
 
 
-def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
+def test_the_motions_of_models_are_drawn_with_the_histories(tmp_path):
     for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
         fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
     contents = collect(layout.load(tmp_path / "runs"))
@@ -186,7 +186,7 @@ def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
     assert "Grey: Forrestal's rigid rod, Tate-Alekseevskii, Walker-Anderson, from" in caption
 
 
-def test_a_motion_stands_only_where_its_model_applies(tmp_path):
+def test_a_motion_is_drawn_only_where_its_model_applies(tmp_path):
     """No rigid rod for one that erodes; no motion beyond the rear of the target."""
     fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3, regime="eroding")
     (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
@@ -253,7 +253,7 @@ def test_models_of_the_residual_velocity_are_fitted_to_the_study(tmp_path):
     assert curves[1].residual[-1] == pytest.approx(curves[2].residual[-1] / (1 + plug), rel=0.02)
 
 
-def test_measured_residual_velocities_stand_beside_those_of_the_runs(tmp_path):
+def test_measured_residual_velocities_are_drawn_with_those_of_the_runs(tmp_path):
     runs = tmp_path / "runs"
     for velocity, left, measured in ((600, 500.0, 470.0), (900, 820.0, 835.0), (400, 0.0, 0.0), (700, 610.0, None)):
         shot = [f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm"]
@@ -292,7 +292,7 @@ def test_a_model_is_drawn_where_it_can_be_had(tmp_path, shots, titles, said):
     assert said in " ".join(notes)
 
 
-def test_setups_share_a_figure_where_their_series_tell_them_apart(tmp_path):
+def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
     axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm",),
                                                                "80 mm": ("body.rod.length=80 mm",)}}  # fmt: skip
     contents = study(tmp_path, axes)

@@ -60,7 +60,7 @@ def test_a_report_of_any_summary(place, path):
         (place / "summary.json").write_text(text)
 
 
-def test_what_is_of_the_wrong_kind_is_left_out_and_told(place):
+def test_values_of_the_wrong_kind_are_left_out_and_reported(place):
     text = (place / "summary.json").read_text()
     fake.edit_json(place / "summary.json", rod_length_m="long", cycles=[3], wall_s=None)
     (case,) = layout.gather([place]).cases

@@ -162,7 +162,7 @@ def test_every_combination_has_its_brackets(finished):
     assert {case.status for case in hydro2d.open_study(folder / "out").cases} == {"done"}
 
 
-def test_a_free_worker_gets_its_next_case_before_the_last_one_is_told(finished):
+def test_a_free_worker_gets_its_next_case_before_the_last_one_is_reported(finished):
     """When the first outcome is requested, two cases have been given out, and so on; none follows the last."""
     client = finished[1]
     assert client.ahead == [*range(2, len(client.submitted) + 1), len(client.submitted)]
@@ -177,7 +177,7 @@ def test_the_hydrodynamic_limit_is_that_of_the_experiments(finished):
         "out of order: no deeper than the limit at 1250 m/s, deeper than the hydrodynamic limit at 1300 m/s"]
 
 
-def test_what_is_printed(again, capsys):
+def test_the_printed_results(again, capsys):
     client = made_up.Client(usual)
     search(again, client, resume=True)
     shown = capsys.readouterr().out
@@ -297,7 +297,7 @@ def test_a_search_whose_runs_all_fail_ends(tmp_path):
         ((2000, 2000), (1500, None), "not reached at 1500 m/s, the fast end of the interval"),
     ],
 )
-def test_an_interval_that_is_too_short_is_told(tmp_path, capsys, ends, expected, said):
+def test_an_interval_that_is_too_short_is_reported(tmp_path, capsys, ends, expected, said):
     client = made_up.Client(lambda velocity, deck: {"regime": made_up.regime(velocity, *ends)})
     status, found = search(tmp_path, client, ALONE)
     assert (status, len(client.submitted), found["complete"]) == (0, 2, True)
@@ -305,7 +305,7 @@ def test_an_interval_that_is_too_short_is_told(tmp_path, capsys, ends, expected,
     assert f"rigid to deforming: open, {said}" in capsys.readouterr().out
 
 
-def test_what_is_out_of_order_is_told(tmp_path, capsys):
+def test_regimes_out_of_order_are_reported(tmp_path, capsys):
     def strange(velocity, deck):
         return {"regime": "rigid" if velocity == 1500 else made_up.regime(velocity, 1000, 1100)}
 
@@ -339,13 +339,13 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
     assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the projectile left the mesh before it came to rest")
 
 
-def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
+def test_a_run_that_was_cut_short_is_reported(tmp_path, capsys):
     cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
     assert "runs that did not end at rest, whose regime is that at their end: 900 m/s, " in capsys.readouterr().out
 
 
-def test_another_rod_than_the_experiments_is_told(tmp_path, capsys):
+def test_another_rod_than_the_experiments_is_reported(tmp_path, capsys):
     text = ALONE.replace("[transition]", '[set]\n"body.rod.length" = "80 mm"\n[transition]')
     _, found = search(tmp_path, made_up.Client(usual), text)
     assert "the experiments' rods were 97.79 x 6.757 mm" in found["combinations"][0]["notes"]
@@ -502,7 +502,7 @@ def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
     assert "rigid to deforming" not in shown
 
 
-def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
+def test_the_target_of_a_search_must_be_known(tmp_path, capsys):
     assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
     said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: deeper, erosion, '
     assert f"search.toml:5: {said}" in capsys.readouterr().err

@@ -67,7 +67,7 @@ def _cut(deck, tables: dict, z: np.ndarray) -> np.ndarray:
 
 
 def _coarsened(edges: np.ndarray, factor: float) -> np.ndarray:
-    """The same extent with fewer cells, whose sizes vary as before."""
+    """The edges with fewer cells over the same extent, whose sizes vary as before."""
     cells = max(round((len(edges) - 1) / factor), min(len(edges) - 1, 4))
     return np.interp(np.linspace(0, len(edges) - 1, cells + 1), np.arange(len(edges)), edges)
 

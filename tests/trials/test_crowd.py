@@ -11,7 +11,7 @@ from tests.trials import crowd
 
 
 @pytest.mark.parametrize("number", range(2000, 2336, 13))
-def test_a_deck_beside_its_twins(number):
+def test_a_deck_and_its_twins(number):
     """A run that is off its course reports it itself; friction of a contact has an order (explanation/sliding)."""
     text, wrong = crowd.wrong(number)
     assert set(wrong or ()) <= ({"course", "mirror"} if "friction" in text else {"course"}), (wrong, text)

@@ -42,7 +42,7 @@ def spoiled_directories(seeds, finished, folder):
     return told
 
 
-def test_what_is_not_spoiled_is_read(finished, tmp_path):
+def test_unspoiled_directories_are_read(finished, tmp_path):
     for n in range(8):
         place = tmp_path / str(n)
         shutil.copytree(finished, place)

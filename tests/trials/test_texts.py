@@ -78,7 +78,7 @@ def decks():
 
 
 @pytest.mark.parametrize("name", SMALL)
-def test_what_is_not_spoiled_passes(name, tmp_path):
+def test_unspoiled_decks_pass(name, tmp_path):
     file = tmp_path / "deck.toml"
     file.write_text(SMALL[name])
     assert spoil.judge(["check", str(file)]) == (0, "")
@@ -190,12 +190,12 @@ def runs(seeds, folder):
     return ran
 
 
-def test_what_is_taken_runs(tmp_path):
+def test_accepted_decks_run(tmp_path):
     assert runs(range(40), tmp_path) >= 5
 
 
 @pytest.mark.slow
-def test_what_is_taken_of_two_thousand_runs(tmp_path, tell):
+def test_accepted_decks_of_two_thousand_run(tmp_path, tell):
     ran = runs(range(2000), tmp_path)
     tell(f"{ran} spoiled decks that were taken ran for three cycles, 0 failures")
     assert ran > 300

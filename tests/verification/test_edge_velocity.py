@@ -106,6 +106,6 @@ def test_check_says_the_velocity():
         (['sliding.method="contact"', 'sliding.hard=["bar"]'], "a contact allows no edge with a velocity"),
     ],
 )
-def test_what_makes_no_sense_is_said(options, words):
+def test_senseless_settings_are_reported(options, words):
     with pytest.raises(decks.DeckError, match=words):
         decks.loads(FED, options)

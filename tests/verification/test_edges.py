@@ -59,7 +59,7 @@ BEHIND = (
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
-def test_what_a_following_mesh_leaves_behind(choice):
+def test_a_body_that_a_following_mesh_leaves_behind(choice):
     """A ring at rest goes out through the rear edge as the mesh passes it."""
     leaves_unchanged(Simulation(decks.loads(BEHIND, [advection(choice)])), 1, (0.0, 0.0))
 
@@ -102,7 +102,7 @@ def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, ti
     assert np.abs(left - endless).max() < (0.2 if component == "v" else 0.3)
 
 
-def test_what_goes_through_transmitting_edges_is_recorded():
+def test_flow_through_transmitting_edges_is_recorded():
     simulation = Simulation(decks.loads(WAVE, ["body.kick.velocity=[0.0, 10.0]", "stop.time=4e-6"]))
     start = simulation.conservation()["start_energy_J"]
     middle(simulation, "v")

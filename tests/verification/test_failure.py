@@ -59,7 +59,7 @@ def failed(simulation: Simulation) -> np.ndarray:
 
 
 @pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
-def test_what_has_failed_stays_failed_while_it_moves(advection):
+def test_failed_material_stays_failed_while_it_moves(advection):
     """Some 120 cycles across 24 cells: a mean of ones, with round-off, is one."""
     simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us", f'numerics.advection="{advection}"']))
     fail_everything(simulation)
@@ -205,7 +205,7 @@ def test_a_bar_of_two_bodies_breaks_where_the_tension_is(share):
       "materials.alumina_995.fracture_stress='1 GPa'"], "a damage of its own"),
     (["materials.ring.fracture_stress='-1 GPa'"], "must be positive"),
 ], ids=["cracks", "jh-2", "negative"])
-def test_what_a_fracture_stress_does_not_go_with(overrides):
+def test_settings_that_exclude_a_fracture_stress(overrides):
     with pytest.raises(DeckError, match=overrides[1]):
         Simulation(deck.loads(RING, ["materials.ring.fracture_pressure='1 GPa'", "materials.ring.fracture_stress='1 GPa'",
                                      *overrides[0]]))

@@ -151,7 +151,7 @@ def test_two_plates_and_the_gap_between_them():
     assert inflow.mass[moving.table.names.index("rear")] < 0.0
 
 
-def test_what_enters_is_what_the_deck_placed_there():
+def test_entering_bodies_are_those_placed_by_the_deck():
     """Every body ahead has come in to the last digit of its volume, at the place where it was put."""
     ball = body("ball", "Al5083", "sphere", centre="22.5 mm", radius="1.7 mm")
     disc = plate("2.77 mm", name="disc", material="Al7039", z_front="24.4 mm", radius="3.1 mm")

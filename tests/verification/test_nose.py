@@ -275,7 +275,7 @@ def test_an_undeformable_nose_keeps_its_shape():
     assert rigid().state.q[EP, 0].max() < 1e-3
 
 
-def test_no_checkerboard_stands_in_the_nose():
+def test_no_checkerboard_stays_in_the_nose():
     """Pressure and deviators go up and down from cell to cell by 33 to 50 MPa, the median in time; they did by 70 to 100.
 
     Single moments lie between 14 and 140, by chance.

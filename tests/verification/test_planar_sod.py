@@ -53,7 +53,7 @@ def test_plateaus(choice):
     assert crossing(xi, pressure, 0.5 * (EXACT.p + 0.1)) == pytest.approx(EXACT.right_wave[1], rel=shock)
 
 
-def test_what_the_choices_conserve():
+def test_quantities_that_the_choices_conserve():
     """Energy balances to round-off with the amounts in the audit; the study's choices trade momentum for energy."""
     recorded = {}
     for choice in ADVECTION:

@@ -229,7 +229,7 @@ def scab(frame: float) -> tuple[float, float]:
     return float(f[widest + 1:].sum() * 0.1), float(velocity - frame)
 
 
-def test_spall_does_not_hang_on_the_frame():
+def test_spall_does_not_depend_on_the_frame():
     """The scab is as thick as the flyer in every frame, to a cell and a half; it was .37 to 2.3 mm, and none at 1000 m/s.
 
     The target's velocity is 68 to 78 m/s, by chance; it was 55 to 77, and fell with the speed of the frame.

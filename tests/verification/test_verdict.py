@@ -14,7 +14,7 @@ PAGE = Path(__file__).parents[2] / "docs/explanation/sanity.md"
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.family}: {row.name}")
-def test_the_verdict_beside_the_error(row):
+def test_the_verdict_and_the_error(row):
     error, said = judged(row)
     assert (error <= row.bound) == row.right, f"an error of {error:.3g}, where {row.bound:g} is the bound"
     assert (not said) == row.trusted, said

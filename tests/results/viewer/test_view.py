@@ -101,7 +101,7 @@ def test_fewer_bits_take_less_room(shot):
     assert sizes[0] < 0.8 * sizes[-1]
 
 
-def test_what_is_no_number_stays_none():
+def test_values_that_are_not_numbers_stay_empty():
     values = np.array([[0.0, np.nan], [2.0, 1.0]])
     levels = packing.levels_of(values, 0.0, 2.0, 8)
     np.testing.assert_array_equal(levels, [[0, 255], [254, 127]])
@@ -257,7 +257,7 @@ def no_dumps(tmp_path):
         (["{run}", "-o", "{run}"], "run"),
     ],
 )
-def test_what_cannot_be_shown_is_told_in_one_message(tmp_path, no_dumps, capsys, arguments, said):
+def test_runs_that_cannot_be_shown_give_one_message(tmp_path, no_dumps, capsys, arguments, said):
     made_run.write(tmp_path / "run", dumps=2, names=["Pressure [Pa]", "Density [kg/m3]"])
     (tmp_path / "empty").mkdir()
     places = {name: str(tmp_path / name) for name in ("run", "empty", "bare")}

@@ -169,7 +169,7 @@ def test_each_half_has_its_own_bar_which_says_so(browser, page, width):
     assert max(x for _, x, _ in found["two"]) < width
 
 
-def test_what_comes_late_is_not_drawn_over_what_is_shown(browser, page):
+def test_a_late_picture_is_not_drawn_over_the_present_one(browser, page):
     script = """
       const run = RUNS[0], values = run.drawn.bind(run);
       run.drawn = async (n, word) => { if (n === 1) await pause(200); return values(n, word); };
@@ -243,7 +243,7 @@ TAP = r"""
 
 
 @pytest.mark.parametrize("j", [14, 30, 40])
-def test_a_tap_on_a_phone_shows_numbers_beside_the_finger(browser, page, shot, j):
+def test_a_tap_on_a_phone_shows_numbers_next_to_the_finger(browser, page, shot, j):
     found = ask(browser, page, TAP.replace("J", str(j), 1), PHONE)
     assert found["faults"] == []
     assert found["within"]
@@ -262,7 +262,7 @@ def test_a_tap_on_a_phone_shows_numbers_beside_the_finger(browser, page, shot, j
     assert found["hidden"], "with the mark"
 
 
-def test_on_a_desk_the_table_stands_beside_the_picture_alone(browser, page):
+def test_on_a_desktop_the_table_is_next_to_the_picture_only(browser, page):
     assert ask(browser, page, TAP.replace("J", "30", 1), DESK)["shown"] == "none"
 
 
@@ -601,7 +601,7 @@ def test_a_run_without_history_and_with_one_dump(browser, tmp_path):
     assert found == {"cards": 1, "faults": [], "playing": False, "said": "t = 0.00 µs"}
 
 
-def test_a_browser_that_is_too_old_is_told(browser, page, tmp_path):
+def test_a_browser_that_is_too_old_gets_a_message(browser, page, tmp_path):
     old = tmp_path / "old.html"
     text = page.read_text(encoding="utf-8")
     old.write_text(text.replace("<head>", "<head><script>delete window.DecompressionStream;</script>"), encoding="utf-8")
