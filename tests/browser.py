@@ -65,9 +65,9 @@ class Browser:
         asked.write_text(FRAME.format(width=width, page=html.escape(text)), encoding="utf-8")
         window = ("--window-size=1500,1000", "--virtual-time-budget=10000", SCHEMES[scheme])
         done = self._run(*window, "--dump-dom", asked.as_uri())
-        found = re.search(r'<pre id="the-answer">(.*?)</pre>', done.stdout, re.S)
-        assert found, f"the page gave no answer: {done.stderr[-500:]}"
-        return json.loads(html.unescape(found[1]))
+        answer = re.search(r'<pre id="the-answer">(.*?)</pre>', done.stdout, re.S)
+        assert answer, f"the page gave no answer: {done.stderr[-500:]}"
+        return json.loads(html.unescape(answer[1]))
 
     def pdf(self, page: Path) -> Path:
         """The page as it prints."""
@@ -83,8 +83,8 @@ def browser(tmp_path_factory):
     program = next(filter(None, map(shutil.which, NAMES)), None)
     if program is None:
         pytest.skip(f"no browser is installed (looked for {', '.join(NAMES)})")
-    found = Browser(program, tmp_path_factory.mktemp("browser"))
-    problem = found.works()
+    started = Browser(program, tmp_path_factory.mktemp("browser"))
+    problem = started.works()
     if problem:
         pytest.skip(f"{program} does not start here: {problem}")
-    return found
+    return started

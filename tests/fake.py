@@ -79,9 +79,9 @@ class Simulation:
         )
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         places = np.array([[0.0, 0.0], [1e-3, 5e-3]])
-        found = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
+        where = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
         self.columns, self.formulas, self.warnings = {}, {}, []
-        self.stations = SimpleNamespace(tracers=places, measure=lambda: found)
+        self.stations = SimpleNamespace(tracers=places, measure=lambda: where)
         self._place()
 
     def _place(self) -> None:

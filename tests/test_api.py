@@ -41,17 +41,17 @@ def shot(deck, tmp_path_factory):
 def test_importing_hydro2d_is_cheap_and_the_names_are_there():
     text = ("import sys, hydro2d; print(sorted({'numba', 'pandas', 'vtk', 'pydantic'} & set(sys.modules)));"
             "print([name for name in hydro2d.__all__ if getattr(hydro2d, name).__doc__ is None])")  # fmt: skip
-    found = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert found.stdout.splitlines() == ["[]", "[]"]
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["[]", "[]"]
 
 
 @pytest.mark.parametrize("first", ["", "import eos; "])
 def test_another_package_called_eos_is_reported(tmp_path, first):
     (tmp_path / "eos.py").write_text("ROTATION = 1\n")
-    found = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
-                           env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
-    assert found.returncode == 1
-    assert f"hydro2d has a package eos of its own, and Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
+    done = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
+    assert done.returncode == 1
+    assert f"hydro2d has a package eos of its own, and Python finds another one at {tmp_path / 'eos.py'}" in done.stderr
 
 
 TYPED = """
@@ -78,8 +78,8 @@ def test_the_names_load_no_kernels():
     """Until the first simulation is made a deck can still bring a model of its own."""
     text = ("import sys, hydro2d; [getattr(hydro2d, name) for name in hydro2d.__all__];"
             "print({'eos.dispatch', 'strength.dispatch'} & set(sys.modules))")  # fmt: skip
-    found = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "set()"
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
 
 
 def test_an_unknown_name_is_refused():
@@ -108,9 +108,9 @@ def test_the_three_ways_to_a_deck_give_the_same(tmp_path, deck):
 
 def test_numbers_of_numpy_and_tuples_are_values():
     mesh = {"r": [{"to": np.float64(9e-3), "cells": np.int64(18)}], "z_start": -12e-3, "z": ({"to": 12e-3, "cells": 48},)}
-    found = hydro2d.Deck.from_dict({**tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
-    assert found.body[0].velocity == (0.0, 80.0)
-    assert found.mesh.r[0].cells == 18
+    loaded = hydro2d.Deck.from_dict({**tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
+    assert loaded.body[0].velocity == (0.0, 80.0)
+    assert loaded.mesh.r[0].cells == 18
 
 
 def test_a_dict_is_not_changed():
@@ -124,15 +124,15 @@ def test_the_class_alone_makes_no_deck():
         hydro2d.Deck(**tomllib.loads(TEXT))
 
 
-@pytest.mark.parametrize(("changes", "told"), [
+@pytest.mark.parametrize(("changes", "said"), [
     ({"body.rod.velocity": "80 kg"}, r'override body.rod.velocity = .80 kg.: body\[0\].velocity: "80 kg" is a mass'),
     ({"body.bar.velocity": 80.0}, "override body.bar.velocity = 80.0: there is no entry bar; there are rod, plate"),
     ({"numerics.advection": "kinetic"}, "override numerics.advection"),
     ({"": 1}, "the key is empty"),
     ("stop.time=1", 'not the text "stop.time=1"'),
 ])  # fmt: skip
-def test_a_wrong_override_is_named(changes, told):
-    with pytest.raises(hydro2d.DeckError, match=told):
+def test_a_wrong_override_is_named(changes, said):
+    with pytest.raises(hydro2d.DeckError, match=said):
         hydro2d.Deck.from_toml(TEXT, changes)
 
 
@@ -223,7 +223,7 @@ def test_an_interrupt_waits_for_the_end_of_the_cycle(deck):
     pandas.testing.assert_frame_equal(sim.to_pandas(), whole.to_pandas(), check_exact=True)
 
 
-@pytest.mark.parametrize(("name", "column", "told"), [
+@pytest.mark.parametrize(("name", "column", "said"), [
     ("penetration_depth_m", lambda sim: 1.0, "the history has a column penetration_depth_m of its own"),
     ("crater_radius", lambda sim: 1.0, "a column cannot be called 'crater_radius'"),
     ("a/b", lambda sim: 1.0, "a column cannot be called 'a/b'"),
@@ -232,10 +232,10 @@ def test_an_interrupt_waits_for_the_end_of_the_cycle(deck):
     ("mine", lambda sim: 1 / 0, "the column mine fails: ZeroDivisionError: division by zero"),
     ("mine", lambda sim: None, "the column mine fails: TypeError"),
 ])  # fmt: skip
-def test_a_wrong_column_is_named(deck, name, column, told):
+def test_a_wrong_column_is_named(deck, name, column, said):
     sim = hydro2d.Simulation(deck)
     sim.columns[name] = column
-    with pytest.raises(hydro2d.Error, match=told):
+    with pytest.raises(hydro2d.Error, match=said):
         sim.run(until="1 us")
 
 
@@ -252,8 +252,8 @@ def test_a_column_that_fails_leaves_a_run_that_can_go_on(tmp_path, deck, shot):
         hydro2d.run(deck, tmp_path / "run", quiet=True, columns=fails)
     assert not (tmp_path / "run" / "progress.json").exists()
     rights = {"highest_Pa": lambda sim: sim.array("pressure").max()}
-    found = hydro2d.run(deck, tmp_path / "run", restart=True, quiet=True, columns=rights)
-    assert found.summary["cycles"] == shot.summary["cycles"]
+    results = hydro2d.run(deck, tmp_path / "run", restart=True, quiet=True, columns=rights)
+    assert results.summary["cycles"] == shot.summary["cycles"]
 
 
 def test_arrays_are_views(deck):
@@ -292,14 +292,14 @@ def test_fields_are_computed_from_the_state(deck):
     assert grid.bounds[:4] == pytest.approx((0.0, 9e-3, -12e-3, 12e-3))
 
 
-@pytest.mark.parametrize(("key", "body", "told"), [
+@pytest.mark.parametrize(("key", "body", "said"), [
     ("presure", None, 'unknown field "presure"'),
     ("body_density", None, "body_density is one of every body"),
     ("body_density", "bar", 'unknown body "bar"'),
     ("contact_pressure", None, "contact_pressure: the simulation has none"),
 ])  # fmt: skip
-def test_a_field_that_is_not_there_is_refused(deck, key, body, told):
-    with pytest.raises(FieldError, match=told):
+def test_a_field_that_is_not_there_is_refused(deck, key, body, said):
+    with pytest.raises(FieldError, match=said):
         hydro2d.Simulation(deck).field(key, body)
 
 
@@ -355,8 +355,8 @@ def test_the_history_of_a_run_under_way_is_read_again(tmp_path, shot):
 
 def test_a_mesh_that_travels_says_where_it_is(tmp_path):
     deck = hydro2d.Deck.from_toml(TEXT, FOLLOWING)
-    found = hydro2d.run(deck, tmp_path / "following", quiet=True)
-    fields = found.fields
+    results = hydro2d.run(deck, tmp_path / "following", quiet=True)
+    fields = results.fields
     travelled = fields.mesh_position.values
     assert travelled[0] == 0.0
     assert (np.diff(travelled) > 0).all()
@@ -364,7 +364,7 @@ def test_a_mesh_that_travels_says_where_it_is(tmp_path):
     assert fields.volume_fraction.dims == ("time", "body", "mesh_z", "r")
     assert fields.z.dims == ("time", "mesh_z")
     np.testing.assert_allclose(fields.mesh_z + fields.mesh_position, fields.z.T, atol=1e-12)
-    for number, (_, file) in enumerate(found.dumps):
+    for number, (_, file) in enumerate(results.dumps):
         np.testing.assert_array_equal(fields.z[number], read_grid(file).z_centres)
     last = fields.isel(time=-1).swap_dims(mesh_z="z")
     place = float(last.z[7]) + 1e-6
@@ -422,8 +422,8 @@ def test_an_interrupted_run_raises_and_goes_on(tmp_path, deck, shot, monkeypatch
     with pytest.raises(KeyboardInterrupt, match="stopped: interrupted"):
         hydro2d.run(deck, place, quiet=True, columns=columns)
     monkeypatch.undo()
-    found = hydro2d.run(deck, place, restart=True, quiet=True, columns=columns)
-    pandas.testing.assert_frame_equal(found.to_pandas(), shot.to_pandas(), check_exact=True)
+    results = hydro2d.run(deck, place, restart=True, quiet=True, columns=columns)
+    pandas.testing.assert_frame_equal(results.to_pandas(), shot.to_pandas(), check_exact=True)
 
 
 # ---------------------------------------------------------------------------------------------------- sweeps
@@ -467,13 +467,13 @@ def test_a_sweep_of_a_deck_object_resolves_its_defaults_anew(tmp_path):
 def test_a_sweep_with_wrong_arguments_is_refused(tmp_path):
     with pytest.raises(hydro2d.StudyError, match="give `axes`, the keys to vary"):
         hydro2d.sweep(hydro2d.Deck.from_toml(tubes.TUBE))
-    for axes, told in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
-                       ({"body.low.pressure": ["low"]}, "no case has a valid deck")):  # fmt: skip
-        with pytest.raises(hydro2d.StudyError, match=told):
+    for axes, error in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
+                        ({"body.low.pressure": ["low"]}, "no case has a valid deck")):  # fmt: skip
+        with pytest.raises(hydro2d.StudyError, match=error):
             hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), axes, directory=tmp_path / "out")
-    for options, told in (({"workers": 0}, "workers = 0"), ({"threads": -1}, "threads = -1"),
-                          ({"overrides": "a=1"}, "not the text")):  # fmt: skip
-        with pytest.raises(hydro2d.StudyError, match=told):
+    for options, error in (({"workers": 0}, "workers = 0"), ({"threads": -1}, "threads = -1"),
+                           ({"overrides": "a=1"}, "not the text")):  # fmt: skip
+        with pytest.raises(hydro2d.StudyError, match=error):
             hydro2d.sweep(tubes.write(tmp_path), directory=tmp_path / "out", **options)
     with pytest.raises(hydro2d.StudyError, match="no deck has the key body.low.colour"):
         hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), {"body.low.colour": [1]}, directory=tmp_path / "out")
@@ -486,15 +486,15 @@ def test_a_sweep_with_wrong_arguments_is_refused(tmp_path):
 WITH_UNITS = TEXT.replace('numbers = "SI"\n', "")
 
 
-@pytest.mark.parametrize(("changes", "told"), [
+@pytest.mark.parametrize(("changes", "said"), [
     ({"body.rod.radius": 2.5}, r'2.5: body\[0\].radius: 2.5 has no unit; write "2.5 mm" \(or numbers = "SI"'),
     ({"stop.time": 60}, 'stop.time: 60 has no unit; write "60 us"'),
     ({"body.rod.velocity": 1086.0}, 'write "1086 m/s"'),
     ({"mesh.z": [{"to": 40, "cells": 20}]}, r"mesh.z\[0\].to: 40 has no unit"),
     ({"gauge": [{"name": "a", "r": np.float64(3.0), "z": 0.0}]}, r"gauge\[0\].r: 3 has no unit"),
 ])  # fmt: skip
-def test_a_number_that_lacks_its_unit_is_refused(changes, told):
-    with pytest.raises(hydro2d.DeckError, match=told):
+def test_a_number_that_lacks_its_unit_is_refused(changes, said):
+    with pytest.raises(hydro2d.DeckError, match=said):
         hydro2d.Deck.from_toml(WITH_UNITS, changes)
 
 
@@ -510,15 +510,15 @@ def test_a_ball_of_radius_two_and_a_half_is_refused_in_a_dict_and_an_axis(tmp_pa
 
 def test_numbers_of_programs_are_in_si_where_they_say_so():
     changes = {"body.rod.radius": 2e-3, "stop.speed_below": 5, "body.rod.velocity": np.float64(5.0), "stop.time": 1e-5}
-    for found in (hydro2d.Deck.from_toml(WITH_UNITS, {"numbers": "SI", **changes}),
-                  hydro2d.Deck.from_toml('numbers = "SI"\n' + WITH_UNITS, changes),
-                  hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(WITH_UNITS)}, changes)):
-        assert (found.body[0].radius, found.stop.speed_below, found.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
+    for loaded in (hydro2d.Deck.from_toml(WITH_UNITS, {"numbers": "SI", **changes}),
+                   hydro2d.Deck.from_toml('numbers = "SI"\n' + WITH_UNITS, changes),
+                   hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(WITH_UNITS)}, changes)):
+        assert (loaded.body[0].radius, loaded.stop.speed_below, loaded.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
 
 
 def test_zero_and_what_has_no_unit_need_none():
-    found = hydro2d.Deck.from_toml(WITH_UNITS, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
-    assert (found.body[1].velocity, found.numerics.courant) == ((0.0, 0.0), 0.3)
+    loaded = hydro2d.Deck.from_toml(WITH_UNITS, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
+    assert (loaded.body[1].velocity, loaded.numerics.courant) == ((0.0, 0.0), 0.3)
 
 
 def test_the_deck_of_a_run_is_a_deck(deck, shot):

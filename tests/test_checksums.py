@@ -99,8 +99,8 @@ def test_a_change_is_refused_until_it_is_meant(done, name, change, remedy):
     with pytest.raises(ResultsError, match=f"{name} does not fit its checksum: it was damaged or changed .*; {remedy}"):
         Results(done)
     file.write_text("\n".join(line for line in changed.split("\n") if "sha256 " not in line and '"sha256"' not in line))
-    found = Results(done)
-    assert "fine" in found.summary["status"] or found.tables["numerics"]["courant"] == 0.4
+    results = Results(done)
+    assert "fine" in results.summary["status"] or results.tables["numerics"]["courant"] == 0.4
 
 
 def test_files_of_earlier_versions_are_read(tmp_path):
@@ -178,7 +178,7 @@ def test_a_series_that_is_damaged_is_read_from_the_dumps(done):
 @pytest.mark.parametrize("suffix", [*checksums.FORMS, ".h5"])
 def test_sealed_data_contain_their_original(suffix):
     begin = checksums.FORMS[suffix].begin if suffix in checksums.FORMS else b"\x89HDF\r\n\x1a\n"
-    found = sealed(begin + b"the rest", suffix)
-    assert found.startswith(begin)
-    assert b"the rest" in found
-    assert found.count(b"sha256") == 1
+    data = sealed(begin + b"the rest", suffix)
+    assert data.startswith(begin)
+    assert b"the rest" in data
+    assert data.count(b"sha256") == 1

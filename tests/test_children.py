@@ -20,17 +20,17 @@ FURTHER = ("numpy", "h5py", "numba", "pyvista", "yaml", "cyclopts", "distributed
 @pytest.fixture
 def planted(tmp_path, monkeypatch):
     """The current directory with a file for every module; the file that records which was run."""
-    told = tmp_path / "told"
+    record = tmp_path / "told"
     folder = tmp_path / "planted"
     folder.mkdir()
     for name in (*sys.stdlib_module_names, *FURTHER):
-        (folder / f"{name}.py").write_text(f"open({str(told)!r}, 'a').write('{name} ')\nraise SystemExit('planted')\n")
+        (folder / f"{name}.py").write_text(f"open({str(record)!r}, 'a').write('{name} ')\nraise SystemExit('planted')\n")
     monkeypatch.chdir(folder)
-    return told
+    return record
 
 
-def found(told: Path) -> str:
-    return told.read_text() if told.exists() else ""
+def found(record: Path) -> str:
+    return record.read_text() if record.exists() else ""
 
 
 def test_a_planted_module_is_run_by_python(planted):

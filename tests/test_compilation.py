@@ -188,7 +188,7 @@ DECKS = ["cth_nose_shape/hemi_5083_1086_quick", "cth_nose_shape/hemi_5083_1086_l
 def test_the_second_process_knows_the_kernels_of_a_cycle(name):
     """It computes nothing, and still finds everything that a simulation calls until its first cycle is over."""
     deck = decks.load(f"problems/{name}.toml")
-    found = {call.name for call in calls_of_a_cycle(lambda: Simulation(deck))}
+    names = {call.name for call in calls_of_a_cycle(lambda: Simulation(deck))}
     called = set()
 
     def look(frame, event, _):
@@ -205,7 +205,7 @@ def test_the_second_process_knows_the_kernels_of_a_cycle(name):
         sys.setprofile(None)
     assert {remap_step.carry_momentum.full_name, f"{sums.__name__}.body_totals"} < called
     assert (lagrangian_step.find_contact.full_name in called) == (deck.sliding.method == "contact")
-    assert called <= found
+    assert called <= names
 
 
 def test_the_decks_that_are_shipped_compiled_call_every_kernel_of_these():
@@ -254,29 +254,29 @@ def test_a_second_process_is_started_for_several_kernels_and_ended(place, monkey
 def test_the_second_process_tells_what_it_has_compiled(monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1}, raising=False)
     monkeypatch.setattr(compilation.children, "python", lambda module: [sys.executable, "-c", "print('a'); print('b')"])
-    found, second = [], Second(SimpleNamespace(to_toml=lambda: ""))
-    second.start(found.append)
+    lines, second = [], Second(SimpleNamespace(to_toml=lambda: ""))
+    second.start(lines.append)
     second._process.wait(60)
     for _ in range(100):
-        if len(found) == 2:
+        if len(lines) == 2:
             break
         time.sleep(0.05)
-    assert found == ["a", "b"]
+    assert lines == ["a", "b"]
     assert second.stop() is None
 
 
 def test_the_process_that_compiles_for_all_tells_the_others(place, tmp_path, monkeypatch):
     """A sweep reads it; afterwards there is nothing to read."""
     monkeypatch.setattr(jit, "all_folder", lambda: str(tmp_path / "cache"))
-    told = []
+    lines = []
 
     def compiles():
         with first_call("a"):
             time.sleep(0.3)
-            told.append(told_of("key"))
+            lines.append(told_of("key"))
 
     once("key", compiles)
-    assert told == ["compiling kernels: 0 so far, 0 s"]
+    assert lines == ["compiling kernels: 0 so far, 0 s"]
     assert told_of("key") == ""
 
 

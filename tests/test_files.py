@@ -61,13 +61,13 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
 
 def test_a_lock_that_vanishes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
     """The previous holder removes the file after it was opened here: a lock on a file without a name excludes nobody."""
-    lock, taken, calls = tmp_path / "a.lock", files._taken, []
+    lock, take, calls = tmp_path / "a.lock", files._taken, []
 
     def late(file):
         calls.append(file)
         if len(calls) == 1:
             lock.unlink()
-        return taken(file)
+        return take(file)
 
     monkeypatch.setattr(files, "_taken", late)
     with locked(lock):

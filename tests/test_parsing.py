@@ -34,6 +34,6 @@ def test_no_two_threads_parse_at_once(monkeypatch):
 
 def test_nothing_else_parses():
     calls = re.compile(r"\bast\.(parse|literal_eval)\(|(?<![.\w])(?:eval|exec)\(")
-    found = [str(file.relative_to(ROOT)) for wing in ("hydro2d", "eos", "strength") for file in (ROOT / wing).rglob("*.py")
+    files = [str(file.relative_to(ROOT)) for wing in ("hydro2d", "eos", "strength") for file in (ROOT / wing).rglob("*.py")
              if calls.search(file.read_text(encoding="utf-8"))]
-    assert found == ["hydro2d/parsing.py"]
+    assert files == ["hydro2d/parsing.py"]

@@ -110,6 +110,6 @@ def test_names_in_charts_are_no_markup():
 
 def test_only_one_function_prints():
     """`say`."""
-    found = [name for name, file in source.modules().items() if name.startswith("hydro2d")
+    names = [name for name, file in source.modules().items() if name.startswith("hydro2d")
              for node in ast.walk(source.tree(file)) if isinstance(node, ast.Name) and node.id == "print"]  # fmt: skip
-    assert sorted(found) == ["hydro2d.terminal"]
+    assert sorted(names) == ["hydro2d.terminal"]

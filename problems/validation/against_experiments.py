@@ -153,9 +153,9 @@ def rows() -> dict[str, list[Row]]:
     laws = "Steinberg-Guinan", "Johnson-Cook, sintered", "Johnson-Cook, 90W", "Johnson-Cook, Y925"
     others = names[len(laws):]
     sets = (*map(twelve, names, laws), eroding(others[0]),
-             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
-             steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
-             gurney(others[5]))  # fmt: skip
+            steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
+            steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
+            gurney(others[5]))  # fmt: skip
     return dict(zip(names, sets, strict=True))
 
 

@@ -56,16 +56,16 @@ def test_a_word_that_is_also_a_key_says_both(capsys):
     assert info.page("cavity").startswith("cavity")
 
 
-@pytest.mark.parametrize(("name", "told"), [
+@pytest.mark.parametrize(("name", "nearest"), [
     ("presure", 'did you mean "pressure", '), ("reference_densty", 'did you mean "reference_density"'),
     ("spal", 'did you mean "spall"'), ("W_aloy", 'did you mean "W_alloy"? '),
 ])  # fmt: skip
-def test_an_unknown_name_gets_the_nearest_ones(name, told):
+def test_an_unknown_name_gets_the_nearest_ones(name, nearest):
     with pytest.raises(DeckError) as caught:
         info.page(name)
     said = str(caught.value)
     assert said.startswith(f'unknown name "{name}"; ')
-    assert told in said
+    assert nearest in said
     assert said.endswith("`hydro2d info` lists all names")
     assert said.count(",") <= info.MOST_NEAR
 

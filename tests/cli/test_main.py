@@ -88,8 +88,8 @@ def test_kernels_are_compiled_before_they_are_needed(simulation, deck, monkeypat
     monkeypatch.chdir(Path(deck).parent)
     before = set(Path().iterdir())
     assert call(["compile", deck]) == 0
-    told, kept = capsys.readouterr().out.splitlines()
-    assert told == "shot.toml: was compiled already"  # a fake simulation has no kernels
+    first, kept = capsys.readouterr().out.splitlines()
+    assert first == "shot.toml: was compiled already"  # a fake simulation has no kernels
     assert kept.startswith("compiled for ")
     assert set(Path().iterdir()) == before
     assert call(["compile", "none.toml", deck]) == 2
@@ -323,15 +323,15 @@ def test_errors_of_users_are_where_the_command_looks(module, name):
 
 def test_the_options_of_workers_are_the_same_in_all_commands_that_run_many_cases():
     """They are options of the command itself, in one order and with the same words."""
-    found = [
+    shown = [
         [(entry.names[0], entry.parameter.help, entry.field_info.default) for entry in arguments
          if entry.names[0][2:] in ("workers", "threads", "scheduler", "slurm", "resume", "overwrite")]
         for arguments in (app[name].assemble_argument_collection(parse_docstring=True)
                           for name in ("sweep", "transition", "converge"))
     ]  # fmt: skip
-    assert found[0] == found[1] == found[2]
-    assert [name for name, _, _ in found[0]] == ["--workers", "--threads", "--scheduler", "--slurm", "--resume", "--overwrite"]
-    assert all(words for _, words, _ in found[0])
+    assert shown[0] == shown[1] == shown[2]
+    assert [name for name, _, _ in shown[0]] == ["--workers", "--threads", "--scheduler", "--slurm", "--resume", "--overwrite"]
+    assert all(words for _, words, _ in shown[0])
 
 
 @pytest.mark.parametrize("command", ["sweep", "transition", "converge"])

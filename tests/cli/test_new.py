@@ -84,11 +84,11 @@ def test_the_picture_has_mesh_tracers_and_gauges():
         'gauge=[{ name = "probe", r = "6 mm", z = "1 mm" }, '
         '{ name = "line", r = "7 mm", z = "1 mm", z_end = "9 mm", points = 3 }]'
     ])
-    found = check(deck)
-    figure = start_figure.draw(found.dump, found.deck)
+    checked = check(deck)
+    figure = start_figure.draw(checked.dump, checked.deck)
     axes = figure.axes[0]
     lines = next(each for each in axes.collections if each.get_alpha() == 0.6).get_segments()
-    assert len(lines) == found.grid.nr + 1 + found.grid.nz + 1
+    assert len(lines) == checked.grid.nr + 1 + checked.grid.nz + 1
     assert max(line[:, 1].max() for line in lines) == 0.0
     assert [text.get_text() for text in axes.texts] == ["tail", "probe", "line_1", "line_2", "line_3"]
     marks = [(line.get_marker(), *line.get_xydata()[0]) for line in axes.lines if line.get_marker() in ("o", "x")]

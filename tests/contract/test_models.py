@@ -187,8 +187,8 @@ def gas(rho=0.0, e=0.0, p=0.0, slope=1.0, T=1.0):
     own = eos.MODELS["ideal-gas"].evaluate
 
     def evaluate(density, energy, par):
-        found = own(density + rho, energy + e, par)
-        return found[0] + p, found[1] * slope, found[2], found[3] * T ** (density / 1.2)
+        state = own(density + rho, energy + e, par)
+        return state[0] + p, state[1] * slope, state[2], state[3] * T ** (density / 1.2)
 
     return spoilt("eos", "ideal-gas", evaluate=evaluate)
 

@@ -28,9 +28,9 @@ NUMBERS = dict(zip(KNOWN, (0.03, 0.06, 800.0, 4.0, 2.0, 0.5, 3.0), strict=True))
     ],
 )
 def test_values_and_units(text, unit, value):
-    found = parse(text, KNOWN)
-    assert in_words(found.dimension) == unit
-    assert found.evaluate(NUMBERS) == pytest.approx(value, rel=1e-14)
+    formula = parse(text, KNOWN)
+    assert in_words(formula.dimension) == unit
+    assert formula.evaluate(NUMBERS) == pytest.approx(value, rel=1e-14)
 
 
 @pytest.mark.parametrize(

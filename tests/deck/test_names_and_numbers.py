@@ -142,7 +142,7 @@ def test_an_end_that_nearly_fits_whole_cells_is_met_and_reported():
 
 
 @pytest.mark.parametrize(
-    ("segment", "told"),
+    ("segment", "said"),
     [
         ('{to="2.3 cm", size="0.3 mm"}', "0.3 mm do not divide 2.3 cm; to = 2.28 cm or 2.31 cm would fit, or cells = "
          "76 (of 0.3026 mm) or 77 (of 0.2987 mm)"),
@@ -151,10 +151,10 @@ def test_an_end_that_nearly_fits_whole_cells_is_met_and_reported():
         ('{to="1 mm", size="3 cm"}', "3 cm do not divide 1 mm; to = 30 mm would fit, or cells = 1 (of 0.1 cm)"),
     ],
 )  # fmt: skip
-def test_a_size_that_does_not_divide_is_reported_in_the_units_of_the_deck(segment, told):
+def test_a_size_that_does_not_divide_is_reported_in_the_units_of_the_deck(segment, said):
     with pytest.raises(DeckError, match=r"mesh\.z\[0\]") as error:
         deck.loads(TEXT, [f"mesh.z=[{segment}]"])
-    assert told in str(error.value)
+    assert said in str(error.value)
 
 
 @pytest.mark.parametrize(

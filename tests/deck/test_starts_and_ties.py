@@ -27,9 +27,9 @@ def box_of(name, r, z, material="Al5083", **keys):
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_resolved_deck_is_a_fixed_point(name):
-    found = deck.load(ROOT / name)
-    text = found.to_toml()
-    assert deck.loads(text, name=found.name).to_toml() == text
+    loaded = deck.load(ROOT / name)
+    text = loaded.to_toml()
+    assert deck.loads(text, name=loaded.name).to_toml() == text
 
 
 @pytest.mark.parametrize("seed", range(30))
@@ -46,9 +46,9 @@ def test_resolved_decks_of_random_boxes_are_fixed_points(seed):
 
 
 def test_an_insert_is_reached_after_the_block_around_it():
-    found = deck.loads(MESH + ROD + box_of("insert", (0, 8), (5, 8)) + plate("20 mm", name="block"))
-    assert found.penetration.targets == ("block", "insert")
-    assert found.penetration.surface == 0.0
+    loaded = deck.loads(MESH + ROD + box_of("insert", (0, 8), (5, 8)) + plate("20 mm", name="block"))
+    assert loaded.penetration.targets == ("block", "insert")
+    assert loaded.penetration.surface == 0.0
 
 
 COPPER = table("materials.copper", based_on="copper_OFHC", variant="johnson-cook")
@@ -56,9 +56,9 @@ COPPER = table("materials.copper", based_on="copper_OFHC", variant="johnson-cook
 
 def state(**keys):
     """Density, pressure and temperature of copper."""
-    found = deck.loads(MESH + COPPER + box_of("bar", (0, 3), (0, 10), material="copper", **keys))
-    slots = library.resolve(found)
-    rho, e = insertion.body_state(found.body[0], slots, 0)
+    loaded = deck.loads(MESH + COPPER + box_of("bar", (0, 3), (0, 10), material="copper", **keys))
+    slots = library.resolve(loaded)
+    rho, e = insertion.body_state(loaded.body[0], slots, 0)
     return rho, *(slots.evaluate(0, rho, e)[n] for n in (0, 3))
 
 
@@ -86,8 +86,8 @@ def test_a_temperature_that_no_density_has_without_pressure_is_reported():
 def test_a_gas_has_its_own_density():
     text = MESH + box_of("air", (0, 3), (0, 10), material="air", temperature="400 K") + (
         '[materials.air.eos]\nmodel = "ideal-gas"\nreference_density = 1.2\nadiabatic_index = 1.4\n')
-    found = deck.loads(text)
-    assert insertion.body_state(found.body[0], library.resolve(found), 0)[0] == 1.2
+    loaded = deck.loads(text)
+    assert insertion.body_state(loaded.body[0], library.resolve(loaded), 0)[0] == 1.2
 
 
 def test_a_hot_bar_at_rest_stays_at_rest():
@@ -96,24 +96,24 @@ def test_a_hot_bar_at_rest_stays_at_rest():
     assert np.abs(sim.state.v).max() < 1e-3
 
 
-@pytest.mark.parametrize(("first", "second", "told"), [
+@pytest.mark.parametrize(("first", "second", "said"), [
     (box_of("plate", (0, 20), (0, 10)), box_of("rod", (0, 3), (-10, 3)), 'bodies "plate" and "rod" overlap by 84.8 mm^3'),
     (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # all of it inside, and intended
     (box_of("a", (0, 3), (0, 3)), box_of("b", (3, 6), (0, 3)), ""),
     (box_of("a", (0, 3), (0, 3)), box_of("b", (0, 3), (2, 5), join="a"), ""),
 ])  # fmt: skip
-def test_overlaps_are_reported_with_their_volume(first, second, told):
-    found = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
-    assert [text.startswith(told) and "the earlier one" in text for text in found] == [True] * bool(told)
+def test_overlaps_are_reported_with_their_volume(first, second, said):
+    texts = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
+    assert [text.startswith(said) and "the earlier one" in text for text in texts] == [True] * bool(said)
 
 
 def test_the_volume_that_two_bodies_share():
     """A ball and a box that cuts off its upper half; planar, a disc."""
     ball, upper = sphere(0.0, 0.0, 2.0), box((0.0, 5.0), (0.0, 5.0))
-    found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
-    assert found == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
-    found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), True)
-    assert found == pytest.approx((math.pi, 2.0 * math.pi), rel=1e-3)
+    volume = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
+    assert volume == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
+    volume = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), True)
+    assert volume == pytest.approx((math.pi, 2.0 * math.pi), rel=1e-3)
     assert shared_volume(ball, upper, (0.0, 5.0), (-5.0, 0.0), False)[0] == 0.0
 
 

@@ -31,8 +31,8 @@ def ball(name, z, radius, velocity=0, more=""):
 
 
 def told(mesh, *bodies):
-    found = deck.warnings(deck.loads(mesh + "".join(bodies) + REST))
-    return [text for text in found if "cells across" in text or "gap" in text]
+    texts = deck.warnings(deck.loads(mesh + "".join(bodies) + REST))
+    return [text for text in texts if "cells across" in text or "gap" in text]
 
 
 @pytest.mark.parametrize(
@@ -103,8 +103,8 @@ def test_cells_are_counted_where_a_body_flies(sign):
     mesh = GRADED if sign > 0 else BACKWARDS
     (text,) = told(mesh, box("plug", plug, 1000 * sign), box("witness", witness))
     flown = 'body "plug": 3.0 cells across it along z and (.*) at z = (.*) mm, which it reaches after (.*) us'
-    found = re.fullmatch(flown + ALWAYS, text)
-    cells, place, time = (float(number) for number in found.groups())
+    match = re.fullmatch(flown + ALWAYS, text)
+    cells, place, time = (float(number) for number in match.groups())
     assert 34 < time <= 36
     assert place == pytest.approx(sign * (2 + time), abs=0.06)
     z = deck.edges(deck.loads(mesh + box("plug", plug) + REST))[1]

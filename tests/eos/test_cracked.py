@@ -90,9 +90,9 @@ def table_of(text):
 
 def test_a_body_of_it_has_the_crack_volume_and_no_other_fracture_pressure():
     metal = material("metal", "Al6061_T6", fracture_pressure=TENSION, damage=CRACKS)
-    found = table_of(metal + table("failure", damage="material"))
-    assert [field.name for field in found.internal[0]] == ["crack_volume", "crack_growth"]
-    assert (found.cracking.tolist(), found.fracture_pressure.tolist()) == ([TENSION], [np.inf])
+    cracking = table_of(metal + table("failure", damage="material"))
+    assert [field.name for field in cracking.internal[0]] == ["crack_volume", "crack_growth"]
+    assert (cracking.cracking.tolist(), cracking.fracture_pressure.tolist()) == ([TENSION], [np.inf])
     plain = table_of(metal + table("failure", damage="none"))
     assert (plain.internal, plain.cracking.tolist(), plain.fracture_pressure.tolist()) == (((),), [0.0], [TENSION])
 

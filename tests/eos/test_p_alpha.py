@@ -144,10 +144,10 @@ def test_any_equation_of_state_without_memory_may_be_the_solid():
 
 
 def test_the_resolved_deck_names_the_solid():
-    found = deck.load(DECK)
-    again = deck.loads(found.to_toml(), name=found.name)
+    loaded = deck.load(DECK)
+    again = deck.loads(loaded.to_toml(), name=loaded.name)
     assert again.materials["Al_porous"].eos.solid == "mie-grueneisen"
-    assert again.to_toml() == found.to_toml()
+    assert again.to_toml() == loaded.to_toml()
     table = library.resolve(again)
     assert table.virgin(0) == pytest.approx([1.275], rel=1e-6)
     assert table.remembers

@@ -69,10 +69,10 @@ def test_the_crush_curve_is_found_though_the_search_begins_beyond_the_table(par,
             exact = after(MODEL, rho, e)
             if not has(par, p_alpha.solid_density(rho, exact, MODEL)[0], e):
                 continue
-            found = after(par, rho, e)
-            assert not np.isnan(evaluate(par, rho, e, found)[0]), (rho, e, exact, found)
-            assert found == pytest.approx(exact, abs=2e-3)
-            if 1.0 < found < VIRGIN:
+            distention = after(par, rho, e)
+            assert not np.isnan(evaluate(par, rho, e, distention)[0]), (rho, e, exact, distention)
+            assert distention == pytest.approx(exact, abs=2e-3)
+            if 1.0 < distention < VIRGIN:
                 thin += not has(par, rho, e)
                 dense += not has(par, p_alpha.solid_density(rho, VIRGIN, par)[0], e)
     assert thin > 20
@@ -90,8 +90,8 @@ def test_material_that_has_been_crushed_is_on_the_crush_curve(e):
 
 def test_beyond_the_table_the_excess_is_infinite_on_the_side_of_the_rest():
     for rho, distention, e, sign in ((0.8 * REST, 1.0, 0.0, -1.0), (1.7 * REST, 1.0, 1e6, 1.0), (1.4 * REST, 1.2, 0.0, 1.0)):
-        found, p = p_alpha.excess(rho, e, distention, ROW)
-        assert (found, np.isnan(p)) == (sign * np.inf, True)
+        over, p = p_alpha.excess(rho, e, distention, ROW)
+        assert (over, np.isnan(p)) == (sign * np.inf, True)
 
 
 @pytest.mark.parametrize(("rho", "e"), [(1.4 * REST, 0.0), (1.7 * REST, 1e6), (2400.0, 4e7), (np.nan, 0.0), (2400.0, np.nan)])
@@ -196,8 +196,8 @@ def compacted(par, velocity):
 
     def excess(p):
         rho, e = behind(p)
-        found = evaluate(par, rho, e, after(par, rho, e))[0]
-        return 1e300 if np.isnan(found) else found - p
+        pressure = evaluate(par, rho, e, after(par, rho, e))[0]
+        return 1e300 if np.isnan(pressure) else pressure - p
 
     least = first + 1.001 * rho1 * jump**2
     p = brentq(excess, least, 50.0 * least + 1e10, xtol=1.0)
@@ -258,11 +258,11 @@ def deck(**changes):
 
 
 def test_the_resolved_deck_carries_the_table_of_the_solid():
-    found = deck()
-    again = decks.loads(found.to_toml(), name=found.name)
+    loaded = deck()
+    again = decks.loads(loaded.to_toml(), name=loaded.name)
     model = again.materials["foam"].eos
     assert (model.solid, model.table_from, model.title) == ("tabular", "al.301", "p-alpha over tabular (al.301)")
-    assert again.to_toml() == found.to_toml()
+    assert again.to_toml() == loaded.to_toml()
     assert again.materials["foam"].tables()[0]["file"] == "al.301"
     assert library.resolve(again).virgin(0) == pytest.approx([VIRGIN], rel=1e-12)
 

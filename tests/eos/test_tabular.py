@@ -90,9 +90,9 @@ def test_the_inverse_is_exact(x, y):
     def between(q):
         return np.interp(temperature, T, [np.interp(density, rho, q[:, j]) for j in range(nt)])
 
-    found = tabular.evaluate(density, between(e), ROW)
-    assert found[0] == pytest.approx(between(p), rel=1e-9, abs=10.0)
-    assert found[3] == pytest.approx(temperature, rel=1e-9, abs=1e-6)
+    state = tabular.evaluate(density, between(e), ROW)
+    assert state[0] == pytest.approx(between(p), rel=1e-9, abs=10.0)
+    assert state[3] == pytest.approx(temperature, rel=1e-9, abs=1e-6)
 
 
 @given(x=SHARE, y=SHARE)
@@ -133,9 +133,9 @@ def test_the_density_without_pressure_is_found_though_the_search_leaves_the_tabl
     """In tension the search first tries a density higher by a quarter, where the energy lies below the cold curve."""
     rho, virgin = 0.97 * REST, np.zeros(0)
     assert np.isnan(tabular.evaluate(1.25 * rho, -2e4, ROW)[0])
-    found = zero_pressure_density(tabular.ID, rho, -2e4, virgin, ROW)
-    assert found == pytest.approx(zero_pressure_density(TILLOTSON.ID, rho, -2e4, virgin, MODEL), rel=1e-3)
-    assert abs(tabular.evaluate(found, -2e4, ROW)[0]) < 1.0
+    at_rest = zero_pressure_density(tabular.ID, rho, -2e4, virgin, ROW)
+    assert at_rest == pytest.approx(zero_pressure_density(TILLOTSON.ID, rho, -2e4, virgin, MODEL), rel=1e-3)
+    assert abs(tabular.evaluate(at_rest, -2e4, ROW)[0]) < 1.0
 
 
 # against the model that was tabulated
@@ -181,7 +181,7 @@ def test_the_temperature_is_as_consistent_as_the_table_is_fine():
                   "specific_heat": 900.0}
         row = tabular.row({"reference_density": REST}, tabulate.table_of(
             "x", eos.MODELS["mie-grueneisen"], values, density, temperature))
-        found = []
+        errors = []
         for rho in REST * np.linspace(0.93, 1.9, 41):
             for e in (5e5, 2e6):
                 p, _, dpde, T = tabular.evaluate(rho, e, row)
@@ -190,8 +190,8 @@ def test_the_temperature_is_as_consistent_as_the_table_is_fine():
                     by_rho = (tabular.evaluate(rho * (1 + d), e, row)[3] - T) / (d * rho)
                     by_e = (tabular.evaluate(rho, e + d * e, row)[3] - T) / (d * e)
                     terms = T * dpde / rho**2, p * by_e / rho**2
-                    found.append(abs(by_rho - terms[0] + terms[1]) / (abs(terms[0]) + abs(terms[1])))
-        return np.mean(found)
+                    errors.append(abs(by_rho - terms[0] + terms[1]) / (abs(terms[0]) + abs(terms[1])))
+        return np.mean(errors)
 
     coarse, middle, fine = worst(21), worst(81), worst(161)
     assert fine < 1e-2

@@ -142,8 +142,8 @@ RELIED_ON = [
 
 @pytest.mark.parametrize(("owner", "name", "words"), RELIED_ON, ids=[name for _, name, _ in RELIED_ON])
 def test_unpromised_features_of_numba_exist(owner, name, words):
-    found = getattr(owner, name)
-    assert not words or set(words) <= set(inspect.signature(found).parameters)
+    feature = getattr(owner, name)
+    assert not words or set(words) <= set(inspect.signature(feature).parameters)
 
 
 def test_no_other_private_name_of_numba_is_used():

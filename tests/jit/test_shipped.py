@@ -32,8 +32,8 @@ def runs(site: Path, home: Path, **environment: str) -> tuple[str, list[str], se
     own = {name: value for name, value in os.environ.items() if not name.startswith("HYDRO2D_")}
     own |= {"HYDRO2D_CACHE_DIR": str(home / "cache"), "PYTHONPATH": str(site), **environment}
     done = subprocess.run([sys.executable, str(home / "program.py")], env=own, text=True, capture_output=True, check=True)
-    found = {f"{file.parent.name}/{file.name}" for file in (home / "cache").glob("*/*.code")}
-    return done.stdout.strip(), done.stderr.splitlines(), found
+    names = {f"{file.parent.name}/{file.name}" for file in (home / "cache").glob("*/*.code")}
+    return done.stdout.strip(), done.stderr.splitlines(), names
 
 
 def ship(site: Path, home: Path) -> None:
@@ -97,8 +97,8 @@ def nothing_compiled(tmp_path, monkeypatch):
 @pytest.mark.skipif(target.named() is None, reason="this kind of machine has no named target")
 def test_the_folder_of_a_wheel_has_code_and_what_it_is_for(nothing_compiled):
     compile_all.main()
-    found = {file.relative_to(nothing_compiled).as_posix() for file in nothing_compiled.glob("**/*") if file.is_file()}
-    assert found == {"0123/a.code", "about.json"}
+    names = {file.relative_to(nothing_compiled).as_posix() for file in nothing_compiled.glob("**/*") if file.is_file()}
+    assert names == {"0123/a.code", "about.json"}
     about = json.loads((nothing_compiled / "about.json").read_text())
     assert {name: about[name] for name in cache.about()} == cache.about()
     with pytest.raises(FileExistsError, match="is not empty"):

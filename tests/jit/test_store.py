@@ -236,14 +236,14 @@ def program(folder: Path, *before: str, root: str = "") -> tuple[str, list[str]]
 def test_every_file_of_a_cache_can_be_spoiled(tmp_path):
     """The locks as well as the code; no leftover ends a run."""
     assert program(tmp_path) == ("6.0", [])
-    found = [file for file in (tmp_path / "cache").glob("*/*") if file.is_file()]
-    assert {file.suffix for file in found} == {".code", ".lock"}
-    for file in found:
+    files = [file for file in (tmp_path / "cache").glob("*/*") if file.is_file()]
+    assert {file.suffix for file in files} == {".code", ".lock"}
+    for file in files:
         file.write_bytes(b"garbage")
     printed, lines = program(tmp_path)
     assert (printed, len(lines)) == ("6.0", 2)
     assert program(tmp_path) == ("6.0", [])
-    for file in found:
+    for file in files:
         if file.suffix == ".lock":
             file.unlink()
             file.mkdir()

@@ -51,9 +51,9 @@ class Cells:
 
     def call(self, function, as_python: bool = False, **given):
         """Calls a function of kernels: arguments not given are those of the state or the mesh with that name."""
-        own, taken = by_name.own_parameters(function), by_name.takes(function)
-        assert set(given) <= set(taken), set(given) - set(taken)
-        found = {**self.known, **given}
-        values = {name: found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
-                  else getattr(self.grid, name) for name in taken}  # fmt: skip
+        own, names = by_name.own_parameters(function), by_name.takes(function)
+        assert set(given) <= set(names), set(given) - set(names)
+        known = {**self.known, **given}
+        values = {name: known[name] if name in known else getattr(self.state, name, None) if hasattr(self.state, name)
+                  else getattr(self.grid, name) for name in names}  # fmt: skip
         return (source(function) if as_python else function)(*(values[name] for name in own), *handles(function, values))

@@ -39,7 +39,7 @@ def peaks(simulation: Simulation) -> list[int]:
 
     Cycles in which depths are measured, with columns as long as the mesh, are left out.
     """
-    found = []
+    bytes_held = []
     tracemalloc.start()
     try:
         simulation.step()
@@ -48,10 +48,10 @@ def peaks(simulation: Simulation) -> list[int]:
             tracemalloc.reset_peak()
             simulation.step()
             if simulation.cycle % WATCH_EVERY:
-                found.append(tracemalloc.get_traced_memory()[1] - before)
+                bytes_held.append(tracemalloc.get_traced_memory()[1] - before)
     finally:
         tracemalloc.stop()
-    return found
+    return bytes_held
 
 
 every_choice = pytest.mark.parametrize(

@@ -47,10 +47,10 @@ class Watched(np.ndarray):
         return self.at + sum(int(place) * step for place, step in zip(places, self.strides, strict=True))
 
     def __getitem__(self, key):
-        found = super().__getitem__(key)
-        if not isinstance(found, np.ndarray):
+        item = super().__getitem__(key)
+        if not isinstance(item, np.ndarray):
             SEEN.read.add(self._address(key))
-        return found
+        return item
 
     def __setitem__(self, key, value):
         SEEN.written.add(self._address(key))
@@ -126,10 +126,10 @@ class Races:
 
 def owners(address: int, arrays: list) -> list[str]:
     """The names of the arrays that contain an address."""
-    found = [name for name, array in arrays
+    names = [name for name, array in arrays
              if 0 <= address - array.__array_interface__["data"][0] < array.nbytes]
-    assert found, "an address of no array"
-    return found
+    assert names, "an address of no array"
+    return names
 
 
 def everything_happens(monkeypatch) -> None:

@@ -330,8 +330,8 @@ SIDES = pytest.mark.parametrize("side", [-1.0, 1.0])
 @SIDES
 def test_a_gas_that_grows_pushes_a_plate_into_the_void_by_what_it_grows(side, axis):
     """Gas from the face to 0.3, the plate to 0.5, then void."""
-    found = pushed([0.3, 0.2], [0.4, 0.2], [-0.35 * side, -0.1 * side], axis)
-    np.testing.assert_allclose(found, [-0.3 * side, 0.0], atol=1e-15)
+    offsets = pushed([0.3, 0.2], [0.4, 0.2], [-0.35 * side, -0.1 * side], axis)
+    np.testing.assert_allclose(offsets, [-0.3 * side, 0.0], atol=1e-15)
 
 
 @AXES
@@ -340,11 +340,11 @@ def test_a_body_at_a_face_stays_there_as_others_take_and_give(side, axis):
     """Alone as it grows into void, next to a body that loses what it gains, and with another body beyond the void."""
     assert pushed([0.3], [0.35], [-0.35 * side], axis) == pytest.approx([-0.325 * side], abs=1e-15)
     for growth in (0.05, -0.05):
-        found = pushed([0.4, 0.6], [0.4 + growth, 0.6 - growth], [-0.3 * side, 0.2 * side], axis)
-        np.testing.assert_allclose(found, [side * (0.5 * growth - 0.3), side * (0.5 * growth + 0.2)], atol=1e-15)
+        offsets = pushed([0.4, 0.6], [0.4 + growth, 0.6 - growth], [-0.3 * side, 0.2 * side], axis)
+        np.testing.assert_allclose(offsets, [side * (0.5 * growth - 0.3), side * (0.5 * growth + 0.2)], atol=1e-15)
     for growth in (0.2, 0.1):
-        found = pushed([0.3, 0.5], [0.3 + growth, 0.5], [-0.35 * side, 0.25 * side], axis)
-        np.testing.assert_allclose(found, [side * (0.5 * growth - 0.35), 0.25 * side], atol=1e-15)
+        offsets = pushed([0.3, 0.5], [0.3 + growth, 0.5], [-0.35 * side, 0.25 * side], axis)
+        np.testing.assert_allclose(offsets, [side * (0.5 * growth - 0.35), 0.25 * side], atol=1e-15)
 
 
 @AXES
@@ -362,16 +362,16 @@ def test_the_more_void_there_was_the_more_opens_next_to_it(void, side, axis):
 @SIDES
 def test_three_slabs_that_trade_volume_stay_side_by_side(side, axis):
     """The middle one grows at the expense of both, three times as much of one as of the other."""
-    found = pushed([0.3, 0.2, 0.5], [0.27, 0.24, 0.49], np.array([-0.35, -0.1, 0.25]) * side, axis)
-    np.testing.assert_allclose(found, np.array([-0.365, -0.11, 0.255]) * side, atol=1e-15)
+    offsets = pushed([0.3, 0.2, 0.5], [0.27, 0.24, 0.49], np.array([-0.35, -0.1, 0.25]) * side, axis)
+    np.testing.assert_allclose(offsets, np.array([-0.365, -0.11, 0.255]) * side, atol=1e-15)
 
 
 @AXES
 @pytest.mark.parametrize("where", [-0.2, 0.0, 0.3])
 def test_a_body_in_the_midst_of_void_grows_into_either_gap_in_proportion(where, axis):
     """It fills 0.2; the gaps on either side, of 0.4 - where and 0.4 + where, shrink by a tenth."""
-    found = pushed([0.2], [0.28], [where], axis)
-    assert found == pytest.approx([0.9 * where], abs=1e-15)
+    offsets = pushed([0.2], [0.28], [where], axis)
+    assert offsets == pytest.approx([0.9 * where], abs=1e-15)
 
 
 @AXES

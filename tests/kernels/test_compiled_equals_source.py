@@ -67,10 +67,10 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     seen, kernels = set(), list(_kernels())
 
     def held_against_source(module, name, function):
-        taken, own = by_name.takes(function), len(by_name.own_parameters(function))
+        names, own = by_name.takes(function), len(by_name.own_parameters(function))
 
         def call(*arguments):
-            given = dict(zip(taken, by_name.values(function, arguments), strict=True))
+            given = dict(zip(names, by_name.values(function, arguments), strict=True))
             copies = {of: a.copy() if isinstance(a, np.ndarray) else a for of, a in given.items()}
             arrays = [a for a in given.values() if isinstance(a, np.ndarray) and a.size]
             for one, other in itertools.combinations(arrays, 2):  # hydro2d.jit promises it to the compiler

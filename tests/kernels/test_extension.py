@@ -73,8 +73,8 @@ class Extensions:
 
     def of(self, b: int, j: int, i: int) -> dict[tuple[int, int], float]:
         """Weights of the masters of a slave by how many rows and columns away they are."""
-        found = np.nonzero(self.weights[b, j, i, :MASTERS])[0]
-        return {(int(n) // SPAN - REACH, int(n) % SPAN - REACH): self.weights[b, j, i, n] for n in found}
+        places = np.nonzero(self.weights[b, j, i, :MASTERS])[0]
+        return {(int(n) // SPAN - REACH, int(n) % SPAN - REACH): self.weights[b, j, i, n] for n in places}
 
     def everything(self, b: int, j: int, i: int):
         """Strength, and weights as far as they count."""
@@ -151,8 +151,8 @@ def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
     hard, soft, filled = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
     for size in (9, 8, 6):
         mesh_box = np.array([0, size, 0, size])
-        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, handle(mesh_box=mesh_box, hard=hard, soft=soft, filled=filled))
-        assert found == pytest.approx(expected if row < size and column < size else 0.0)
+        weight = cell_weight(1, 5, 5, row, column, 1.0, 0.0, handle(mesh_box=mesh_box, hard=hard, soft=soft, filled=filled))
+        assert weight == pytest.approx(expected if row < size and column < size else 0.0)
 
 
 # ---------------------------------------------------------------------------------------------------- extensions
@@ -164,24 +164,24 @@ MESHES = [*((scattered(seed), (0.76, 0.64)) for seed in range(3)), *((half_plane
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
 @pytest.mark.parametrize("most_squares", [1.0, 1e6])
 def test_weights_add_up_to_one(hard, normal, most_squares):
-    found = Extensions(hard, normal, most_squares=most_squares)
-    assert len(found.slaves) >= 8
-    for b, j, i in found.slaves:
-        assert found.weights[b, j, i].sum() == pytest.approx(1.0, abs=1e-13)
-    assert (found.weights[found.strength == 0.0] == 0.0).all()
+    extensions = Extensions(hard, normal, most_squares=most_squares)
+    assert len(extensions.slaves) >= 8
+    for b, j, i in extensions.slaves:
+        assert extensions.weights[b, j, i].sum() == pytest.approx(1.0, abs=1e-13)
+    assert (extensions.weights[extensions.strength == 0.0] == 0.0).all()
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 4, 1.3, 2.5])
 @pytest.mark.parametrize("edges", [LEVEL, GRADED], ids=["level", "graded"])
 def test_a_linear_field_is_met(angle, edges):
     """As long as it is a mean of cell values, and nothing is capped."""
-    found = Extensions(half_plane(angle), (np.cos(angle), np.sin(angle)), edges=edges)
-    field = 3.0 - 2.0 * found.r[None, :] + 0.7 * found.z[:, None]
+    extensions = Extensions(half_plane(angle), (np.cos(angle), np.sin(angle)), edges=edges)
+    field = 3.0 - 2.0 * extensions.r[None, :] + 0.7 * extensions.z[:, None]
     extended = 0
-    for b, j, i in found.slaves:
+    for b, j, i in extensions.slaves:
         if 3 <= j <= N - 3 and 3 <= i <= N - 3:
-            masters = found.of(b, j, i)
-            assert found.weights[b, j, i, TIED] == 0.0
+            masters = extensions.of(b, j, i)
+            assert extensions.weights[b, j, i, TIED] == 0.0
             assert sum(w * field[j + dj, i + di] for (dj, di), w in masters.items()) == pytest.approx(field[j, i], rel=1e-12)
             extended += 1
     assert extended >= 8
@@ -202,8 +202,8 @@ def test_squares_of_weights_are_bounded(most_squares):
 
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
 def test_means_of_cells_are_bounded_too(hard, normal):
-    found = Extensions(hard, normal, most_squares=1.5)
-    assert max(np.sum(found.weights[b, j, i] ** 2) for b, j, i in found.slaves) <= 1.5 + 1e-12
+    extensions = Extensions(hard, normal, most_squares=1.5)
+    assert max(np.sum(extensions.weights[b, j, i] ** 2) for b, j, i in extensions.slaves) <= 1.5 + 1e-12
 
 
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
@@ -285,8 +285,8 @@ def test_nothing_jumps_as_any_cell_fills(seed):
     first, last = 0.02 + 0.96 * scattered(seed), 0.02 + 0.96 * scattered(seed + 10)
 
     def everything(way):
-        found = Extensions((1.0 - way) * first + way * last, (0.76, 0.64), most_squares=2.0)
-        return np.concatenate([found.strength.ravel(), (found.strength[..., None] * found.weights).ravel()])
+        extensions = Extensions((1.0 - way) * first + way * last, (0.76, 0.64), most_squares=2.0)
+        return np.concatenate([extensions.strength.ravel(), (extensions.strength[..., None] * extensions.weights).ravel()])
 
     assert largest_jump(everything, 0.0, 1.0) < 1e-9
 
@@ -302,11 +302,11 @@ def pair(beyond: float) -> Extensions:
 
 def test_two_nodes_that_are_tied_to_each_other_let_go_by_a_little():
     """While neither has masters of its own group: the other one's slack ends with its weight."""
-    alone, held = pair(0.0), pair(0.05)
+    alone, tied = pair(0.0), pair(0.05)
     assert (alone.weights[:, 5, 5, TIED] == 1.0).all()
     np.testing.assert_allclose(alone.strength[:, 5, 5], 1.0 - SLACK, rtol=1e-15)
-    assert held.weights[:, 5, 5, TIED].tolist() == [1.0, 0.0]
-    assert held.strength[:, 5, 5].tolist() == [1.0, 1.0]
+    assert tied.weights[:, 5, 5, TIED].tolist() == [1.0, 0.0]
+    assert tied.strength[:, 5, 5].tolist() == [1.0, 1.0]
     assert largest_jump(lambda beyond: pair(beyond).everything(1, 5, 5), 0.0, 0.05) < 1e-9
 
 

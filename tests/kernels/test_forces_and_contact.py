@@ -293,8 +293,8 @@ def test_pressure_acts_on_each_group_by_its_aperture():
     both = pushed(pushed=of_source)
     assert both.u[:, 3, 4] == pytest.approx([0.1 * 4.0 / 0.25, 0.1 * 4.0 / 3.0 + 0.5])
     assert both.v[:, 3, 4] == pytest.approx([0.0, -7.0])
-    held = pushed(constrained=np.array([4, -1, -1, -1]))
-    assert held.u[:, 3, 4].tolist() == [0.0, 0.0]
+    constrained_cells = pushed(constrained=np.array([4, -1, -1, -1]))
+    assert constrained_cells.u[:, 3, 4].tolist() == [0.0, 0.0]
 
 
 def test_deviators_of_a_group_act_on_it_alone():

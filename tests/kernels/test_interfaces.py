@@ -308,8 +308,8 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
     vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
     for gases, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
-        found = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
-        np.testing.assert_allclose(found[:2, SHARE], [low, low], atol=1e-14)
+        pieces = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
+        np.testing.assert_allclose(pieces[:2, SHARE], [low, low], atol=1e-14)
 
 
 def test_bodies_keep_their_order_next_to_another_group():
@@ -342,8 +342,8 @@ def test_bodies_after_the_requested_one_are_left_out():
     vof, centroid = stack()
     all_of_them = strips_of(vof, centroid, (0, 1, 2))
     for m in range(3):
-        found = strips_of(vof, centroid, (0, 1, 2), last=m)
-        np.testing.assert_array_equal(found[:, :THIN, m], all_of_them[:, :THIN, m])
+        pieces = strips_of(vof, centroid, (0, 1, 2), last=m)
+        np.testing.assert_array_equal(pieces[:, :THIN, m], all_of_them[:, :THIN, m])
     assert not strips_of(vof, centroid, (0, 1, 2), gases=GAS_BETWEEN, last=0)[:, :THIN, 1:].any()
 
 

@@ -138,8 +138,8 @@ def exact_path(case):
         return y[0] - 1.0
 
     crushed.terminal = True
-    found = solve_ivp(slopes, (begin, -np.log(0.95)), [0.0, 0.0], rtol=1e-10, atol=1e-10, events=crushed, dense_output=True)
-    return begin, found
+    solution = solve_ivp(slopes, (begin, -np.log(0.95)), [0.0, 0.0], rtol=1e-10, atol=1e-10, events=crushed, dense_output=True)
+    return begin, solution
 
 
 @pytest.mark.parametrize("case", ["B", "C"])

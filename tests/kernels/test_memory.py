@@ -71,10 +71,10 @@ def test_no_memory_is_used_without_an_equation_of_state_that_has_it():
 
 def test_a_model_receives_the_changes_of_a_step(monkeypatch):
     """Density, strain and damage before and after; work is stress times strain; damage weakens nothing here."""
-    told = {}
+    received = {}
 
     def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
-        told[len(told)] = rho0, rho, e, dep, work, damage0, damage, released, time, dt
+        received[len(received)] = rho0, rho, e, dep, work, damage0, damage, released, time, dt
         internal[0] = 1.25
 
     s = (sim := simulation()).state
@@ -90,8 +90,8 @@ def test_a_model_receives_the_changes_of_a_step(monkeypatch):
     memory.update_memory.source(0, names)
     stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
     expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, 0.0, 3e-6, 1e-8)
-    assert told[0] == pytest.approx(expected, rel=1e-12)
-    assert len(told) == 1
+    assert received[0] == pytest.approx(expected, rel=1e-12)
+    assert len(received) == 1
     assert s.q[INTERNAL, 0, j, i] == 1.25
 
 
@@ -144,11 +144,11 @@ def test_pores_travel_with_the_body():
         sim.engine.advance()
     assert crushed() == pytest.approx(before, rel=1e-12)
     there = g.interior(s.vof[0]) > 0.0
-    found = g.interior(s.q[INTERNAL, 0])[there]
-    assert found.min() >= 1.1 - 1e-12
-    assert found.max() <= 1.35 + 1e-12
-    assert (found < 1.1 + 1e-6).any()
-    assert (found > 1.35 - 1e-6).any()
+    distention = g.interior(s.q[INTERNAL, 0])[there]
+    assert distention.min() >= 1.1 - 1e-12
+    assert distention.max() <= 1.35 + 1e-12
+    assert (distention < 1.1 + 1e-6).any()
+    assert (distention > 1.35 - 1e-6).any()
 
 
 def test_it_is_written_for_the_body_that_has_it():

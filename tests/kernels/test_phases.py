@@ -40,11 +40,11 @@ def bits(case: str, *parts: int) -> str:
             assert len(simulation.engine.rows) == parts[cycle % len(parts)] + 1
     finally:
         jit.parts_at_once = counted
-    found, g = hashlib.sha256(), simulation.grid
+    digest, g = hashlib.sha256(), simulation.grid
     for name, array in sorted(simulation.restart_arrays().items()):
         cells = array.ndim >= 2 and array.shape[-2:] in (g.shape, g.vertex_shape)
-        found.update(name.encode() + np.ascontiguousarray(array[..., g.g:-g.g, g.g:-g.g] if cells else array).tobytes())
-    return found.hexdigest() + json.dumps(simulation.restart_scalars(), sort_keys=True, default=str)
+        digest.update(name.encode() + np.ascontiguousarray(array[..., g.g:-g.g, g.g:-g.g] if cells else array).tobytes())
+    return digest.hexdigest() + json.dumps(simulation.restart_scalars(), sort_keys=True, default=str)
 
 
 def bits_as_python(case: str) -> str:

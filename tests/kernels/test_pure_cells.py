@@ -42,8 +42,8 @@ def closed(cells: Cells, **given) -> Cells:
 
 def test_a_gas_at_rest():
     cells = closed(gas())
-    found = [getattr(cells, name)[AT] for name in ("p", "bulk", "rhobar", "solid", "cl", "qr", "qz")]
-    assert found == pytest.approx([10.0, 15.0, 2.0, 1.0, np.sqrt(7.5), 0.0, 0.0])
+    values = [getattr(cells, name)[AT] for name in ("p", "bulk", "rhobar", "solid", "cl", "qr", "qz")]
+    assert values == pytest.approx([10.0, 15.0, 2.0, 1.0, np.sqrt(7.5), 0.0, 0.0])
     assert cells.hg_coefficient[AT] == pytest.approx(0.25 * 0.1 * 2.0 * np.sqrt(7.5))
     assert cells.row_step[2:6] == pytest.approx([1e300, 0.5 / np.sqrt(7.5), 1e300, 1e300])
     assert not cells.bad.any()

@@ -179,13 +179,13 @@ def test_a_transmitting_edge_has_the_impedance_of_the_cells_next_to_it():
 
 def test_energy_taken_by_dashpots_follows_the_velocities_at_the_end():
     """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, from any cause."""
-    cells, edges, taken = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
+    cells, edges, energy = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
     cells.drag[1, 0, :, 3] = 2.0, 3.0
     cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0
-    cells.call(boundaries.sum_drag, transmitting=edges, held_back=taken)
-    assert taken.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
-    cells.call(boundaries.sum_drag, held_back=taken)
-    assert not taken.any()
+    cells.call(boundaries.sum_drag, transmitting=edges, held_back=energy)
+    assert energy.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
+    cells.call(boundaries.sum_drag, held_back=energy)
+    assert not energy.any()
 
 
 # ------------------------------------------------------------------------------------------- sums of what goes out

@@ -168,11 +168,11 @@ def test_the_sintered_tungsten_names_recalled_and_adopted_constants():
         "yield_stress": 1197e6, "hardening": 580e6, "hardening_exponent": 0.05, "rate_coefficient": 0.025,
         "thermal_exponent": 1.9, "melt_temperature": 1752.0,
     }  # fmt: skip
-    taken = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
-    taken += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
-    taken += [(material.fracture_pressure, W.fracture_pressure)]
-    assert len(taken) == 6
-    for number, other in taken:
+    adopted = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
+    adopted += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
+    adopted += [(material.fracture_pressure, W.fracture_pressure)]
+    assert len(adopted) == 6
+    for number, other in adopted:
         assert number.value == other.value
         assert "W_alloy" in number.source
     row = strength.STRENGTH_MODELS["johnson-cook"].row(material.strength.values)
@@ -213,11 +213,11 @@ def of_body(material, own=""):
 def test_a_body_of_a_variant():
     """As in commands; the resolved deck has its numbers and can be read again as it is."""
     name = "W_alloy:cv-printed:strain-failure"
-    found = of_body(name)
-    material = found.materials[name]
+    loaded = of_body(name)
+    material = loaded.materials[name]
     assert (material.name, material.eos.values["specific_heat"], material.damage.values["D1"]) == (name, 1430.5, 1.5)
-    again = deck.loads(found.to_toml())
-    assert again.to_toml() == found.to_toml()
+    again = deck.loads(loaded.to_toml())
+    assert again.to_toml() == loaded.to_toml()
     assert again.materials[name].eos.values == material.eos.values
     assert library.load(name) == material
 
@@ -303,9 +303,9 @@ def test_strength_takes_what_the_eos_has():
     ],
 )
 def test_mistakes_in_materials(text, line, fragment):
-    found = message(text + "\n")
-    assert found.startswith(f"deck.toml:{line}: materials.")
-    assert fragment in found
+    error = message(text + "\n")
+    assert error.startswith(f"deck.toml:{line}: materials.")
+    assert fragment in error
 
 
 def test_a_library_name_without_based_on_says_so():

@@ -56,8 +56,8 @@ def test_a_file_of_the_command_line_is_in_the_working_folder_and_replaces_the_te
     plain = DECK.replace('file = "my_model.py"', 'model = "elastic-plastic"')
     assert deck.loads(plain, chosen, folder=folder).materials["Al5083"].strength.name == "other"
     resolved = deck.load(folder / "shot.toml").to_toml()
-    found = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
-    assert (found.name, found.file) == ("other", "other.py")
+    loaded = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
+    assert (loaded.name, loaded.file) == ("other", "other.py")
 
 
 STUDY = """
@@ -88,9 +88,9 @@ def test_a_model_replaces_the_whole_part_and_numbers_are_laid_over_it(folder):
 soft = { based_on = "Al5083", strength = { yield_stress = "100 MPa" } }
 plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_modulus = "1 GPa", yield_stress = "1 MPa" } }
 """
-    found = deck.loads(DECK + further, folder=folder).materials
-    assert (found["soft"].strength.name, found["soft"].strength.values["yield_stress"]) == ("voce", 1e8)
-    assert (found["plain"].strength.name, found["plain"].strength.code) == ("elastic-plastic", "")
+    loaded = deck.loads(DECK + further, folder=folder).materials
+    assert (loaded["soft"].strength.name, loaded["soft"].strength.values["yield_stress"]) == ("voce", 1e8)
+    assert (loaded["plain"].strength.name, loaded["plain"].strength.code) == ("elastic-plastic", "")
 
 
 @pytest.mark.parametrize(
@@ -124,8 +124,8 @@ def test_a_restart_with_another_text_is_refused(folder):
 def test_its_flow_stress_can_be_drawn(folder):
     from hydro2d.materials import curves
 
-    found = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=100 MPa"]).materials["Al5083"]
-    stresses, _ = curves.flow_stress(found, 1.0, [0.0, 0.1], isothermal=True)
+    loaded = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=100 MPa"]).materials["Al5083"]
+    stresses, _ = curves.flow_stress(loaded, 1.0, [0.0, 0.1], isothermal=True)
     assert stresses == pytest.approx([240e6, 240e6 + 1e8 * (1 - 0.36787944)], rel=1e-7)
 
 
@@ -183,12 +183,12 @@ LATE = """
 
 
 def test_a_model_that_comes_after_the_kernels_is_reported_when_it_is_used(folder):
-    told = python(LATE, folder).splitlines()
-    assert len(told) == 2
+    output = python(LATE, folder).splitlines()
+    assert len(output) == 2
     kernels = "the kernels of this process were loaded without the strength model voce of my_model.py"
-    assert told[0].startswith(f"material Al5083: {kernels}")
-    assert "hydro2d.register" in told[1]
-    assert "start a new process" in told[1]
+    assert output[0].startswith(f"material Al5083: {kernels}")
+    assert "hydro2d.register" in output[1]
+    assert "start a new process" in output[1]
 
 
 CHOSEN = """
@@ -301,15 +301,15 @@ def test_a_package_gives_models_by_name(folder, package):
         print("voce" in deck.schema()["$defs"]["Strength"]["properties"]["model"]["enum"])
         print("status", call(["check-model", "voce"]))
     """
-    told = python(text, folder, package)
-    assert told.startswith("my_models.voce (my-models 1.2)\n")
-    assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
-    assert "the entry point is called another and the model voce; the names must be the same" in told
-    assert 'unknown strength model "voze"; did you mean "voce"?' in told
-    assert "  voce                 strength model from the package my-models" in told
-    assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
-    assert "\nTrue\n" in told
-    assert told.endswith("voce: all checks passed\nstatus 0\n")
+    output = python(text, folder, package)
+    assert output.startswith("my_models.voce (my-models 1.2)\n")
+    assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in output
+    assert "the entry point is called another and the model voce; the names must be the same" in output
+    assert 'unknown strength model "voze"; did you mean "voce"?' in output
+    assert "  voce                 strength model from the package my-models" in output
+    assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in output
+    assert "\nTrue\n" in output
+    assert output.endswith("voce: all checks passed\nstatus 0\n")
 
 
 # ------------------------------------------------------------------------------------------------ a run

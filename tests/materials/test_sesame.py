@@ -50,8 +50,8 @@ def test_units_and_order():
     PLAIN + " RECORD     TYPE =  401     NWDS =        2\n 1.0 nonsense\n",
 ])
 def test_other_records_and_free_energies_change_nothing(text):
-    found, plain = sesame.read(text), sesame.read(PLAIN)
-    assert all((vars(found)[name] == array).all() for name, array in vars(plain).items())
+    table_read, plain = sesame.read(text), sesame.read(PLAIN)
+    assert all((vars(table_read)[name] == array).all() for name, array in vars(plain).items())
 
 
 @pytest.mark.parametrize(("old", "new", "words"), [

@@ -32,9 +32,9 @@ def of(kind, **values):
 @pytest.mark.parametrize("kind", [kind.name for kind in KINDS])
 def test_flags(kind):
     values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
-    found = of(kind, **values)
+    conditions = of(kind, **values)
     flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits", "pushes"
-    assert tuple(found.having(flag)[0] for flag in flags) == FLAGS[kind]
+    assert tuple(conditions.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 
 def test_the_axis_is_an_inner_edge_alone():
@@ -47,13 +47,13 @@ def test_every_sink_is_described():
 
 
 def test_a_piston_moves_by_its_table():
-    found = of("piston", piston=PISTON)
-    assert found.velocity.tolist() == [0.0] * 4
-    held = found.velocity
+    conditions = of("piston", piston=PISTON)
+    assert conditions.velocity.tolist() == [0.0] * 4
+    velocity = conditions.velocity
     for time, speed in ((0.5e-6, 50.0), (1e-6, 100.0), (2e-6, 25.0), (9e-6, -50.0)):
-        found.drive(time)
-        assert held == pytest.approx([speed] * 4, rel=1e-12)
-    assert found.sinks == ["piston"]
+        conditions.drive(time)
+        assert velocity == pytest.approx([speed] * 4, rel=1e-12)
+    assert conditions.sinks == ["piston"]
     assert of("wall").sinks == []
     assert made("z_min", {"z_min": "piston", "z_min_piston": PISTON}).speeds() == (0.0, 100.0, -50.0)
 
@@ -85,8 +85,8 @@ def test_wrong_edges(overrides, words):
 
 
 def test_the_words_of_a_deck_become_edges():
-    found = deck.loads(TEXT, ['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "0.1 km/s"]]'])
-    conditions = BoundaryConditions.of(found.boundaries.model_dump())
+    loaded = deck.loads(TEXT, ['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "0.1 km/s"]]'])
+    conditions = BoundaryConditions.of(loaded.boundaries.model_dump())
     assert [edge.name for edge in conditions.edges] == ["wall", "wall", "piston", "outflow"]
     conditions.drive(0.25e-6)
     np.testing.assert_allclose(conditions.velocity, [0.0, 0.0, 25.0, 0.0], rtol=1e-12)

@@ -110,8 +110,8 @@ def test_xarray_opens_thousands_of_stations(tmp_path):
     with xarray.open_dataset(tmp_path / "history.h5", engine="h5netcdf") as data:
         assert data["gauge_pressure_Pa"].dims == ("time", "gauge")
         assert data["gauge_pressure_Pa"].attrs["units"] == "Pa"
-        found = data["gauge_pressure_Pa"].sel(gauge="p2999", time=1e-6)
-        assert float(found) == names.index("gauge_p2999_pressure_Pa") + 0.25
+        value = data["gauge_pressure_Pa"].sel(gauge="p2999", time=1e-6)
+        assert float(value) == names.index("gauge_p2999_pressure_Pa") + 0.25
 
 
 def test_more_columns_than_an_attribute_of_64_kib_refers_to(tmp_path):

@@ -148,10 +148,10 @@ def test_an_impossible_velocity_is_refused(model, velocity):
 def outcome(model: Model, velocity: float, values: dict | None = None) -> str:
     """"numbers", or the message of the InputError; any other exception propagates."""
     try:
-        found = model(velocity, values or values_of(model))
+        result = model(velocity, values or values_of(model))
     except InputError as error:
         return str(error)
-    numbers = [found[entry.name] for entry in model.outputs if entry.unit != ""]
+    numbers = [result[entry.name] for entry in model.outputs if entry.unit != ""]
     assert not any(map(math.isnan if values else lambda number: not math.isfinite(number), numbers))
     return "numbers"
 

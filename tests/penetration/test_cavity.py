@@ -51,8 +51,8 @@ def test_dynamic_coefficients_within_a_percent(solid, velocity, printed):
      (CHEN_LI_7075, 1200.0, 4.4218, 1.0947), (LUK_6061, 500.0, 4.2452, 1.1791)],
 )  # fmt: skip
 def test_the_numbers_of_the_page(solid, velocity, a, b):
-    found = coefficients(solid, velocity)
-    assert (round(found.a, 4), round(found.b, 4)) == (a, b)
+    fitted = coefficients(solid, velocity)
+    assert (round(fitted.a, 4), round(fitted.b, 4)) == (a, b)
 
 
 @pytest.mark.parametrize(
@@ -62,10 +62,10 @@ def test_the_numbers_of_the_page(solid, velocity, a, b):
 )  # fmt: skip
 def test_perfect_plasticity_against_two_independent_solutions(velocity, similarity, lagrangian, front):
     """Stress in GPa from a similarity solution (read off by interpolation) and from a one-dimensional Lagrangian code."""
-    found = expansion(velocity, PERFECT)
-    assert found.stress == pytest.approx(similarity * 1e9, rel=2e-4)
-    assert found.stress == pytest.approx(lagrangian * 1e9, rel=2e-3)
-    assert found.front == pytest.approx(front, rel=2e-4)
+    solution = expansion(velocity, PERFECT)
+    assert solution.stress == pytest.approx(similarity * 1e9, rel=2e-4)
+    assert solution.stress == pytest.approx(lagrangian * 1e9, rel=2e-3)
+    assert solution.front == pytest.approx(front, rel=2e-4)
 
 
 @pytest.mark.parametrize(

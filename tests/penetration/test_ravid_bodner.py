@@ -120,10 +120,10 @@ def test_slow_impact_is_uniformly_decelerated():
 
 
 def test_a_thin_plate_bulges_at_once():
-    found = MODEL(500.0, {**VALUES, "target.thickness": 0.001})
-    assert found["regime"] == "reaches stage two"
-    assert found["depth"] == 0.0
-    assert found["stage_velocity"] < 500.0
+    result = MODEL(500.0, {**VALUES, "target.thickness": 0.001})
+    assert result["regime"] == "reaches stage two"
+    assert result["depth"] == 0.0
+    assert result["stage_velocity"] < 500.0
 
 
 @pytest.mark.parametrize("name", sorted(VALUES))

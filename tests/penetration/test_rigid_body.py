@@ -83,8 +83,8 @@ def test_free_precession_is_the_exact_solution(rod):
     time = 200 * 1.7e-4
     phase = (axial / transverse - 1.0) * 2000.0 * time
     expected = [300.0 * math.cos(phase), 300.0 * math.sin(phase), 2000.0]
-    found = rotation.matrix(motion.attitude).T @ motion.momentum / [transverse, transverse, axial]
-    assert found == pytest.approx(expected, rel=1e-10, abs=1e-8)
+    computed = rotation.matrix(motion.attitude).T @ motion.momentum / [transverse, transverse, axial]
+    assert computed == pytest.approx(expected, rel=1e-10, abs=1e-8)
     assert motion.momentum == pytest.approx(momentum, rel=0)
     assert motion.position == pytest.approx(time * motion.velocity, rel=1e-12)
 
@@ -156,9 +156,9 @@ def test_load_is_the_sum_over_the_facets(ogive, friction):
         sliding = v - (v @ n) * n
         push = -pressure * area * (n + friction * sliding / np.linalg.norm(sliding))
         force, torque = force + push, torque + np.cross(x, push)
-    found = load(ogive, target, friction, 7.0, depth, inward, velocity, spin)
-    assert found[0] == pytest.approx(force, rel=1e-10)
-    assert found[1] == pytest.approx(torque, rel=1e-10)
+    computed = load(ogive, target, friction, 7.0, depth, inward, velocity, spin)
+    assert computed[0] == pytest.approx(force, rel=1e-10)
+    assert computed[1] == pytest.approx(torque, rel=1e-10)
 
 
 def test_only_facets_inside_a_layer_feel_it(rod):
@@ -330,9 +330,9 @@ GIVEN = {
 
 
 def test_model():
-    found = MODEL(821.0, GIVEN)
-    assert found["regime"] == "embedded"
-    assert found["depth"] == pytest.approx(0.10928, rel=5e-4)
+    result = MODEL(821.0, GIVEN)
+    assert result["regime"] == "embedded"
+    assert result["depth"] == pytest.approx(0.10928, rel=5e-4)
     assert MODEL(821.0, {**GIVEN, "target.thickness": 0.02})["regime"] == "perforated"
 
 

@@ -26,8 +26,8 @@ def test_onset_into_7020(resistance, printed):
 def test_onset_into_7020_depends_on_the_density_of_the_rod():
     for rod_density, low, high in ((17000.0, 1269.9, 1410.1), (17300.0, 1249.5, 1388.5), (17600.0, 1229.9, 1367.7)):
         for resistance, expected in ((2.15e9, low), (2.35e9, high)):
-            found = secondary.onset_velocity(rod_density=rod_density, resistance=resistance, **INTO_7020)
-            assert found == pytest.approx(expected, abs=0.05)
+            result = secondary.onset_velocity(rod_density=rod_density, resistance=resistance, **INTO_7020)
+            assert result == pytest.approx(expected, abs=0.05)
 
 
 @given(density, stress, density, stress)
@@ -68,6 +68,6 @@ def test_limits_of_the_debris():
 def test_the_model_says_whether():
     values = {"rod.density": 17300.0, "rod.strength": 2.0e9, "target.density": 2800.0, "target.resistance": 2.15e9}
     assert secondary.MODEL(1240.0, values)["regime"] == "none"
-    found = secondary.MODEL(1260.0, values)
-    assert found["regime"] == "secondary penetration"
-    assert found["pressure_over_resistance"] > 1.0
+    result = secondary.MODEL(1260.0, values)
+    assert result["regime"] == "secondary penetration"
+    assert result["pressure_over_resistance"] > 1.0

@@ -46,8 +46,8 @@ def test_every_ring_lies_on_the_nose(shape, crh, half_angle, rings):
 )
 def test_areas_are_those_of_geometry(shape, half_angle, area):
     """In sections of the rod."""
-    found = np.sum(nose_surface(shape, 0.02, half_angle=half_angle, rings=7).area)
-    assert found == pytest.approx(area * math.pi * 1e-4, rel=1e-13)
+    total = np.sum(nose_surface(shape, 0.02, half_angle=half_angle, rings=7).area)
+    assert total == pytest.approx(area * math.pi * 1e-4, rel=1e-13)
 
 
 def test_an_ogive_of_half_a_caliber_is_the_hemisphere():

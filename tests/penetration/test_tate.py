@@ -54,11 +54,11 @@ def by_time(velocity, *, rod_density, rod_strength, target_density, resistance):
         return state[0] - slowest * (1.0 + 1e-9)
 
     stops.terminal = True
-    found = solve_ivp(rates, (0.0, 1.0), [velocity, LENGTH, 0.0], method="DOP853", rtol=1e-10, atol=1e-13, events=stops)
-    _, length, reached = found.y[:, -1]
+    solution = solve_ivp(rates, (0.0, 1.0), [velocity, LENGTH, 0.0], method="DOP853", rtol=1e-10, atol=1e-13, events=stops)
+    _, length, reached = solution.y[:, -1]
     if rod_strength > resistance:
         reached += length * rod_density / target_density * math.log(rod_strength / resistance)
-    return reached / LENGTH, length / LENGTH, float(found.t[-1])
+    return reached / LENGTH, length / LENGTH, float(solution.t[-1])
 
 
 @pytest.mark.parametrize(
@@ -224,9 +224,9 @@ def test_a_very_weak_rod_is_consumed_at_its_first_velocity():
 
 def test_the_model_on_its_inputs():
     values = {"rod.density": 18160.0, "rod.length": LENGTH, "rod.strength": 2.0e9, "target.density": 2660.0}
-    found = tate.MODEL(1086.0, {**values, "target.resistance": 1.6e9})
-    assert found["depth_over_length"] == pytest.approx(3.0106895283278328, rel=1e-9)
-    assert found["regime"] == "eroding, then rigid"
+    result = tate.MODEL(1086.0, {**values, "target.resistance": 1.6e9})
+    assert result["depth_over_length"] == pytest.approx(3.0106895283278328, rel=1e-9)
+    assert result["regime"] == "eroding, then rigid"
     formed = tate.MODEL(1086.0, {**values, "target.strength": 276e6, "target.youngs_modulus": 70.3e9})
     assert formed["resistance"] == pytest.approx(1.55835e9, rel=1e-5)
     with pytest.raises(InputError, match="target.strength, target.youngs_modulus"):

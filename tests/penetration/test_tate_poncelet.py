@@ -28,10 +28,10 @@ def test_depth_rises_with_velocity_and_gives_back_its_resistance(velocity, Rt, r
 
 def test_resistances_of_two_rigid_shots():
     """Shots 4344 (1086 m/s, 44.8 cm) and 4339 (1038 m/s, 28.3 cm) of a rod of 9.779 cm: 1.64 and 2.69 GPa."""
-    found = tate_poncelet.resistance_from_depth(44.8 / 9.779, 1086.0, **INTO_5083)
-    assert found == pytest.approx(1.6403e9, rel=1e-4)
-    found = tate_poncelet.resistance_from_depth(28.3 / 9.779, 1038.0, **INTO_7039)
-    assert found == pytest.approx(2.6891e9, rel=1e-4)
+    resistance = tate_poncelet.resistance_from_depth(44.8 / 9.779, 1086.0, **INTO_5083)
+    assert resistance == pytest.approx(1.6403e9, rel=1e-4)
+    resistance = tate_poncelet.resistance_from_depth(28.3 / 9.779, 1038.0, **INTO_7039)
+    assert resistance == pytest.approx(2.6891e9, rel=1e-4)
 
 
 @pytest.mark.parametrize(("Yp", "printed"), [(3.0e9, 0.95), (4.0e9, 1.28)])
@@ -45,9 +45,9 @@ def test_the_transition_velocities_of_figure_11_need_another_resistance(Yp, prin
 def test_fit_finds_the_resistance_of_exact_shots():
     velocities = [400.0, 700.0, 1000.0]
     depths = [tate_poncelet.depth_over_length(v, resistance=1.62e9, **INTO_5083) for v in velocities]
-    found = tate_poncelet.fit(velocities, depths, **INTO_5083)
-    assert found.a == pytest.approx(1.62e9, rel=1e-9)
-    assert found.b == 1330.0
+    fitted = tate_poncelet.fit(velocities, depths, **INTO_5083)
+    assert fitted.a == pytest.approx(1.62e9, rel=1e-9)
+    assert fitted.b == 1330.0
 
 
 @given(speed, resistance)

@@ -40,10 +40,10 @@ def test_extent_of_the_plastic_flow(target, extents):
      (1.4e9, 1750.0, 1.0024), (1.4e9, 2000.0, 1.1651)],
 )  # fmt: skip
 def test_worked_depths(strength, velocity, ratio):
-    found = MODEL(velocity, {**VALUES, "target.strength": strength})
-    assert found["depth_over_length"] == pytest.approx(ratio, abs=6e-5)
-    assert found["depth"] == pytest.approx(0.1 * ratio, abs=6e-6)
-    assert found["regime"] == "eroding"
+    result = MODEL(velocity, {**VALUES, "target.strength": strength})
+    assert result["depth_over_length"] == pytest.approx(ratio, abs=6e-5)
+    assert result["depth"] == pytest.approx(0.1 * ratio, abs=6e-6)
+    assert result["regime"] == "eroding"
 
 
 @pytest.mark.parametrize(
@@ -52,10 +52,10 @@ def test_worked_depths(strength, velocity, ratio):
      (1750.0, 1114.3, 9.7775, 141.7), (2000.0, 1267.9, 10.830, 132.9)],
 )  # fmt: skip
 def test_worked_first_velocity_crater_and_duration(velocity, first, radius, duration):
-    found = MODEL(velocity, VALUES)
-    assert found["interface_velocity"] == pytest.approx(first, abs=0.06)
-    assert found["crater_radius"] == pytest.approx(1e-3 * radius, abs=1e-8)
-    assert found["duration"] == pytest.approx(1e-6 * duration, abs=0.06e-6)
+    result = MODEL(velocity, VALUES)
+    assert result["interface_velocity"] == pytest.approx(first, abs=0.06)
+    assert result["crater_radius"] == pytest.approx(1e-3 * radius, abs=1e-8)
+    assert result["duration"] == pytest.approx(1e-6 * duration, abs=0.06e-6)
 
 
 def test_erosion_ends_before_the_rod_at_high_velocity():

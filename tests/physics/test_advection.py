@@ -52,10 +52,10 @@ def test_at_an_extremum_there_is_no_difference(a, b):
 @settings(deadline=None)
 @given(DIFFERENCE, DIFFERENCE)
 def test_the_difference_is_within_twice_either_and_of_their_sign(a, b):
-    found = limited_difference(a, b)
-    assert abs(found) <= 2.0 * min(abs(a), abs(b))
-    assert found * a >= 0.0
-    assert found * b >= 0.0
+    limited = limited_difference(a, b)
+    assert abs(limited) <= 2.0 * min(abs(a), abs(b))
+    assert limited * a >= 0.0
+    assert limited * b >= 0.0
 
 
 @settings(deadline=None)

@@ -57,9 +57,9 @@ def seen(f, where):
     return tuple(f[CELLS.index(where(*cell))] for cell in CELLS)
 
 
-def about_the_middle(found, strip, high):
+def about_the_middle(piece, strip, high):
     """(share, moments about the middle of the cell) from `line_piece` and similar functions."""
-    share, along, across = found
+    share, along, across = piece
     return np.array([share, along * strip + share * (0.5 - 0.5 * strip) * (1.0 if high else -1.0), across])
 
 
@@ -106,8 +106,8 @@ def test_a_slab_upright_in_its_cell_is_cut_as_it_lies(fraction, offset, strip, h
 @given(FRACTION, OFFSET, OFFSET, UNIT, st.booleans())
 def test_the_whole_cell_has_the_fraction_and_the_centroid(fraction, along, across, continues, high):
     along, across = within(along, fraction), within(across, fraction)
-    found = box_piece(fraction, along, across, continues, 1.0, high)
-    assert found == pytest.approx((fraction, fraction * along, fraction * across), abs=1e-14)
+    whole = box_piece(fraction, along, across, continues, 1.0, high)
+    assert whole == pytest.approx((fraction, fraction * along, fraction * across), abs=1e-14)
 
 
 @settings(deadline=None)
@@ -293,8 +293,8 @@ def test_the_cells_around_say_whether_line_box_or_gap_give_the_piece(high, along
     f, bound = surround(GAP, 0.6, along_z)
     empty = goes_on(0.4, *(1.0 - each for each in beside(f, along_z)))
     share, a, c = box_piece(0.4, -1.5 * along, -1.5 * across, empty, strip, high)
-    found = piece(f, along_z, along, across, False, bound, strip, high)
-    assert found == pytest.approx((strip - share, -a, -c), abs=1e-15)
+    result = piece(f, along_z, along, across, False, bound, strip, high)
+    assert result == pytest.approx((strip - share, -a, -c), abs=1e-15)
 
 
 @pytest.mark.parametrize("high", [False, True])

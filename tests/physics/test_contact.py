@@ -247,11 +247,11 @@ def test_each_end_of_a_face_has_its_own_aperture():
     g = small("cylindrical")
     v = ends((np.nan, 6.0), (2.0, np.nan), g.vertex_shape, (3, 3), (0, 1))
     v = np.where(np.isnan(v), 1e9, v)
-    found = face_flow_z(3, 3, BOTH, g.metrics, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
+    flow = face_flow_z(3, 3, BOTH, g.metrics, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
     # 6 at r = 0.1 down to 0 at 0.25 and 0 up to 2: the integrals of the linear functions over r dr
     inner = 6.0 * np.mean((1.0 - ALONG) * (0.1 + 0.15 * ALONG)) * 0.15
     outer = 2.0 * np.mean(ALONG * (0.1 + 0.15 * ALONG)) * 0.15
-    assert found == pytest.approx(inner + outer, rel=1e-6)
+    assert flow == pytest.approx(inner + outer, rel=1e-6)
 
 
 # ------------------------------------------------------------------------------------------------ rates of volume

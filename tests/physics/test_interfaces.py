@@ -535,8 +535,8 @@ def test_a_round_nose_has_no_corners(cells):
     inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
     f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
     sizes = np.ones(20)
-    found = [surface(j, i, sums_of(f, j=j, i=i), sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18) for i in range(2, 18)]
-    assert not any(found)
+    weights = [surface(j, i, sums_of(f, j=j, i=i), sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18) for i in range(2, 18)]
+    assert not any(weights)
 
 
 def test_an_edge_that_is_not_straight_has_no_corner():
@@ -573,9 +573,9 @@ def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, hi
     share, along, across = piece_of(part, strip, high)
     expected = (share, along, across) if filled else (strip - share, -along, -across)
     size = (width, height) if filled else (-width, -height)
-    found = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
-    assert found == pytest.approx(expected, abs=1e-13)
-    assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == found
+    piece = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
+    assert piece == pytest.approx(expected, abs=1e-13)
+    assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == piece
 
 
 @settings(deadline=None)
@@ -590,8 +590,8 @@ def test_mirrored_corners_have_the_same_bits(width, height, n_x, n_y, strip, hig
 def test_a_strip_has_what_lies_in_it_of_the_line_as_far_as_the_corner_has_no_weight():
     line, whole = line_piece(0.3, -0.7, 0.4, 0.2, True), corner_piece(0.3, -0.7, 0.8, 0.5, 0.2, True)
     assert piece_of_surface(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
-    found = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
-    assert found == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
+    part = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
+    assert part == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
 
 
 def test_strips_of_a_square_cover_each_other():

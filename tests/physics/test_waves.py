@@ -101,9 +101,9 @@ def test_along_the_axis_only_the_motion_through_the_mesh_counts(name, end):
 def test_a_cell_at_rest_in_the_mesh_is_bound_by_sound_alone():
     still = {name: row(0.0, 0.0) for name in ("ub", "ut", "vb", "vt")}
     with np.errstate(divide="ignore"):
-        found = limits(**still)
-    assert min(found, key=found.get) == "sound"
-    assert min(bound for cause, bound in found.items() if cause != "sound") >= 1e300
+        bounds = limits(**still)
+    assert min(bounds, key=bounds.get) == "sound"
+    assert min(bound for cause, bound in bounds.items() if cause != "sound") >= 1e300
 
 
 def test_the_advective_share_bears_on_both_velocities():

@@ -18,8 +18,8 @@ def test_stresses_are_means_over_the_rods_own_section():
     axial, lateral = np.full((20, 2), 9e9), np.full((20, 2), 9e9)
     axial[5:10] = 1e9, 3e9
     lateral[5:10] = 0.5e9, 0.0
-    found = braking.section(r_edges, z_edges, fraction, axial, lateral)
-    assert found == pytest.approx(((1.0 * 1e9 + 1.5 * 3e9) / 2.5, 1.0 * 0.5e9 / 2.5))
+    stresses = braking.section(r_edges, z_edges, fraction, axial, lateral)
+    assert stresses == pytest.approx(((1.0 * 1e9 + 1.5 * 3e9) / 2.5, 1.0 * 0.5e9 / 2.5))
     with pytest.raises(ValueError, match="no rod on the axis"):
         braking.section(r_edges, z_edges, 0.0 * fraction, axial, lateral)
 
@@ -56,9 +56,9 @@ def test_statements_of_the_page_on_the_force():
 def test_kept_rows_are_cases_of_their_study(study):
     plan = cases.plan(source.PROBLEMS / f"cth_nose_shape/{study}.toml", quiet=True)
     labels, kept = braking.STUDIES[study], braking.kept(study)
-    found = [(*(row[label] for label in labels), row["member"]) for row in kept]
-    assert len(set(found)) == len(found) > 0
-    assert set(found) <= {(*(case.values[label] for label in labels), str(case.member)) for case in plan.cases}
+    cases_kept = [(*(row[label] for label in labels), row["member"]) for row in kept]
+    assert len(set(cases_kept)) == len(cases_kept) > 0
+    assert set(cases_kept) <= {(*(case.values[label] for label in labels), str(case.member)) for case in plan.cases}
 
 
 def test_a_directory_of_another_study_is_refused(tmp_path, capsys):

@@ -55,8 +55,8 @@ def test_statements_of_the_page_on_chance_and_the_mesh():
         fine, coarse = (efficiencies(each)["alumina_995", 20] for each in (cells, "5.5"))
         assert fine / coarse == pytest.approx(1.01, abs=0.005)
     for ceramic, thickness in (("steel", "20.0"), ("alumina_995", "10.0")):
-        found = depths("5.5", ceramic, thickness)
-        assert found[-1] - found[0] < 0.2
+        values = depths("5.5", ceramic, thickness)
+        assert values[-1] - values[0] < 0.2
 
 
 def test_statements_of_the_page_on_the_transition():
@@ -73,9 +73,9 @@ def test_statements_of_the_page_on_the_transition():
 
 def test_statements_of_the_page_on_the_members():
     """Without a cover it stands still at 0.9 km/s, and creeps by chance at 1.0; with it, two velocities differ by more."""
-    found = {case: sorted(int(row["u_m_s"]) for row in rows)
-             for case, rows in kept.grouped(MEMBERS, ("face", "velocity_m_s")).items()}
-    ends = {case: (speeds[0], speeds[-1]) for case, speeds in found.items()}
+    velocities = {case: sorted(int(row["u_m_s"]) for row in rows)
+                  for case, rows in kept.grouped(MEMBERS, ("face", "velocity_m_s")).items()}
+    ends = {case: (speeds[0], speeds[-1]) for case, speeds in velocities.items()}
     assert ends["bare", "900"] == (2, 3)
     assert ends["bare", "1000"] == (37, 176)
     assert ends["bare", "1000"][0] < 135 < ends["bare", "1000"][1]

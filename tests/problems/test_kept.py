@@ -11,9 +11,9 @@ def test_a_file_that_was_written_is_read(tmp_path):
     cases = [{"law": "a", "depth_cm": 1.5, "case": "a_1"}, {"case": "b, 1", "depth_cm": 2}]
     kept.write(path, ["law", "depth_cm", "case"], cases)
     assert path.read_bytes() == b'law,depth_cm,case\na,1.5,a_1\n,2,"b, 1"\n'
-    found = kept.read(path, ["case", "depth_cm"], lambda row: row, None)
-    assert found == [{"law": "a", "depth_cm": "1.5", "case": "a_1"}, {"law": "", "depth_cm": "2", "case": "b, 1"}]
-    assert [kept.labels(row, ["depth_cm"]) for row in found] == [{"law": "a"}, {}]
+    rows = kept.read(path, ["case", "depth_cm"], lambda row: row, None)
+    assert rows == [{"law": "a", "depth_cm": "1.5", "case": "a_1"}, {"law": "", "depth_cm": "2", "case": "b, 1"}]
+    assert [kept.labels(row, ["depth_cm"]) for row in rows] == [{"law": "a"}, {}]
 
 
 def test_a_file_without_a_column_is_none(tmp_path):

@@ -71,11 +71,11 @@ def test_shots_of_studies_and_of_searches(labels, shot, column):
 
 
 def test_all_twelve_shots_are_known():
-    found = rigid_rod.experiments()
-    assert len(found) == 12
-    assert str(found[Shot("hemispherical", "5083", 1086.0)]) == "44.8 cm"
-    assert str(found[Shot("ogival", "7039", 1291.0)]) == "perforated"
-    assert str(found[Shot("hemispherical", "7039", 1165.0)]) == "11.4 cm (estimated)"
+    shots = rigid_rod.experiments()
+    assert len(shots) == 12
+    assert str(shots[Shot("hemispherical", "5083", 1086.0)]) == "44.8 cm"
+    assert str(shots[Shot("ogival", "7039", 1291.0)]) == "perforated"
+    assert str(shots[Shot("hemispherical", "7039", 1165.0)]) == "11.4 cm (estimated)"
 
 
 def test_the_table(study, capsys):
@@ -162,6 +162,6 @@ def test_kept_results_are_judged_by_the_rule_of_today():
 
 @pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", 2)])
 def test_results_on_a_page_are_kept_ones(page, least):
-    told = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
-    assert len(told) > least
-    assert sorted(told - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []
+    shown = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
+    assert len(shown) > least
+    assert sorted(shown - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []

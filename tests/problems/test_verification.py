@@ -92,9 +92,9 @@ def collapse():
 def test_rays_and_shells(collapse):
     """A field equal to the distance is the distance along every ray and in every shell."""
     for angle in (0.0, 30.0, 90.0):
-        distance, found = collapse.ray(collapse.distance, angle)
+        distance, values = collapse.ray(collapse.distance, angle)
         inside = (distance > 2.0 * collapse.size) & (distance < 0.9)
-        np.testing.assert_allclose(found[inside], distance[inside], atol=0.1 * collapse.size)
+        np.testing.assert_allclose(values[inside], distance[inside], atol=0.1 * collapse.size)
     radius, mean = collapse.shells(collapse.distance, 0.9)
     np.testing.assert_allclose(mean, radius, atol=0.25 * collapse.size)
     assert float(collapse.volume.sum()) == pytest.approx(0.5, rel=1e-12)

@@ -75,8 +75,8 @@ def test_quick_deck_begins_to_penetrate():
     simulation = Simulation(decks.load(QUICK, short))
     while simulation.time < 12e-6:
         simulation.step()
-    found, balance = simulation.diagnostics(), simulation.conservation()
-    assert 6e-3 < found["penetration_depth_m"] < 13e-3
+    diagnostics, balance = simulation.diagnostics(), simulation.conservation()
+    assert 6e-3 < diagnostics["penetration_depth_m"] < 13e-3
     assert simulation.state.ep.max() > 0.5
     assert simulation.mean_velocity(0) > 800.0
     assert abs(balance["total_energy"]) < 1e-11

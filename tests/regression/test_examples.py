@@ -110,15 +110,15 @@ def commands(block: str) -> list[tuple[int, str]]:
 
 def examples(text: str) -> list[tuple[int, str, str]]:
     """The examples of a page in order: line, kind (sh, python, toml, or the name of a command) and text."""
-    found = []
+    texts = []
 
     def taken(match: re.Match, kind: str, block: str) -> str:
         """Keeps an example and returns blank lines for it."""
         line = text.count("\n", 0, match.start(match.lastindex or 0)) + 1
         if kind == "sh":
-            found.extend((line + number, "sh", command) for number, command in commands(block))
+            texts.extend((line + number, "sh", command) for number, command in commands(block))
         elif kind:
-            found.append((line, kind, block))
+            texts.append((line, kind, block))
         return re.sub(r"[^\n]", " ", match[0])
 
     def fence(match: re.Match) -> str:
@@ -134,7 +134,7 @@ def examples(text: str) -> list[tuple[int, str, str]]:
         return taken(match, ("name" if NAME.fullmatch(command) else "sh") if COMMAND.match(command) else "", command)
 
     INLINE.sub(inline, INDENTED.sub(indented, FENCE.sub(fence, text)))
-    return sorted(found, key=lambda example: example[0])
+    return sorted(texts, key=lambda example: example[0])
 
 
 #: pages with examples; add-a-model has a test of its own
@@ -148,7 +148,7 @@ PAGES = {page: found for page, text in TEXTS.items() if (found := examples(text)
 
 
 def with_kind(*kinds: str) -> list[str]:
-    return [page for page, found in PAGES.items() if any(kind in kinds for _, kind, _ in found)]
+    return [page for page, examples_of_page in PAGES.items() if any(kind in kinds for _, kind, _ in examples_of_page)]
 
 
 def of_kind(page: str, *kinds: str) -> list[tuple[int, str, str]]:

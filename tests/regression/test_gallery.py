@@ -46,13 +46,13 @@ def kinds():
 def test_a_kind_runs_is_drawn_and_has_its_numbers(name, docs, tmp_path):
     """Thirty cycles of it, by the commands of the page."""
     (kind,) = (kind for kind in docs["_pages.kinds"].KINDS if kind.name == name)
-    found = docs["gallery"].run_kind(kind, tmp_path, ("--set", "stop.cycles=30", "--quiet"))
-    assert found["seconds"] > 0.1
-    assert set(found["results"]) == {what for what, *_ in kind.numbers}
+    numbers = docs["gallery"].run_kind(kind, tmp_path, ("--set", "stop.cycles=30", "--quiet"))
+    assert numbers["seconds"] > 0.1
+    assert set(numbers["results"]) == {what for what, *_ in kind.numbers}
     small = tmp_path / "small.png"
     docs["figures"].shrink(tmp_path / f"{name}.png", small)
     assert 5000 < small.stat().st_size < MOST
-    assert f"hydro2d new {name}\n" in kind.section(found)
+    assert f"hydro2d new {name}\n" in kind.section(numbers)
 
 
 def test_the_page_is_that_of_its_numbers_and_has_every_kind_and_study(docs):

@@ -34,15 +34,15 @@ def shown(notebook):
 def faults(notebook):
     """Faults of a stored notebook."""
     size, *others = code(notebook)
-    found = [] if SIZE.fullmatch(size.source) else [f"{size.id}: the first cell sets END and nothing else"]
+    wrong = [] if SIZE.fullmatch(size.source) else [f"{size.id}: the first cell sets END and nothing else"]
     counts = [cell.execution_count for cell in (size, *others)]
     if counts != list(range(1, len(counts) + 1)):
-        found.append(f"the cells were not run once each, in order: {counts}")
-    found += [f"{cell.id}: shows nothing" for cell in others if not cell.outputs]
+        wrong.append(f"the cells were not run once each, in order: {counts}")
+    wrong += [f"{cell.id}: shows nothing" for cell in others if not cell.outputs]
     for cell in others:
-        found += [f"{cell.id}: {each.ename}" for each in cell.outputs if each.output_type == "error"]
-        found += [f"{cell.id}: {each.text}" for each in cell.outputs if each.get("name") == "stderr"]
-    return found
+        wrong += [f"{cell.id}: {each.ename}" for each in cell.outputs if each.output_type == "error"]
+        wrong += [f"{cell.id}: {each.text}" for each in cell.outputs if each.get("name") == "stderr"]
+    return wrong
 
 
 def test_there_is_a_notebook():

@@ -24,8 +24,8 @@ LONG = ("how-to/depth-curves", "how-to/run-a-study", "tutorials/first-study")
 def pages():
     """Pages with Python, by their place in the docs."""
     files = [file for part in ("how-to", "tutorials") for file in (DOCS / part).glob("*.md")]
-    found = [str(file.relative_to(DOCS).with_suffix("")) for file in files if "```python" in file.read_text(encoding="utf-8")]
-    return [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in sorted(found) if name not in ELSEWHERE]
+    names = [str(file.relative_to(DOCS).with_suffix("")) for file in files if "```python" in file.read_text(encoding="utf-8")]
+    return [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in sorted(names) if name not in ELSEWHERE]
 
 
 @pytest.fixture

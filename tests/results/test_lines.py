@@ -19,22 +19,22 @@ def run(tmp_path_factory):
 
 def test_a_line_along_z_has_each_cell_once(run):
     dump = run.dump()
-    *_, along, found = lines.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
+    *_, along, values = lines.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
     inside = (along > dump.z_edges[0]) & (along < dump.z_edges[-1])
     np.testing.assert_allclose(along[inside], 0.5 * (dump.z_edges[1:] + dump.z_edges[:-1]))
     column = int(np.searchsorted(dump.r_edges, 1e-3, "right")) - 1
-    np.testing.assert_array_equal(found[inside], figures.chosen(dump, "pressure").values[:, column])
-    assert np.isnan(found[~inside]).all()
+    np.testing.assert_array_equal(values[inside], figures.chosen(dump, "pressure").values[:, column])
+    assert np.isnan(values[~inside]).all()
 
 
 def test_a_line_across_has_the_cells_that_it_crosses(run):
     dump = run.dump()
     line = Line(0.0, -5e-3, 4e-3, 5e-3)
-    *_, along, found = lines.curve(run, dump, "velocity:z", line)
+    *_, along, curve = lines.curve(run, dump, "velocity:z", line)
     assert line.label == "distance"
     assert 0.0 < along[0] < along[-1] < np.hypot(4e-3, 10e-3)
     values = figures.chosen(dump, "velocity:z").values
-    for share, value in zip(along / np.hypot(4e-3, 10e-3), found, strict=True):
+    for share, value in zip(along / np.hypot(4e-3, 10e-3), curve, strict=True):
         j = int(np.searchsorted(dump.z_edges, -5e-3 + share * 10e-3, "right")) - 1
         i = int(np.searchsorted(dump.r_edges, share * 4e-3, "right")) - 1
         assert value == values[j, i] or np.isnan(value) and np.isnan(values[j, i])
@@ -51,8 +51,8 @@ def test_line_outs_have_a_curve_for_each_time(run):
 
 def test_a_diagram_of_place_and_time_follows_the_nose(run):
     """The nose is at 1 km/s times the time, so the slope of its outline is that velocity."""
-    along, times, found, bodies, label = lines._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
-    assert found.shape == (4, lines.POINTS) == bodies[0].shape
+    along, times, values, bodies, label = lines._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
+    assert values.shape == (4, lines.POINTS) == bodies[0].shape
     assert label == "Pressure [GPa]"
     noses = [along[np.nonzero(row >= 0.5)[0][-1]] if (row >= 0.5).any() else 0.0 for row in bodies[0]]
     np.testing.assert_allclose(noses, 1e3 * times, atol=2.5e-3)  # a cell there is 3 mm
@@ -126,16 +126,16 @@ def test_pictures_have_no_empty_margin(tmp_path):
 
 def test_debris_are_drawn(run, monkeypatch):
     """Mass in bins of speed and of angle, the last angle with mass, and one dot for each fragment."""
-    found = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
-             "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
-             "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
-             "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
-    monkeypatch.setattr(Results, "debris", {"plate": found})
+    debris = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
+              "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
+              "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
+              "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
+    monkeypatch.setattr(Results, "debris", {"plate": debris})
     speed, angle, fragments = lines.debris([run]).axes
     assert [patch.get_data().values.sum() for patch in speed.patches] == [pytest.approx(5.0), pytest.approx(3.0)]
     assert angle.get_xlim() == (0.0, 45.0)
     assert fragments.lines[0].get_xydata().tolist() == [[5.0, 1.0], [2.0, 2.0], [1.0, 3.0]]
-    monkeypatch.setattr(Results, "debris", {"plate": {**found, "body": np.array([])}})
+    monkeypatch.setattr(Results, "debris", {"plate": {**debris, "body": np.array([])}})
     with pytest.raises(FigureError, match="nothing flies behind a target"):
         lines.debris([run])
 

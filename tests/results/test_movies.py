@@ -13,11 +13,11 @@ from hydro2d.results.reading import Results
 
 def frames(path) -> list[np.ndarray]:
     with Image.open(path) as film:
-        found = []
+        images = []
         for number in range(film.n_frames):
             film.seek(number)
-            found.append(np.asarray(film.convert("RGB")).copy())
-        return found
+            images.append(np.asarray(film.convert("RGB")).copy())
+        return images
 
 
 @pytest.fixture
@@ -38,10 +38,10 @@ def test_a_frame_for_every_dump(finished, tmp_path, limits, capsys):
     assert call(["movie", str(finished), "-o", str(film), "--field", "plastic_strain", "--mirror", "material"]) == 0
     count = len(Results(finished).dumps)
     assert f"{count} frames" in capsys.readouterr().out
-    found = frames(film)
-    assert len(found) == count > 3
-    assert {frame.shape for frame in found} == {found[0].shape}
-    assert (found[0] != found[-1]).any()
+    images = frames(film)
+    assert len(images) == count > 3
+    assert {frame.shape for frame in images} == {images[0].shape}
+    assert (images[0] != images[-1]).any()
     assert all(ranges == limits[0][0] for ranges, _, _ in limits)
     assert limits[0][0]["plastic_strain"][1] == pytest.approx(2.0, rel=0.2)
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == ["film.gif"]

@@ -38,11 +38,11 @@ def test_a_line_out_has_the_numbers_of_the_picture(run, tmp_path):
     times = sorted({row[1] for row in rows})
     assert times == pytest.approx([40 / 3, 40.0])
     for curve, time in zip(drawn, times, strict=True):
-        found = np.array([row[2:] for row in rows if row[1] == time])
-        np.testing.assert_allclose(found[:, 1], curve.get_xdata(), rtol=1e-9)
-        np.testing.assert_allclose(found[:, 2], curve.get_ydata(), rtol=1e-9)
-        assert (found[:, 0] == 1.0).all()
-        assert np.nanmax(found[:, 2]) > 1.0
+        numbers = np.array([row[2:] for row in rows if row[1] == time])
+        np.testing.assert_allclose(numbers[:, 1], curve.get_xdata(), rtol=1e-9)
+        np.testing.assert_allclose(numbers[:, 2], curve.get_ydata(), rtol=1e-9)
+        assert (numbers[:, 0] == 1.0).all()
+        assert np.nanmax(numbers[:, 2]) > 1.0
     assert np.isnan([row[-1] for row in rows]).any(), "void behind the rod"
     assert {row[0] for row in rows} == {"1086 m/s"}
 
@@ -63,10 +63,10 @@ def test_a_history_has_the_numbers_of_the_picture(run, tmp_path):
     assert heads == ["run", "t [us]", "projectile length [mm]", "projectile tail velocity [m/s]"]
     drawn = [axes.lines[0] for axes in figures.histories([run], ["rod_length_m", "rod_tail_velocity_m_s"]).axes]
     assert len(rows) == 2 * len(run.history["time"])
-    found = np.array([row[1:] for row in rows[: len(rows) // 2]])
-    np.testing.assert_allclose(found[:, 0], drawn[0].get_xdata(), rtol=1e-9)
+    numbers = np.array([row[1:] for row in rows[: len(rows) // 2]])
+    np.testing.assert_allclose(numbers[:, 0], drawn[0].get_xdata(), rtol=1e-9)
     for number, curve in enumerate(drawn, start=1):
-        np.testing.assert_allclose(found[:, number], curve.get_ydata(), rtol=1e-9)
+        np.testing.assert_allclose(numbers[:, number], curve.get_ydata(), rtol=1e-9)
     with pytest.raises(FigureError, match='did you mean "rod_length_m"'):
         tables.histories([run], ["rod_lenght_m"])
 

@@ -27,12 +27,12 @@ def problems() -> tuple[list[Path], list[Path]]:
 @functools.cache
 def modules() -> dict[str, Path]:
     """Every module of the program: dotted name -> file."""
-    found = {}
+    files = {}
     for package in PACKAGES:
         for file in sorted((ROOT / package).rglob("*.py")):
             parts = file.relative_to(ROOT).with_suffix("").parts
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
-    return found
+            files[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
+    return files
 
 
 @functools.cache

@@ -50,8 +50,8 @@ def sentences(file) -> list[str]:
 def test_how_long_the_first_compilation_takes_is_said_once():
     """In the README; measurements in explanations say when and on what they were made."""
     files = [file for file in WRITTEN if EXPLANATION not in file.parents]
-    told = [(name_of(file), text) for file in files for text in sentences(file) if "compil" in text and "minute" in text]
-    assert [name for name, _ in told] == ["README.md"], told
+    mentions = [(name_of(file), text) for file in files for text in sentences(file) if "compil" in text and "minute" in text]
+    assert [name for name, _ in mentions] == ["README.md"], mentions
 
 
 def name_of(file) -> str:
@@ -66,12 +66,12 @@ def tags(page: str) -> tuple[int, ...]:
 
 def wrong_citations(text: str) -> list[str]:
     """Equations that a text cites but no page has."""
-    found = []
+    wrong = []
     for match in CITATION.finditer(re.sub(r"\s+", " ", text)):
         for number in re.findall(r"\d+", match["list"]):
             if int(number) not in tags(match["page"]):
-                found.append(f"explanation/{match['page']}.md has no equation {number}")
-    return found
+                wrong.append(f"explanation/{match['page']}.md has no equation {number}")
+    return wrong
 
 
 def docstrings(syntax: ast.AST) -> str:
@@ -217,13 +217,13 @@ def test_the_page_of_materials_has_every_source_in_full():
 
 def sections_of_the_page() -> dict[str, dict[str, str]]:
     """Examples of the page of deck keys: heading -> key -> line of a deck."""
-    found = {}
+    sections = {}
     for part in generated()["deck.md"].split("\n## ")[1:]:
         heading, *rows = part.splitlines()
         cells = [re.split(r"(?<!\\) \| ", row) for row in rows if row.startswith("| `")]
         if not heading.startswith("Boundary"):
-            found[heading] = {row[0].strip("| `"): row[4].strip("`").replace("\\|", "|") for row in cells}
-    return found
+            sections[heading] = {row[0].strip("| `"): row[4].strip("`").replace("\\|", "|") for row in cells}
+    return sections
 
 
 #: sections of the page of deck keys and the classes that check them

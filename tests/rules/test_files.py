@@ -18,14 +18,14 @@ INDEX = re.compile("|".join(["py" + r"pi\.org", "python" + "hosted", "index" + "
 
 def faults(text: str) -> list[str]:
     """Machine paths and package index hosts in a text, with their lines."""
-    found = []
+    wrong = []
     for number, line in enumerate(text.splitlines(), 1):
         for pattern, name in ((MACHINE, "a path of one machine"), (INDEX, "a package index")):
             if pattern.search(line):
-                found.append(f"line {number}: {name}: {line.strip()[:100]}")
+                wrong.append(f"line {number}: {name}: {line.strip()[:100]}")
         if len(HERE.parts) > 1 and re.search(r"(?<![\w.~-])" + re.escape(f"{HERE}/"), line):
-            found.append(f"line {number}: this checkout's folder")
-    return found
+            wrong.append(f"line {number}: this checkout's folder")
+    return wrong
 
 
 TEXT_FILES = [file for file in source.tracked_files() if file.suffix in TEXT]
@@ -72,9 +72,9 @@ def test_the_sdist_carries_every_folder_that_the_wheel_and_the_tests_need():
 def test_no_file_that_is_tracked_is_ignored():
     """The wheel and the sdist leave out all files that .gitignore names."""
     names = "\n".join(str(file.relative_to(source.ROOT)) for file in source.tracked_files())
-    found = subprocess.run(["git", "check-ignore", "--no-index", "--stdin"], cwd=source.ROOT, input=names, text=True,
-                           capture_output=True, check=False)  # fmt: skip
-    assert (found.returncode, found.stdout) == (1, "")
+    done = subprocess.run(["git", "check-ignore", "--no-index", "--stdin"], cwd=source.ROOT, input=names, text=True,
+                          capture_output=True, check=False)  # fmt: skip
+    assert (done.returncode, done.stdout) == (1, "")
 
 
 def test_the_installed_problems_are_the_shipped_ones():

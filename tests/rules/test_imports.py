@@ -52,18 +52,18 @@ def layer(name: str) -> int | None:
 
 def breaches(name: str, imported) -> list[str]:
     """Every import of the module that the architecture forbids."""
-    found = []
+    wrong = []
     for other, line in imported:
         if other == "hydro2d" or not within(other, *OURS):
             continue
         where = f"{name}, line {line}, imports {other}"
         for place, allowed in NARROW.items():
             if within(name, place) and not within(other, *allowed):
-                found.append(f"{where}; {place} may import {', '.join(allowed)}")
+                wrong.append(f"{where}; {place} may import {', '.join(allowed)}")
         mine, theirs = layer(name), layer(other)
         if mine is not None and theirs is not None and theirs > mine:
-            found.append(f"{where}, which stands above it")
-    return found
+            wrong.append(f"{where}, which stands above it")
+    return wrong
 
 
 MODULES = sorted(name for name in source.modules() if name != "hydro2d")

@@ -27,35 +27,35 @@ def parallel_loops(function: ast.FunctionDef) -> list[ast.For]:
 
 def faults(function: ast.FunctionDef) -> list[str]:
     """Faults of a compiled function."""
-    found = []
+    wrong = []
     marks = {mark.id for mark in function.decorator_list if isinstance(mark, ast.Name)}
     arguments = function.args
     if not ast.get_docstring(function):
-        found.append("has no docstring")
+        wrong.append("has no docstring")
     if arguments.defaults or any(default is not None for default in arguments.kw_defaults):
-        found.append("has default arguments")
+        wrong.append("has default arguments")
     if arguments.vararg or arguments.kwarg:
-        found.append("takes * or ** arguments")
+        wrong.append("takes * or ** arguments")
     loops = parallel_loops(function)
     if marks & PARALLEL:
         if len(loops) != 1 or len(source.calls(function, "prange")) != 1:
-            found.append(f"has {len(source.calls(function, 'prange'))} prange loops, not one")
+            wrong.append(f"has {len(source.calls(function, 'prange'))} prange loops, not one")
         elif loops[0] not in function.body:
-            found.append("has its prange loop inside another statement")
+            wrong.append("has its prange loop inside another statement")
     elif source.calls(function, "prange"):
-        found.append("uses prange without being threaded")
+        wrong.append("uses prange without being threaded")
     if source.calls(function, "wait"):
-        found.append("waits: that is for lists of phases")
+        wrong.append("waits: that is for lists of phases")
     if any(isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) for node in ast.walk(function)):
-        found.append("stores in an attribute")
+        wrong.append("stores in an attribute")
     if source.calls(function, *ALLOCATIONS):
-        found.append("allocates")
+        wrong.append("allocates")
     if source.calls(function, "print") or any(isinstance(node, (ast.Raise, ast.Assert)) for node in ast.walk(function)):
-        found.append("prints or raises")
+        wrong.append("prints or raises")
     for node in ast.walk(function):
         if isinstance(node, ast.Subscript) and any(is_negative(index) for index in indices(node)):
-            found.append(f"has a negative index in line {node.lineno}")
-    return found
+            wrong.append(f"has a negative index in line {node.lineno}")
+    return wrong
 
 
 def indices(node: ast.Subscript) -> list[ast.AST]:

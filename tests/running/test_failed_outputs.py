@@ -152,12 +152,12 @@ def test_a_history_that_lost_rows_is_not_trusted(simulation, tmp_path, spoil, la
 
 
 def shorten(file, rows):
-    found = history.History(file, rows)
-    found.write()
+    kept = history.History(file, rows)
+    kept.write()
 
 
 def test_a_history_that_takes_long_is_written_less_often(simulation, tmp_path, monkeypatch):
-    found = runs.Run(fake.FakeDeck(), tmp_path, restart=False, report=None)
+    started = runs.Run(fake.FakeDeck(), tmp_path, restart=False, report=None)
     monkeypatch.setattr(runs.clock, "perf_counter", iter(np.arange(0.0, 1e3, 7.0)).__next__)
-    found._write_history()
-    assert found.flush_every == pytest.approx(70.0)
+    started._write_history()
+    assert started.flush_every == pytest.approx(70.0)

@@ -22,9 +22,9 @@ def deck(monkeypatch, simulation):
         monkeypatch.setattr(runs, name, 0.0)
     monkeypatch.setattr(runs, "FLUSH_SHARE", 1e9)
     monkeypatch.setattr(runs, "GOOD_EVERY", 3)
-    found = fake.FakeDeck(history_interval=1e-7, vtk_interval=2e-7, restart_interval=0.0)
-    found.stop.time = STEPS
-    return found
+    made = fake.FakeDeck(history_interval=1e-7, vtk_interval=2e-7, restart_interval=0.0)
+    made.stop.time = STEPS
+    return made
 
 
 def outcome(place):
@@ -79,10 +79,10 @@ def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
     for full in range(1, number + 1):
         place = tmp_path / str(full)
         disk.begin(full)
-        found = run_case(place, text)
+        outcome_of = run_case(place, text)
         disk.begin()
-        assert found.status == "failed"
-        assert found.message.startswith("the disk is full: "), found.message
-        assert "\n" not in found.message + found.trace
+        assert outcome_of.status == "failed"
+        assert outcome_of.message.startswith("the disk is full: "), outcome_of.message
+        assert "\n" not in outcome_of.message + outcome_of.trace
         assert run_case(place, text).status == "done"
         assert outcome(place) == whole, f"no space at write {full} of {number}"

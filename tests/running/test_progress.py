@@ -69,12 +69,12 @@ def test_the_end_is_the_one_predicted_by_status():
     for number in range(41):
         sim.time, sim.cycle, now = number * 2.5e-6, 50 * number, 2.0 * number
         columns.append({"time": sim.time, "cycle": sim.cycle, "rod_core_velocity_m_s": 1000.0 - 2e6 * sim.time})
-        found = clock.look(sim)
+        predicted = clock.look(sim)
         if number == 2:  # too few rows
-            assert progress.how_far(sim, found) == "5.000 us of 1000.000 us (0.5 %)"
-    assert progress.how_far(sim, found) == "100.000 us of about 495.000 us (20.2 %; speed below 10 m/s)"
-    assert found.left == pytest.approx(395.0 / 1.25)
-    assert found.end == next(iter(sorted(ending.ends(stop, columns.arrays()), key=lambda each: each.time)))
+            assert progress.how_far(sim, predicted) == "5.000 us of 1000.000 us (0.5 %)"
+    assert progress.how_far(sim, predicted) == "100.000 us of about 495.000 us (20.2 %; speed below 10 m/s)"
+    assert predicted.left == pytest.approx(395.0 / 1.25)
+    assert predicted.end == next(iter(sorted(ending.ends(stop, columns.arrays()), key=lambda each: each.time)))
 
 
 def test_the_number_of_cycles_counts_where_it_comes_first():

@@ -47,14 +47,14 @@ def test_without_a_residual_velocity_or_a_time_before_there_is_no_change():
     assert found(rows((10, 0.0), (20, 0.0)), 0.0, 20) == pytest.approx((0.0, 10e-6))  # it does not move: nothing else is known
 
 
-@pytest.mark.parametrize(("time", "told"), [("12 us", True), ("60 us", False)])
-def test_the_closing_lines_say_that_a_ball_behind_its_plate_still_slows(time, told, tmp_path):
+@pytest.mark.parametrize(("time", "said"), [("12 us", True), ("60 us", False)])
+def test_the_closing_lines_say_that_a_ball_behind_its_plate_still_slows(time, said, tmp_path):
     """The cap that it pushes ahead slows it for some microseconds; later it flies free."""
     from hydro2d.deck import deck as decks
 
     deck = decks.load(source.PROBLEMS / "perforation" / "sphere.toml", [f"stop.time={time}", "stop.perforation=false"])
     summary = run(deck, tmp_path / "ball", quiet=True)
     line = next(line for line in result(summary) if line.startswith("residual ball"))
-    assert ("; still changing, by -" in line) == told
+    assert ("; still changing, by -" in line) == said
     kept = json.loads((tmp_path / "ball" / "summary.json").read_text())["projectile"]
-    assert (abs(kept[CHANGE]) > 1e-3 * kept["residual_velocity_m_s"]) == told
+    assert (abs(kept[CHANGE]) > 1e-3 * kept["residual_velocity_m_s"]) == said

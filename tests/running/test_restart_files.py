@@ -26,11 +26,11 @@ def go_on(directory, **options):
 
 def spoiled(directory, change):
     """Rewrites the restart file, with a correct checksum, after a change of its contents."""
-    found = snapshot.read(directory / snapshot.NAME)
-    arrays, scalars, saved = dict(found.arrays), dict(found.scalars), dict(found.run)
+    contents = snapshot.read(directory / snapshot.NAME)
+    arrays, scalars, saved = dict(contents.arrays), dict(contents.scalars), dict(contents.run)
     change(arrays, scalars, saved)
     (directory / snapshot.NAME).unlink()
-    snapshot.write(directory / snapshot.NAME, Snapshot(arrays, scalars, saved, found.deck, found.provenance))
+    snapshot.write(directory / snapshot.NAME, Snapshot(arrays, scalars, saved, contents.deck, contents.provenance))
 
 
 @pytest.mark.parametrize(("change", "said"), [

@@ -178,17 +178,17 @@ def test_plain_lines(simulation, tmp_path, capsys):
 @pytest.mark.parametrize(("threads", "second", "helped"), [(1, None, False), (2, None, True), (1, True, True)])
 def test_a_run_on_one_thread_compiles_in_one_process(simulation, tmp_path, monkeypatch, threads, second, helped):
     """A study asks for the second process, because its other workers wait meanwhile."""
-    found = []
+    processes = []
 
     def announced(place, helped=None):
-        found.append(helped)
+        processes.append(helped)
         return nullcontext()
 
     monkeypatch.setattr("hydro2d.jit.threads", lambda: threads)
     monkeypatch.setattr("hydro2d.compilation.announced", announced)
     monkeypatch.setattr("hydro2d.running.run.Run", lambda *args, **named: SimpleNamespace(execute=lambda interrupt: {}))
     run(fake.FakeDeck(), tmp_path / "a", quiet=True, second=second)
-    assert [deck is not None for deck in found] == [helped]
+    assert [deck is not None for deck in processes] == [helped]
 
 
 def test_the_parts_of_a_runs_time_are_named(simulation, tmp_path, monkeypatch):

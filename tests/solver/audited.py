@@ -38,11 +38,11 @@ class Choices(NamedTuple):
 def all_choices() -> Iterator[Choices]:
     """All combinations that decks allow: no driven edges with a contact, no mesh that follows a detonation."""
     for each in itertools.product(EDGE_KINDS, SLIDING, ADVECTIONS, SOURCES, (False, True)):
-        found = Choices(*each)
-        if found.sliding == "contact" and found.edge in DRIVEN:
+        choices = Choices(*each)
+        if choices.sliding == "contact" and choices.edge in DRIVEN:
             continue
-        if not (found.following and found.source == "detonation"):
-            yield found
+        if not (choices.following and choices.source == "detonation"):
+            yield choices
 
 
 def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict:
@@ -52,16 +52,16 @@ def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict
     open_ended = [kind for kind in kinds if kind in ("outflow", "transmit")]
     sure = random.choice([edge for edge in free
                           if not choices.following or edge[0] == "r" or choices.edge in open_ended])
-    found = {} if geometry == "planar" else {"r_min": "axis"}
+    edges = {} if geometry == "planar" else {"r_min": "axis"}
     for edge in free:
         allowed = open_ended if choices.following and edge[0] == "z" else kinds
-        kind = found[edge] = choices.edge if edge == sure else str(random.choice(allowed))
+        kind = edges[edge] = choices.edge if edge == sure else str(random.choice(allowed))
         speed = float(random.uniform(-200.0, 200.0))
         if kind == "velocity":
-            found[f"{edge}_velocity"] = speed
+            edges[f"{edge}_velocity"] = speed
         if kind == "piston":
-            found[f"{edge}_piston"] = [[0.0, 0.0], [2e-7, speed], [8e-7, speed], [1e-6, -speed]]
-    return found
+            edges[f"{edge}_piston"] = [[0.0, 0.0], [2e-7, speed], [8e-7, speed], [1e-6, -speed]]
+    return edges
 
 
 def _source(random: np.random.Generator, kind: str, place: list[float]) -> str:

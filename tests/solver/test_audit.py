@@ -23,8 +23,8 @@ def after(text: str, cycles: int, *options: str) -> Simulation:
 
 def unexplained(simulation: Simulation) -> float:
     """The largest relative change that the audit does not explain."""
-    found = simulation.conservation()
-    return max(map(abs, (*found["mass"].values(), found["axial_momentum"], found["total_energy"])))
+    balance = simulation.conservation()
+    return max(map(abs, (*balance["mass"].values(), balance["axial_momentum"], balance["total_energy"])))
 
 
 def unexplained_by_sound(simulation: Simulation) -> float:
@@ -34,11 +34,11 @@ def unexplained_by_sound(simulation: Simulation) -> float:
     In a cell that a body hardly fills, the stress is a difference of pressures that are larger by the inverse of its share.
     Their round-off does not scale with the energy of a slow shot.
     """
-    found, engine = simulation.conservation(), simulation.engine
+    balance, engine = simulation.conservation(), simulation.engine
     mass, energy = engine.audit.start.mass, engine.audit.scale
     sound = mass @ engine.sound_speeds**2
-    return max(*map(abs, found["mass"].values()), abs(found["axial_momentum"]) * (2.0 * energy / sound) ** 0.5,
-               abs(found["total_energy"]) * energy / sound)
+    return max(*map(abs, balance["mass"].values()), abs(balance["axial_momentum"]) * (2.0 * energy / sound) ** 0.5,
+               abs(balance["total_energy"]) * energy / sound)
 
 
 # ------------------------------------------------------------------------------------------------ two groups and dashpots
@@ -185,10 +185,10 @@ def test_bodies_at_rest_add_up(source, sliding):
 @pytest.mark.parametrize(("edge", "sliding"), sorted({(each.edge, each.sliding) for each in audited.all_choices()}))
 def test_every_choice_with_every_other(edge, sliding):
     """Edges of all kinds, sliding, advection, sources, a mesh that follows."""
-    found = {}
+    errors = {}
     for choices in audited.all_choices():
         if (choices.edge, choices.sliding) == (edge, sliding):
             text = audited.deck(202, choices)
-            found[choices] = (unexplained_by_sound(after(text, 60)), text)
-    bounds = {choices: CLOSES_BESIDE_PRODUCTS if choices.source == "detonation" else CLOSES for choices in found}
-    assert {choices: result for choices, result in found.items() if not result[0] < bounds[choices]} == {}
+            errors[choices] = (unexplained_by_sound(after(text, 60)), text)
+    bounds = {choices: CLOSES_BESIDE_PRODUCTS if choices.source == "detonation" else CLOSES for choices in errors}
+    assert {choices: result for choices, result in errors.items() if not result[0] < bounds[choices]} == {}

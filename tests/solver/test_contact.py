@@ -44,11 +44,11 @@ def set_velocities(simulation, rest, hard):
     """Uniform (u, v) of both groups; nan for the hard ones at vertices whose cells contain none of them."""
     s = simulation.state
     s.u[0], s.v[0] = rest
-    held = np.zeros(simulation.grid.vertex_shape, dtype=bool)
+    constrained = np.zeros(simulation.grid.vertex_shape, dtype=bool)
     there = s.vof[0] > 0
-    for corner in (held[:-1, :-1], held[1:, :-1], held[:-1, 1:], held[1:, 1:]):
+    for corner in (constrained[:-1, :-1], constrained[1:, :-1], constrained[:-1, 1:], constrained[1:, 1:]):
         corner |= there
-    s.u[1], s.v[1] = (np.where(held, value, np.nan) for value in hard)
+    s.u[1], s.v[1] = (np.where(constrained, value, np.nan) for value in hard)
 
 
 def centre(simulation, cell):
@@ -77,16 +77,16 @@ def test_method_of_a_slip_layer():
 
 
 def test_check_prints_the_contact_and_counts_its_memory():
-    found = check.check(deck.loads(TEXT))
-    assert "sliding   contact; hard: rod; friction 0.1, yield factor 1.25" in found.lines(1)
+    checked = check.check(deck.loads(TEXT))
+    assert "sliding   contact; hard: rod; friction 0.1, yield factor 1.25" in checked.lines(1)
     without = check.check(deck.loads(TEXT, ["sliding.method=none", "sliding.friction=0"]))
     assert "sliding   none" in without.lines(1)
     state = Simulation(deck.loads(TEXT)).state
     others = "group", "rules", "initial"
     arrays = [array for name, array in vars(state).items() if isinstance(array, np.ndarray) and name not in others]
-    assert found.memory == sum(array.nbytes for array in arrays if array.base is None)
+    assert checked.memory == sum(array.nbytes for array in arrays if array.base is None)
     vertices = (16 + 4 + 1) * (8 + 4 + 1)
-    assert found.memory > without.memory + 5 * 8 * vertices  # a second velocity at both ends of the step, and its mass
+    assert checked.memory > without.memory + 5 * 8 * vertices  # a second velocity at both ends of the step, and its mass
 
 
 def test_each_group_starts_with_its_own_momentum(contact):
@@ -187,8 +187,8 @@ def test_a_tracer_without_a_body_changes_its_group_with_its_place(contact):
 
 def test_nose_and_tail_have_the_velocity_of_the_rod(contact):
     set_velocities(contact, (0.0, 100.0), (0.0, 900.0))
-    found = contact.diagnostics()
-    assert [found[f"rod_{of}_velocity_m_s"] for of in ("nose", "tail", "mean")] == pytest.approx([900.0] * 3, rel=1e-13)
+    diagnostics = contact.diagnostics()
+    assert [diagnostics[f"rod_{of}_velocity_m_s"] for of in ("nose", "tail", "mean")] == pytest.approx([900.0] * 3, rel=1e-13)
     soft_rod = started('sliding.hard=["backing"]')
     soft_rod.state.v[0], soft_rod.state.v[1] = 100.0, 900.0
     assert soft_rod.diagnostics()["rod_nose_velocity_m_s"] == 100.0
@@ -198,8 +198,8 @@ def test_fields_of_a_contact(contact):
     state, grid = contact.state, contact.grid
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     state.contact_pressure[CUT[0] + grid.g, CUT[1] + grid.g] = 2e9
-    found = derived.evaluate(contact, ["standard"])
-    velocity, hard, soft = (found[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
+    fields = derived.evaluate(contact, ["standard"])
+    velocity, hard, soft = (fields[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
     assert velocity.shape == hard.shape == soft.shape == (16, 8, 3)
     assert [hard[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[7, 900, 0], [7, 900, 0], [0, 0, 0], [0, 0, 0]]
     assert [soft[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[0, 0, 0], [5, 100, 0], [5, 100, 0], [0, 0, 0]]
@@ -207,8 +207,8 @@ def test_fields_of_a_contact(contact):
     mean = [(rod * of_rod + plate * of_plate) / (rod + plate) for of_rod, of_plate in ((7.0, 5.0), (900.0, 100.0))]
     np.testing.assert_allclose(velocity[CUT], [*mean, 0.0], rtol=1e-12)
     assert (velocity[PURE].tolist(), velocity[PLATE].tolist()) == ([7, 900, 0], [5, 100, 0])
-    np.testing.assert_array_equal(found["Share of Hard Bodies"], found["Volume Fraction for rod"])
-    pressure = found["Contact Pressure [Pa]"]
+    np.testing.assert_array_equal(fields["Share of Hard Bodies"], fields["Volume Fraction for rod"])
+    pressure = fields["Contact Pressure [Pa]"]
     assert pressure.shape == (16, 8)
     assert pressure[CUT] == pressure.sum() == 2e9
     state.contact_pressure[...] = 0.0

@@ -110,8 +110,8 @@ def test_impedances_of_an_elastic_cell():
     """rho c_l = sqrt(rho (K + 4 G/3)) and rho c_s = sqrt(rho G); with void, where no bulk modulus is known, no shear."""
     rho, bulk, shear = np.array([[2700.0]]), np.array([[70e9]]), 26e9
     cl = np.sqrt((bulk + 4 / 3 * shear) / rho)
-    found = impedances.py_func(0, 0, rho, cl, bulk)
-    assert found == pytest.approx((np.sqrt(2700.0 * (70e9 + 4 / 3 * shear)), np.sqrt(2700.0 * shear)))
+    values = impedances.py_func(0, 0, rho, cl, bulk)
+    assert values == pytest.approx((np.sqrt(2700.0 * (70e9 + 4 / 3 * shear)), np.sqrt(2700.0 * shear)))
     assert impedances.py_func(0, 0, rho, cl, np.zeros((1, 1)))[1] == 0.0
 
 

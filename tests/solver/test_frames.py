@@ -26,9 +26,9 @@ def shot(projectile: float, target: float, *, thickness: str = "20 mm", ball: bo
 
 def outputs(sim: Simulation) -> dict[str, float | None]:
     """Numbers of the summary about the rod and the hole."""
-    found = sim.diagnostics() | {f"hole {key}": value for key, value in sim.of_targets()["plate"]["crater"].items()}
-    found |= {f"debris {key}": value for key, value in sim.of_targets()["plate"]["debris"].items()}
-    return {key: value for key, value in found.items() if isinstance(value, (int, float)) or value is None}
+    numbers = sim.diagnostics() | {f"hole {key}": value for key, value in sim.of_targets()["plate"]["crater"].items()}
+    numbers |= {f"debris {key}": value for key, value in sim.of_targets()["plate"]["debris"].items()}
+    return {key: value for key, value in numbers.items() if isinstance(value, (int, float)) or value is None}
 
 
 def state_of(sim: Simulation, other: Simulation, by: float) -> None:
@@ -78,10 +78,10 @@ def test_roles_are_exchanged(standing, projectile):
     """Within 3 % of the results with the plate at rest: bodies cross the mesh in another way."""
     sim = shot(projectile, projectile - 1000.0)
     sim.run()
-    found = outputs(sim)
+    numbers = outputs(sim)
     for key in ("penetration_depth_m", "rod_length_m", "hole depth_m", "hole volume_per_energy_m3_J"):
-        assert found[key] == pytest.approx(standing[key], rel=0.03), key
-    assert found["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
+        assert numbers[key] == pytest.approx(standing[key], rel=0.03), key
+    assert numbers["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
     assert not sim.penetrator.perforates()
 
 
@@ -90,10 +90,10 @@ def test_a_mesh_that_follows_the_rod_measures_the_same(standing, projectile):
     """On a plate at rest, on one that moves towards the rod, and on one that flies ahead of it."""
     sim = shot(projectile, projectile - 1000.0, follow=True)
     sim.run()
-    found = outputs(sim)
+    numbers = outputs(sim)
     for key in ("penetration_depth_m", "rod_length_m", "hole depth_m", "hole volume_per_energy_m3_J"):
-        assert found[key] == pytest.approx(standing[key], rel=0.03), key
-    assert found["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
+        assert numbers[key] == pytest.approx(standing[key], rel=0.03), key
+    assert numbers["rod_core_velocity_m_s"] == pytest.approx(standing["rod_core_velocity_m_s"] + projectile - 1000.0, abs=20.0)
 
 
 @pytest.mark.parametrize("projectile", [1500.0, 0.0])
@@ -111,10 +111,10 @@ def test_a_shot_in_which_only_the_plate_flies_is_not_over_at_once():
 
 
 def test_plates_that_catch_a_ball_up_are_its_targets_in_the_order_in_which_they_come():
-    found = deck.loads(
+    loaded = deck.loads(
         mesh(("12 mm", 12), ("-60 mm", "60 mm", "1 mm"))
         + body("ball", "W_alloy", "sphere", centre="30 mm", radius="3 mm", velocity="100 m/s")
         + plate("4 mm", name="second", z_front="0 mm", velocity="1000 m/s")
         + plate("4 mm", name="first", z_front="12 mm", velocity="1000 m/s")
         + stop("14 us"))
-    assert found.penetration.targets == ("first", "second")
+    assert loaded.penetration.targets == ("first", "second")

@@ -39,10 +39,10 @@ def started(options) -> Simulation:
 
 def test_every_name_is_used_by_a_phase():
     """A name that no kernel uses is not a name of the step; the rows of q have names for those who read results."""
-    taken = frozenset().union(*(phase.takes for phase in PHASES.values()))
-    assert taken <= {name.symbol for name in names.NAMES}
+    used = frozenset().union(*(phase.takes for phase in PHASES.values()))
+    assert used <= {name.symbol for name in names.NAMES}
     stated = (*names.OF_THE_CALL, *names.MESH, *names.BODIES, *names.METHOD, *names.TIES)
-    assert {name.symbol for name in stated} - taken == set()
+    assert {name.symbol for name in stated} - used == set()
 
 
 def test_ties_are_those_of_the_table():
@@ -69,7 +69,7 @@ def test_one_compiled_phase_serves_all_decks():
         for call in calls_of_a_cycle(partial(started, options)):
             if call.types == jit.PHASE_TYPES:
                 types.setdefault(call.name.split(".")[-1], set()).add(call.compiled)
-    assert {name: len(found) for name, found in types.items()} == dict.fromkeys(PHASES, 1)
+    assert {name: len(tuples) for name, tuples in types.items()} == dict.fromkeys(PHASES, 1)
 
 
 def same(one, other) -> bool:

@@ -141,8 +141,8 @@ def test_curves_that_cross_inside_cells_are_shared_exactly():
     a, b, d = 0.006, 0.005, 0.004
     first, second = shapes.sphere(0.0, 0.0, a), shapes.sphere(0.0, d, b)
     lens = math.pi * (a + b - d) ** 2 * (d**2 + 2 * d * (a + b) - 3 * (a - b) ** 2) / (12 * d)
-    found = volume([first, second])
-    assert found == pytest.approx([4 / 3 * math.pi * a**3, 4 / 3 * math.pi * b**3 - lens], rel=1e-12)
+    volumes = volume([first, second])
+    assert volumes == pytest.approx([4 / 3 * math.pi * a**3, 4 / 3 * math.pi * b**3 - lens], rel=1e-12)
 
 
 def test_bodies_are_cut_by_the_mesh():
@@ -158,8 +158,8 @@ def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz
     r, z = np.linspace(0, 0.012, nr + 1), np.linspace(-0.02, 0.01 + height, nz + 1)
     top = max(min(z[-1] - centre, radius), -radius)
     expected = math.pi * (radius**2 * (top + radius) - (top**3 + radius**3) / 3)
-    found = volume([shapes.sphere(0.0, centre, radius)], r, z)[0]
-    assert found == pytest.approx(expected, rel=1e-11, abs=1e-11 * radius**3)
+    computed = volume([shapes.sphere(0.0, centre, radius)], r, z)[0]
+    assert computed == pytest.approx(expected, rel=1e-11, abs=1e-11 * radius**3)
 
 
 @pytest.mark.parametrize("cylindrical", [True, False])
@@ -187,7 +187,7 @@ def test_fractions_agree_with_sampling():
         for i in range(5):
             rr = np.sqrt(r[i] ** 2 + part * (r[i + 1] ** 2 - r[i] ** 2))
             zz = z[j] + part * (z[j + 1] - z[j])
-            taken = np.zeros((n, n), dtype=bool)
+            occupied = np.zeros((n, n), dtype=bool)
             for m, outline in enumerate(outlines):
                 inside = np.zeros((n, n), dtype=bool)
                 for slab in outline.slabs:
@@ -195,8 +195,8 @@ def test_fractions_agree_with_sampling():
                     low = np.array([slab.inner.r(x) for x in zz])
                     high = np.array([slab.outer.r(x) for x in zz])
                     inside |= rows[:, None] & (rr[None, :] >= low[:, None]) & (rr[None, :] <= high[:, None])
-                assert exact[m, j, i] == pytest.approx((inside & ~taken).mean(), abs=5e-3)
-                taken |= inside
+                assert exact[m, j, i] == pytest.approx((inside & ~occupied).mean(), abs=5e-3)
+                occupied |= inside
 
 
 # -------------------------------------------------------------------------------------------------------- centroids

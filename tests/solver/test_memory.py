@@ -24,8 +24,8 @@ def test_the_estimated_memory_is_that_used(groups, internal):
     state = State(grid, 2, [0, groups - 1], [(), own], remembers=internal > 0)
     arrays = [array for name, array in vars(state).items()
               if isinstance(array, np.ndarray) and name not in ("group", "rules", "initial")]
-    taken = sum(array.nbytes for array in arrays if array.base is None)
-    assert bytes_needed(*grid.shape, 2, groups, internal, internal > 0) == taken
+    used = sum(array.nbytes for array in arrays if array.base is None)
+    assert bytes_needed(*grid.shape, 2, groups, internal, internal > 0) == used
 
 
 LARGE = ['mesh.r=[{to="2 mm", cells=400000}]', 'mesh.z=[{to="20 mm", cells=400000}]']

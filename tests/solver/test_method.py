@@ -28,7 +28,7 @@ def test_numbers_of_this_version(name):
     simulation = Simulation(decks.load(QUICK, overrides))
     for _ in range(CYCLES):
         simulation.step()
-    found = simulation.time, simulation.conservation()["internal_energy_J"], simulation.diagnostics()["rod_length_m"]
+    numbers = simulation.time, simulation.conservation()["internal_energy_J"], simulation.diagnostics()["rod_length_m"]
     why = "the numbers of a run have moved: give hydro2d/method.py the day of the change, and this test the new numbers"
-    assert found == pytest.approx((time, energy, length), rel=SAME), why
+    assert numbers == pytest.approx((time, energy, length), rel=SAME), why
     assert METHOD == OF, "the numbers of a run are as before: leave METHOD, or give this test its new numbers"

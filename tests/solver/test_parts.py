@@ -93,10 +93,10 @@ def test_parts_are_cut_anew_for_another_box(active, box, expected):
     """And for another range of columns with the same rows."""
     parts = Parts(active)
     first = parts.of([2, 62, 2, 52])
-    found = parts.of(box)
-    assert found is not first
-    assert found.tolist() == expected
-    assert parts.of(box) is found
+    cut = parts.of(box)
+    assert cut is not first
+    assert cut.tolist() == expected
+    assert parts.of(box) is cut
 
 
 def test_parts_are_cut_anew_for_another_number_of_threads(active, monkeypatch):

@@ -50,16 +50,16 @@ def cells(simulation):
 
 
 def test_a_rod_before_impact(simulation):
-    found = simulation.diagnostics()
-    assert found["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
-    assert found["penetration_depth_m"] == 0.0
-    assert found["rod_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 20.2e-3 * 18160, rel=1e-9)
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
+    assert diagnostics["penetration_depth_m"] == 0.0
+    assert diagnostics["rod_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 20.2e-3 * 18160, rel=1e-9)
     ends = 0.2e-3 / 20.2e-3  # the row at the tip is less than half full and not part of the core
-    assert found["rod_core_mass_kg"] == pytest.approx(found["rod_mass_kg"] * (1 - ends), rel=1e-9)
-    assert found["rod_max_radius_m"] == pytest.approx(3e-3, rel=1e-9)
-    assert found["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
-    assert found["rod_tail_velocity_m_s"] == pytest.approx(1000.0, rel=1e-9)
-    assert found["regime"] == "rigid"
+    assert diagnostics["rod_core_mass_kg"] == pytest.approx(diagnostics["rod_mass_kg"] * (1 - ends), rel=1e-9)
+    assert diagnostics["rod_max_radius_m"] == pytest.approx(3e-3, rel=1e-9)
+    assert diagnostics["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
+    assert diagnostics["rod_tail_velocity_m_s"] == pytest.approx(1000.0, rel=1e-9)
+    assert diagnostics["regime"] == "rigid"
 
 
 @pytest.mark.parametrize(("keys", "length"), [
@@ -69,9 +69,9 @@ def test_a_rod_before_impact(simulation):
 def test_a_rod_has_the_length_of_the_deck(keys, length):
     """And loses none of it while its cells are as at the start; their losses count in proportion."""
     own = Simulation(deck.loads(text(tip="-0.3 mm", **keys)))
-    found = own.diagnostics()
+    diagnostics = own.diagnostics()
     shown = own.penetrator._length()[0]
-    assert (found["rod_initial_length_m"], found["rod_length_m"]) == pytest.approx((length, length), rel=1e-12)
+    assert (diagnostics["rod_initial_length_m"], diagnostics["rod_length_m"]) == pytest.approx((length, length), rel=1e-12)
     assert length - 1.5e-3 < shown < length - 1e-5
     fraction, z = cells(own)
     fraction[z < -15.4e-3] = 0.0
@@ -86,8 +86,8 @@ def test_a_rod_has_the_length_of_the_deck(keys, length):
 ])  # fmt: skip
 def test_a_rod_that_is_not_by_itself_has_the_length_of_its_cells(before, after, length):
     whole = text(nose="flat", tip="-0.3 mm").replace("[[body]]", before + "[[body]]", 1) + after
-    found = Simulation(deck.loads(whole))
-    assert found.penetrator.length == found.penetrator._length()[0] == pytest.approx(length, rel=1e-9)
+    shot = Simulation(deck.loads(whole))
+    assert shot.penetrator.length == shot.penetrator._length()[0] == pytest.approx(length, rel=1e-9)
 
 
 def test_depth_counts_the_share_of_the_last_cell(simulation):
@@ -106,16 +106,16 @@ def test_the_depth_of_a_rod_that_rebounds_is_the_largest(simulation):
     fraction[(z > -0.5e-3) & (z < 4e-3), :6] = 1.0
     sim.penetrator.watch()
     fraction[z > 1e-3] = 0.0
-    found = sim.diagnostics()
-    assert (found["penetration_depth_m"], found["nose_depth_m"]) == pytest.approx((4e-3, 1e-3), rel=1e-9)
-    assert found["penetration_over_length"] == pytest.approx(4.0 / 20.2, rel=1e-9)
-    assert (sim.penetrator.nose(), sim.penetrator.perforates()) == (found["nose_depth_m"], False)
+    first = sim.diagnostics()
+    assert (first["penetration_depth_m"], first["nose_depth_m"]) == pytest.approx((4e-3, 1e-3), rel=1e-9)
+    assert first["penetration_over_length"] == pytest.approx(4.0 / 20.2, rel=1e-9)
+    assert (sim.penetrator.nose(), sim.penetrator.perforates()) == (first["nose_depth_m"], False)
     again = Simulation(sim.deck)
     again.penetrator.resume(json.loads(json.dumps(sim.penetrator.saved())))
-    assert again.diagnostics()["penetration_depth_m"] == found["penetration_depth_m"]
+    assert again.diagnostics()["penetration_depth_m"] == first["penetration_depth_m"]
     fraction[z > -5e-3] = 0.0
     sim.penetrator.watch()
-    assert (sim.diagnostics()["penetration_depth_m"], sim.diagnostics()["nose_depth_m"]) == (found["penetration_depth_m"], 0.0)
+    assert (sim.diagnostics()["penetration_depth_m"], sim.diagnostics()["nose_depth_m"]) == (first["penetration_depth_m"], 0.0)
 
 
 def test_fragments_behind_the_tail_do_not_count(simulation):
@@ -124,13 +124,13 @@ def test_fragments_behind_the_tail_do_not_count(simulation):
     assert simulation.diagnostics()["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
 
 
-@pytest.mark.parametrize(("length", "radius", "core", "found"), [
+@pytest.mark.parametrize(("length", "radius", "core", "expected"), [
     (1.0, 1.0, 1.0, RIGID), (0.951, 1.099, 0.901, RIGID), (1.0, 1.101, 1.0, DEFORMING), (0.949, 1.0, 1.0, DEFORMING),
     (0.667, 1.5, 0.901, DEFORMING), (0.666, 1.0, 1.0, ERODING), (0.22, 1.3, 1.0, ERODING), (1.0, 1.0, 0.899, ERODING),
     (0.0, 0.0, 0.0, ERODING),
 ])  # fmt: skip
-def test_the_rule_of_the_regimes(length, radius, core, found):
-    assert regime(length, radius, core) == found
+def test_the_rule_of_the_regimes(length, radius, core, expected):
+    assert regime(length, radius, core) == expected
 
 
 def test_the_rule_is_among_the_words():
@@ -151,9 +151,9 @@ def test_regimes(simulation):
     skirt = (z > -15e-3) & (z < -9e-3)
     fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it material that was turned back
     fraction[np.ix_(skirt, np.arange(24) == 7)] = 1.0
-    found = simulation.diagnostics()
-    assert found["rod_core_mass_kg"] < 0.9 * found["rod_mass_kg"]
-    assert found["regime"] == "eroding"
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_core_mass_kg"] < 0.9 * diagnostics["rod_mass_kg"]
+    assert diagnostics["regime"] == "eroding"
 
 
 def test_failed_material_is_debris(simulation):
@@ -162,12 +162,12 @@ def test_failed_material_is_debris(simulation):
     _, z = cells(simulation)
     damage = simulation.grid.interior(simulation.state.dmg)
     damage[0][z > -4e-3] = 1.0
-    found = simulation.diagnostics()
-    assert found["rod_length_m"] == pytest.approx(16.5e-3, rel=1e-9)
-    assert found["penetration_depth_m"] == before["penetration_depth_m"]
-    assert found["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
-    assert found["rod_core_mass_kg"] < found["rod_mass_kg"] - found["rod_failed_mass_kg"] + 1e-12
-    assert (found["target_failed_mass_kg"], found["regime"]) == (0.0, "eroding")
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_length_m"] == pytest.approx(16.5e-3, rel=1e-9)
+    assert diagnostics["penetration_depth_m"] == before["penetration_depth_m"]
+    assert diagnostics["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
+    assert diagnostics["rod_core_mass_kg"] < diagnostics["rod_mass_kg"] - diagnostics["rod_failed_mass_kg"] + 1e-12
+    assert (diagnostics["target_failed_mass_kg"], diagnostics["regime"]) == (0.0, "eroding")
 
 
 def test_material_that_flies_back_does_not_stop_the_run(simulation):
@@ -176,10 +176,10 @@ def test_material_that_flies_back_does_not_stop_the_run(simulation):
     fraction[(z > -11e-3) & (z < -10e-3)] = 0.0
     v = simulation.grid.interior_vertices(simulation.state.v)[0]
     v[:] = np.where(simulation.grid.z_edges < -10.4e-3, -1000.0, 1000.0)[:, None]
-    found = simulation.diagnostics()
-    assert abs(found["rod_mean_velocity_m_s"]) < 100.0
-    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
-    assert simulation.penetrator.velocity() == found["rod_core_velocity_m_s"]
+    diagnostics = simulation.diagnostics()
+    assert abs(diagnostics["rod_mean_velocity_m_s"]) < 100.0
+    assert diagnostics["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
+    assert simulation.penetrator.velocity() == diagnostics["rod_core_velocity_m_s"]
     simulation.penetrator._intact = lambda rows, columns=slice(None): 0.0 * fraction[rows, columns]
     assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # momentum of the rest over the whole mass
 
@@ -193,11 +193,11 @@ def test_debris_against_the_flank_is_not_of_the_core(simulation):
     fraction[np.ix_(beside, np.arange(24) >= 6)] = 1.0
     simulation.grid.interior(simulation.state.rho)[0][beside] = 18160.0
     v[np.ix_((simulation.grid.z_edges > -21e-3) & (simulation.grid.z_edges < -5e-3), np.arange(25) > 6)] = -400.0
-    found = simulation.diagnostics()
-    assert found["rod_mean_velocity_m_s"] < 0.0
-    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=0.01)
-    assert found["rod_core_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=1e-9)
-    assert simulation.penetrator.speed() == found["rod_core_velocity_m_s"]
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_mean_velocity_m_s"] < 0.0
+    assert diagnostics["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=0.01)
+    assert diagnostics["rod_core_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=1e-9)
+    assert simulation.penetrator.speed() == diagnostics["rod_core_velocity_m_s"]
 
 
 def test_a_run_does_not_end_while_the_tail_feeds_the_head():
@@ -227,13 +227,13 @@ def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
     sim = ball(*options)
     while sim.stop_reason() is None:
         sim.step()
-    found = sim.diagnostics()
+    diagnostics = sim.diagnostics()
     assert sim.stop_reason() == reason
     assert sim.of_targets()["plate"]["exit_velocity_m_s"] > 3500.0
-    assert found["rod_residual_velocity_m_s"] > 3500.0
-    assert found["rod_residual_mass_kg"] > 0.5 * sim.penetrator.mass
-    assert found["penetration_depth_m"] > 6e-3
-    assert (found["regime"] == LEFT) is (reason == "ball left the mesh")
+    assert diagnostics["rod_residual_velocity_m_s"] > 3500.0
+    assert diagnostics["rod_residual_mass_kg"] > 0.5 * sim.penetrator.mass
+    assert diagnostics["penetration_depth_m"] > 6e-3
+    assert (diagnostics["regime"] == LEFT) is (reason == "ball left the mesh")
 
 
 def test_a_rod_that_earlier_bodies_cover_has_no_speed():
@@ -278,19 +278,19 @@ def test_a_rod_that_leaves_the_mesh(options):
         if sim.penetrator.exit is None:
             before = sim.diagnostics()
             masses.append(before["rod_core_mass_kg"])
-    found = sim.diagnostics()
-    assert found["regime"] == LEFT
+    diagnostics = sim.diagnostics()
+    assert diagnostics["regime"] == LEFT
     assert before["regime"] != LEFT
-    assert found["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
-    assert found["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
+    assert diagnostics["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
+    assert diagnostics["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
     shortly = masses[-40:]  # the row of its tail is core in one cycle and debris in the next
-    assert 0.99 * min(shortly) < found["rod_residual_mass_kg"] < 1.01 * max(shortly)
-    assert found["rod_mass_kg"] < 0.99 * sim.penetrator.mass
+    assert 0.99 * min(shortly) < diagnostics["rod_residual_mass_kg"] < 1.01 * max(shortly)
+    assert diagnostics["rod_mass_kg"] < 0.99 * sim.penetrator.mass
     names = ("regime", "penetration_depth_m", "rod_residual_velocity_m_s", "rod_residual_mass_kg")
     while sim.penetrator._length()[0] > 0.0:
         sim.step()
     assert sim.penetrator.gone
-    assert {name: sim.diagnostics()[name] for name in names} == {name: found[name] for name in names}
+    assert {name: sim.diagnostics()[name] for name in names} == {name: diagnostics[name] for name in names}
 
 
 def test_a_rod_that_has_perforated_flies_on():
@@ -298,12 +298,12 @@ def test_a_rod_that_has_perforated_flies_on():
     while not sim.penetrator.perforates():
         assert sim.diagnostics()["rod_residual_mass_kg"] is None
         sim.step()
-    found = sim.diagnostics()
-    assert found["rod_residual_velocity_m_s"] == found["rod_core_velocity_m_s"] > 500.0
-    assert found["rod_residual_mass_kg"] == found["rod_core_mass_kg"]
-    assert found["rod_residual_length_m"] == found["rod_length_m"]
-    assert found["regime"] != LEFT
-    assert found["exit_time_s"] is None or found["exit_time_s"] == sim.time
+    diagnostics = sim.diagnostics()
+    assert diagnostics["rod_residual_velocity_m_s"] == diagnostics["rod_core_velocity_m_s"] > 500.0
+    assert diagnostics["rod_residual_mass_kg"] == diagnostics["rod_core_mass_kg"]
+    assert diagnostics["rod_residual_length_m"] == diagnostics["rod_length_m"]
+    assert diagnostics["regime"] != LEFT
+    assert diagnostics["exit_time_s"] is None or diagnostics["exit_time_s"] == sim.time
     while sim.cycle % WATCH_EVERY:
         sim.step()
     when = sim.diagnostics()["exit_time_s"]

@@ -29,11 +29,11 @@ def test_totals(moving):
     state, grid = moving.state, moving.grid
     mass = grid.interior(state.vof * state.rho * grid.volume)
     vertex_mass, u, v = (grid.interior_vertices(field) for field in (state.mass, state.u, state.v))
-    found = totals(state)
-    np.testing.assert_allclose(found.mass, mass.sum(axis=(1, 2)), rtol=1e-13)
-    assert found.internal == pytest.approx(np.sum(mass * grid.interior(state.e)), rel=1e-12)
-    assert found.momentum == pytest.approx(np.sum(vertex_mass * v), rel=1e-12)
-    assert found.kinetic == pytest.approx(0.5 * np.sum(vertex_mass * (u**2 + v**2)), rel=1e-12)
+    sums = totals(state)
+    np.testing.assert_allclose(sums.mass, mass.sum(axis=(1, 2)), rtol=1e-13)
+    assert sums.internal == pytest.approx(np.sum(mass * grid.interior(state.e)), rel=1e-12)
+    assert sums.momentum == pytest.approx(np.sum(vertex_mass * v), rel=1e-12)
+    assert sums.kinetic == pytest.approx(0.5 * np.sum(vertex_mass * (u**2 + v**2)), rel=1e-12)
 
 
 @pytest.mark.parametrize("m", [0, 1])

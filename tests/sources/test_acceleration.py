@@ -53,9 +53,9 @@ def test_free_fall_is_exact(advection):
     np.testing.assert_allclose(simulation.grid.interior_vertices(simulation.state.v[0])[moving], v, rtol=1e-9)
     assert face(simulation) == pytest.approx(12e-3 + 100.0 * t + 0.5 * G * t * t, abs=1e-9)
     assert abs(simulation.grid.interior(simulation.state.e)).max() < 1e-6 * 0.5 * v * v
-    found, sink = simulation.conservation(), simulation.audit.sinks["gravity"]
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance, sink = simulation.conservation(), simulation.audit.sinks["gravity"]
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
     assert sink.momentum == pytest.approx(-mass * G * t, rel=1e-12)
     assert sink.energy == pytest.approx(-0.5 * mass * (v**2 - 100.0**2), rel=1e-9)
     assert simulation.doubts() == []
@@ -108,7 +108,7 @@ def density_at(material, p):
 
 def column(names):
     """Densities from the top down in which every vertex is in balance: the pressure difference carries its half cells."""
-    found, p = [], 0.0
+    densities, p = [], 0.0
     weight = 0.0  # of the half cell above
     for name in names:
         material = library.load(name)
@@ -116,8 +116,8 @@ def column(names):
         for _ in range(60):
             rho = density_at(material, p + weight - 0.5 * G * H * rho)
         p, weight = p + weight - 0.5 * G * H * rho, -0.5 * G * H * rho
-        found.append((rho, p))
-    return found
+        densities.append((rho, p))
+    return densities
 
 
 def standing(names, extra=""):
@@ -176,12 +176,12 @@ def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
     pressure = simulation.grid.interior(simulation.state.p)[:N, 1]
     np.testing.assert_allclose(pressure, expected, rtol=1e-6)
     assert abs(simulation.state.v).max() < 1e-6
-    found, sinks = simulation.conservation(), simulation.audit.sinks
+    balance, sinks = simulation.conservation(), simulation.audit.sinks
     weight = simulation.audit.start.mass.sum() * G * simulation.time
     given = sum(sinks[f"gravity on {name}"].momentum for name in set(names))
     assert given == pytest.approx(-weight, rel=1e-12)
     assert sinks["walls"].momentum == pytest.approx(weight, rel=1e-12)  # the momentum of the column itself is round-off
-    assert abs(found["total_energy"]) < 1e-12
+    assert abs(balance["total_energy"]) < 1e-12
     assert simulation.doubts() == []
 
 
@@ -223,9 +223,9 @@ def test_a_force_next_to_a_contact_passes_through_it(pushed):
     (other,) = set(mass) - {pushed}
     assert means[other] * given > 0.0
     assert abs(means[other]) > 0.01 * abs(means[pushed])
-    found = simulation.conservation()
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance = simulation.conservation()
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
     assert simulation.audit.sinks["gravity"].momentum == pytest.approx(-given, rel=1e-8)
 
 

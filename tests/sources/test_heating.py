@@ -85,9 +85,9 @@ def test_energy_and_audit_close_to_round_off():
     simulation.run()
     given = -simulation.audit.sinks["beam"].energy
     assert given == pytest.approx(4e4 * 2660.0 * 2.5e-3 * 2.25e-3, rel=2e-3)
-    found = simulation.conservation()
-    assert abs(found["total_energy"]) < 1e-13
-    assert found["sinks"]["beam"] == {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": -given}
+    balance = simulation.conservation()
+    assert abs(balance["total_energy"]) < 1e-13
+    assert balance["sinks"]["beam"] == {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": -given}
     assert simulation.sources.given == pytest.approx([4e4], rel=1e-12)
     assert simulation.conservation()["kinetic_energy_J"] > 0.0
     assert simulation.doubts() == []
@@ -128,5 +128,5 @@ def test_a_source_may_set_variables_before_the_first_step(monkeypatch):
 
     simulation.sources._all = [(Crushed(name="press", body="block"), 0)]
     assert simulation.sources.begin() == [f"{2117.647 * 0.4e-3 * 39e-3:.3g} kg"]
-    found = simulation.grid.interior(simulation.state.q[7, 0])
-    np.testing.assert_array_equal(found[:, 1], 1.0 + simulation.grid.zc[simulation.grid.inside[0]])
+    distention = simulation.grid.interior(simulation.state.q[7, 0])
+    np.testing.assert_array_equal(distention[:, 1], 1.0 + simulation.grid.zc[simulation.grid.inside[0]])

@@ -54,9 +54,9 @@ def together(model, par, dt, factor, trial, strain, T, p, rho, G):
 
 def alone(model, par, dt, factor, *cells):
     """(dep, flow stress) of `plastic_increment`, cell by cell."""
-    found = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par, 0.0)
-             for trial, ep, T, p, rho, G in zip(*cells, strict=True)]
-    return tuple(np.array(found).T)
+    answers = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par, 0.0)
+               for trial, ep, T, p, rho, G in zip(*cells, strict=True)]
+    return tuple(np.array(answers).T)
 
 
 def test_the_rows_of_lanes_do_not_overlap_and_fill_the_array():
@@ -74,11 +74,11 @@ def test_together_is_alone(module, strength, density):
     for k in range(60):
         cells = states(module, par, density, 1 + k % LANES)
         dt, factor = 10.0 ** RANDOM.uniform(-12.0, -5.0), (1.0, 1.5625)[k % 2]
-        found, expected = together(module.ID, par, dt, factor, *cells), alone(module.ID, par, dt, factor, *cells)
-        for mine, other in zip(found, expected, strict=True):
+        answers, expected = together(module.ID, par, dt, factor, *cells), alone(module.ID, par, dt, factor, *cells)
+        for mine, other in zip(answers, expected, strict=True):
             np.testing.assert_array_equal(mine, other)
-        plastic += np.count_nonzero(found[0])
-        melted += np.count_nonzero((found[1] == 0.0) & (found[0] > 0.0))
+        plastic += np.count_nonzero(answers[0])
+        melted += np.count_nonzero((answers[1] == 0.0) & (answers[0] > 0.0))
     assert plastic > 200
     assert (melted > 0) == (melts and module.CONSTANT_MODULUS)
 
@@ -96,9 +96,9 @@ def test_neither_place_nor_company_changes_a_bit(name):
         np.testing.assert_array_equal(np.ravel(one), whole[:, k])
     spoilt = [values.copy() for values in cells]
     spoilt[0][::2] = math.nan
-    found = np.array(together(module.ID, par, 1e-8, 1.0, *spoilt))
-    np.testing.assert_array_equal(found[:, 1::2], whole[:, 1::2])
-    assert np.isnan(found[:, ::2][:, cells[5][::2] > 0.0]).all()
+    answers = np.array(together(module.ID, par, 1e-8, 1.0, *spoilt))
+    np.testing.assert_array_equal(answers[:, 1::2], whole[:, 1::2])
+    assert np.isnan(answers[:, ::2][:, cells[5][::2] > 0.0]).all()
 
 
 #: arguments on which the flow stress of each model depends
@@ -117,8 +117,8 @@ def test_no_nan_ends_as_an_elastic_step(name):
     for what in ("trial", *FEELS[name]):
         given = {"trial": trial, "strain": strain, "T": T, "p": p, "rho": rho, what: math.nan}
         cell = [np.array([value]) for value in (*given.values(), G)]
-        for found in (alone(module.ID, par, 1e-8, 1.0, *cell), together(module.ID, par, 1e-8, 1.0, *cell)):
-            assert np.isnan(found).all(), what
+        for answer in (alone(module.ID, par, 1e-8, 1.0, *cell), together(module.ID, par, 1e-8, 1.0, *cell)):
+            assert np.isnan(answer).all(), what
 
 
 def test_a_flow_stress_that_turns_nan_ends_the_search():

@@ -71,8 +71,8 @@ def test_a_nan_is_not_hidden():
 @pytest.mark.parametrize("name", WITH_LINE)
 def test_lines_of_the_library_rise_without_a_jump(name):
     line, eta = line_of(name), np.linspace(0.9, 2.0, 2201)
-    found = np.array([melting.temperature(x, line) for x in eta])
-    rises = np.diff(found) / found[1:]
+    temperatures = np.array([melting.temperature(x, line) for x in eta])
+    rises = np.diff(temperatures) / temperatures[1:]
     assert (rises > 0.0).all()
     assert rises.max() < 0.005
     assert library.load(name).eos.numbers["specific_heat"].source

@@ -63,11 +63,11 @@ class Client:
             os.kill(os.getpid(), signal.SIGINT)
             return Outcome("interrupted", "SIGINT", fresh=True)
         deck = tomllib.loads(text)
-        found = self.outcome(deck["body"][0]["velocity"][1], deck)
-        if isinstance(found, Outcome):
-            return found
+        outcome = self.outcome(deck["body"][0]["velocity"][1], deck)
+        if isinstance(outcome, Outcome):
+            return outcome
         try:
-            write(place, text, **found)
+            write(place, text, **outcome)
         except OSError as error:
             return Outcome("failed", f"{place}: {error.strerror}", type(error).__name__, host="here")
         return Outcome("done", host="here", wall_s=1.0)

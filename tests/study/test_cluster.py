@@ -167,9 +167,9 @@ def test_a_sweep_on_this_machine_listens_to_nobody_else():
     with cluster.local(1, 1) as client:
         workers = psutil.Process().children(recursive=True)
         places = {
-            (process.pid, found.laddr.ip)
+            (process.pid, connection.laddr.ip)
             for process in (psutil.Process(), *workers)
-            for found in process.net_connections("tcp") if found.status == psutil.CONN_LISTEN
+            for connection in process.net_connections("tcp") if connection.status == psutil.CONN_LISTEN
         }
         assert {ip for _, ip in places} == {"127.0.0.1"}
         assert len({pid for pid, _ in places}) >= 2

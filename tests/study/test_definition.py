@@ -65,12 +65,12 @@ def noses(folder, more="", overrides=(), change=("", "")):
 
 def test_an_axis_over_noses_removes_the_keys_of_the_others(tmp_path):
     """The example of the guide: all of its decks are valid, and only the ogive has a crh."""
-    found = noses(tmp_path).cases
-    assert [case.message for case in found] == ["", "", ""]
-    rods = [tomllib.loads(case.text)["body"][0] for case in found]
+    planned = noses(tmp_path).cases
+    assert [case.message for case in planned] == ["", "", ""]
+    rods = [tomllib.loads(case.text)["body"][0] for case in planned]
     assert [rod["nose"] for rod in rods] == NOSES
     assert [rod.get("crh") for rod in rods] == [3.0, None, None]
-    assert "body.rod.crh=" in found[1].overrides
+    assert "body.rod.crh=" in planned[1].overrides
 
 
 def test_keys_are_removed_for_every_case(tmp_path):
@@ -126,9 +126,9 @@ def test_one_wrong_case_does_not_sink_the_others(tmp_path):
     ],
 )
 def test_ranges(given, expected):
-    found = ranges.values(Range.model_validate(given))
-    assert found == expected
-    assert [type(value) for value in found] == [type(value) for value in expected]
+    values = ranges.values(Range.model_validate(given))
+    assert values == expected
+    assert [type(value) for value in values] == [type(value) for value in expected]
 
 
 def test_names_are_short_safe_and_unique():

@@ -48,34 +48,34 @@ def runs(tmp_path):
 
 
 def curve(runs, name):
-    found = divergence.compare(*map(Results, runs))
-    return next(each for each in found.curves if each.name == name)
+    curves = divergence.compare(*map(Results, runs))
+    return next(each for each in curves.curves if each.name == name)
 
 
 def test_the_growth_time_of_a_depth(runs):
-    found = curve(runs, "penetration_depth_m").growth(1e-2)
-    assert found.time == pytest.approx(GROWTH, rel=0.02)
-    assert found.error < 0.05 * GROWTH
+    measured = curve(runs, "penetration_depth_m").growth(1e-2)
+    assert measured.time == pytest.approx(GROWTH, rel=0.02)
+    assert measured.error < 0.05 * GROWTH
 
 
 def test_the_growth_time_of_a_field_and_the_cell(runs):
-    found = curve(runs, "pressure")
-    assert found.growth(0.9).time == pytest.approx(GROWTH, rel=0.02)
-    assert {(place.row, place.column, place.body) for place in found.places[1:]} == {(2, 3, "rod")}
-    assert (found.places[-1].z, found.places[-1].r) == pytest.approx((-0.5e-3, 3.5e-3))
+    measured = curve(runs, "pressure")
+    assert measured.growth(0.9).time == pytest.approx(GROWTH, rel=0.02)
+    assert {(place.row, place.column, place.body) for place in measured.places[1:]} == {(2, 3, "rod")}
+    assert (measured.places[-1].z, measured.places[-1].r) == pytest.approx((-0.5e-3, 3.5e-3))
 
 
 def test_the_time_at_which_a_size_is_exceeded(runs):
     """The depth ends at 0.06 m: the difference is 1 % of its largest value, 6.33 cm, after GROWTH ln(0.01 scale / FIRST)."""
-    found = curve(runs, "penetration_depth_m")
-    expected = GROWTH * np.log(0.01 * found.scale / FIRST)
-    assert found.time[found.first_beyond(0.01)] == pytest.approx(expected, abs=1e-7)
-    assert found.first_beyond(0.9) is None
+    measured = curve(runs, "penetration_depth_m")
+    expected = GROWTH * np.log(0.01 * measured.scale / FIRST)
+    assert measured.time[measured.first_beyond(0.01)] == pytest.approx(expected, abs=1e-7)
+    assert measured.first_beyond(0.9) is None
 
 
 def test_equal_quantities_have_no_growth(runs):
-    found = curve(runs, "rod_length_m")
-    assert (found.growth(0.01), found.first_beyond(1e-12)) == (None, None)
+    measured = curve(runs, "rod_length_m")
+    assert (measured.growth(0.01), measured.first_beyond(1e-12)) == (None, None)
 
 
 @pytest.mark.parametrize("difference", [lambda t: 1e-3 + 0.0 * t, lambda t: np.where(t > 2e-5, 8e-3, 2e-5), lambda t: 80.0 * t])

@@ -91,9 +91,9 @@ def test_members_are_dots_behind_the_mark_of_their_median(contents):
 def test_members_make_no_series_of_their_own(tmp_path):
     """Decks of members differ; without an axis they are still one series."""
     place = fake.write_study(tmp_path / "study", {}, repeats=3)
-    found = collect(layout.load(place))
-    choice = responses.choose(found.study, found.records)
-    assert len(panels.panels(found, choice)[0].series) == 1
+    collected = collect(layout.load(place))
+    choice = responses.choose(collected.study, collected.records)
+    assert len(panels.panels(collected, choice)[0].series) == 1
 
 
 def test_an_experiment_is_scored_by_how_probable_its_outcome_was(contents):
@@ -223,9 +223,9 @@ def test_ensembles_of_bodies_without_a_projectile_are_not_split_by_member(tmp_pa
     """If the velocity does not vary, each case has one place on the x axis."""
     for name in ("one", "other"):
         fake.write_study(tmp_path / name, {}, repeats=3)
-    found = collect(layout.gather([tmp_path / "one", tmp_path / "other"]))
-    for record in found.records:
+    collected = collect(layout.gather([tmp_path / "one", tmp_path / "other"]))
+    for record in collected.records:
         record.velocity = None
-    cases = responses.choose(found.study, found.records).x
+    cases = responses.choose(collected.study, collected.records).x
     assert cases.order == ("one/cases/one", "other/cases/other")
-    assert {cases.value(each) for each in found.records} == set(cases.order)
+    assert {cases.value(each) for each in collected.records} == set(cases.order)

@@ -75,11 +75,11 @@ def test_amounts_stay_the_same_for_ever():
 
 def test_members_are_named_after_their_case():
     axis = {"name": "velocity", "key": "body.rod.velocity", "values": ["1086 m/s", "1200 m/s"]}
-    found = planned(axes=[axis], repeats=2)
-    assert [(case.name, case.of, case.member) for case in found] == [
+    plan = planned(axes=[axis], repeats=2)
+    assert [(case.name, case.of, case.member) for case in plan] == [
         ("1086m-s", "1086m-s", 0), ("1086m-s_m1", "1086m-s", 1),
         ("1200m-s", "1200m-s", 0), ("1200m-s_m1", "1200m-s", 1)]  # fmt: skip
-    assert found[1].changed == found[3].changed
+    assert plan[1].changed == plan[3].changed
 
 
 @pytest.mark.parametrize(("ensemble", "said"), [
@@ -105,8 +105,8 @@ def test_an_axis_must_not_set_keys_that_the_ensemble_changes(key, by):
 
 def test_an_axis_of_whole_meshes_may_be_combined_with_an_offset():
     mesh = {"z_start": "-110 mm", "z": [{"to": "150 mm", "size": "1 mm"}]}
-    found = planned(axes=[{"name": "mesh", "variants": {"coarse": {"mesh": mesh}}}], by=["mesh offset"])
-    assert decks.loads(found[1].text).mesh.z_start == pytest.approx(-0.11 + 1e-3 * found[1].changed["mesh offset"])
+    plan = planned(axes=[{"name": "mesh", "variants": {"coarse": {"mesh": mesh}}}], by=["mesh offset"])
+    assert decks.loads(plan[1].text).mesh.z_start == pytest.approx(-0.11 + 1e-3 * plan[1].changed["mesh offset"])
 
 
 def test_a_wall_does_not_move_against_the_bodies():

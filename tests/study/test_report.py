@@ -167,9 +167,9 @@ def test_a_perforated_plate_is_a_bound(tmp_path):
     fake.write_run(tmp_path / "runs" / "slow", 923.0, 0.54, overrides=ogive)
     page, _ = page_of(tmp_path / "runs")
     rows = table(tmp_path / "runs" / "report")
-    found = {name: (row["depth_m"], row["depth_is"], row["depth_error_is"]) for name, row in rows.items()}
-    assert found == {"through": ("0.5334", "at least", "none"), "stopped": ("0.4", "computed", "at most"),
-                     "slow": ("0.5334", "at least", "at least")}  # fmt: skip
+    depths = {name: (row["depth_m"], row["depth_is"], row["depth_error_is"]) for name, row in rows.items()}
+    assert depths == {"through": ("0.5334", "at least", "none"), "stopped": ("0.4", "computed", "at most"),
+                      "slow": ("0.5334", "at least", "at least")}  # fmt: skip
     assert "1227 40.0 ≥ 53.3 ≤ −13.3 ≤ −25" in page.text
     assert "923 ≥ 53.3 41.7 ≥ +11.6 ≥ +28" in page.text
     assert "≥ 53.3 ≥ 53.3 reached reached" in page.text
@@ -265,23 +265,23 @@ def test_a_run_that_was_cut_has_no_error(study):
     fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", stop_reason="end time", rod_core_velocity_m_s=300.0)
     page, _ = page_of(study)
     row = table(study / "report")["1086m-s_ke"]
-    told = "reached its end time, still moving at 300 m/s"
-    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", told, "", "0.35")
-    assert told in page.text
+    reason = "reached its end time, still moving at 300 m/s"
+    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", reason, "", "0.35")
+    assert reason in page.text
     assert "done unfinished" not in page.text
-    assert f"unfinished {told}" not in page.text
+    assert f"unfinished {reason}" not in page.text
 
 
-@pytest.mark.parametrize(("reason", "speed", "told"), [
+@pytest.mark.parametrize(("reason", "speed", "said"), [
     ("end time", 1250.4, "reached its end time, still moving at 1250 m/s"),
     ("number of cycles", -90.6, "reached its number of cycles, still moving at 91 m/s"),
     ("speed of rod below 5 m/s", 1250.4, ""),
     ("end time", 0.9, ""),  # less than a hundredth of the impact velocity
 ])  # fmt: skip
-def test_why_a_run_is_not_at_its_end(study, reason, speed, told):
+def test_why_a_run_is_not_at_its_end(study, reason, speed, said):
     case = study / "cases" / "1086m-s_ke"
     fake.edit_json(case / "summary.json", stop_reason=reason, rod_core_velocity_m_s=speed)
-    assert next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke").unfinished == told
+    assert next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke").unfinished == said
 
 
 @pytest.mark.parametrize("ending", ["gif", "mp4"])

@@ -43,10 +43,10 @@ def label(axis):
     ],
 )
 def test_labels_are_numbers_where_all_of_them_are_of_one_quantity(values, title, numbers):
-    found = label(layout.Axis("size", None, values))
-    assert found.title == title
-    assert found.order == (values if numbers is None else None)
-    assert list(found.values.values()) == (list(values) if numbers is None else pytest.approx(numbers))
+    variable = label(layout.Axis("size", None, values))
+    assert variable.title == title
+    assert variable.order == (values if numbers is None else None)
+    assert list(variable.values.values()) == (list(values) if numbers is None else pytest.approx(numbers))
 
 
 @pytest.mark.parametrize(
@@ -132,8 +132,8 @@ def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
     figure = charts.strip(panel.series, rows, y, contents.belonging, curves)
     assert figure.layout.yaxis.ticktext == tuple("<br>".join(word.rsplit(" ", 1)) if len(word) > 20 else word for word in order)
     runs = [trace for trace in figure.data if trace.legendgroup and trace.meta is None]
-    found = {order[row]: depth for trace in runs for row, depth in zip(trace.y, trace.x, strict=True)}
-    assert found == pytest.approx({rows.value(each): y.value(each) for each in contents.records})
+    depths = {order[row]: depth for trace in runs for row, depth in zip(trace.y, trace.x, strict=True)}
+    assert depths == pytest.approx({rows.value(each): y.value(each) for each in contents.records})
     (tate,) = (trace for trace in figure.data if str(trace.name).startswith("Tate-Alekseevskii: "))
     depth = next(each.depth[0] for each in curves if each.name == "tate")
     assert tate.x == pytest.approx([100 * depth] * 2, rel=1e-4)
@@ -207,11 +207,11 @@ def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
     run = fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3)
     (run / "summary.json").unlink()
     (run / "restart.h5").touch()
-    found = collect(layout.load(tmp_path / "runs")).records[0]
-    assert found.unfinished == "interrupted"
-    assert responses.raw(found, "rod_tail_velocity_m_s") == pytest.approx(0.0)
-    assert responses.raw(found, "rod_residual_velocity_m_s") is None
-    assert found._as_in_summary("body_rod_velocity_m_s") == "bodies.rod.velocity_m_s"
+    collected = collect(layout.load(tmp_path / "runs")).records[0]
+    assert collected.unfinished == "interrupted"
+    assert responses.raw(collected, "rod_tail_velocity_m_s") == pytest.approx(0.0)
+    assert responses.raw(collected, "rod_residual_velocity_m_s") is None
+    assert collected._as_in_summary("body_rod_velocity_m_s") == "bodies.rod.velocity_m_s"
 
 
 def perforations(folder, shots, **summary):
@@ -296,17 +296,17 @@ def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
     axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm",),
                                                                "80 mm": ("body.rod.length=80 mm",)}}  # fmt: skip
     contents = study(tmp_path, axes)
-    found = panels.panels(contents, chosen(contents))
-    assert [[each.label for each in panel.series] for panel in found] == [["length 60 mm", "length 80 mm"]]
-    assert found[0].setup is None
+    drawn = panels.panels(contents, chosen(contents))
+    assert [[each.label for each in panel.series] for panel in drawn] == [["length 60 mm", "length 80 mm"]]
+    assert drawn[0].setup is None
     assert "several geometries" in list(panels.draw(contents, chosen(contents)))[0].notes[0]
     shutil.rmtree(tmp_path / "study")
     shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm"), "long": ("body.rod.velocity=1000 m/s",)}
     for name, overrides in shots.items():
         fake.write_run(tmp_path / "runs" / name, 950.0, text=fake.deck_text(*overrides))
     contents = collect(layout.load(tmp_path / "runs"))
-    found = panels.panels(contents, chosen(contents, by=["numerics.courant"]))
-    assert [len(panel.members) for panel in found] == [1, 1]
+    drawn = panels.panels(contents, chosen(contents, by=["numerics.courant"]))
+    assert [len(panel.members) for panel in drawn] == [1, 1]
 
 
 def test_runs_without_a_projectile_are_drawn_by_their_first_body(tmp_path):

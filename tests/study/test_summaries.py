@@ -78,5 +78,5 @@ def test_no_word_becomes_a_formula():
     """A spreadsheet runs text that begins with one of these."""
     words = ["=cmd|' /C calc'!A0", "+1", "-1+1", "@SUM(A1)", "\t=1", "plain", None, -3.5]
     text = table.to_csv([{"case": word} for word in words])
-    found = [row["case"] for row in csv.DictReader(io.StringIO(text))]
-    assert found == ["'=cmd|' /C calc'!A0", "'+1", "'-1+1", "'@SUM(A1)", "'\t=1", "plain", "", "-3.5"]
+    cells = [row["case"] for row in csv.DictReader(io.StringIO(text))]
+    assert cells == ["'=cmd|' /C calc'!A0", "'+1", "'-1+1", "'@SUM(A1)", "'\t=1", "plain", "", "-3.5"]

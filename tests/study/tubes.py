@@ -56,9 +56,9 @@ def wait_for(condition, seconds: float = 300):
     """The first true value of a function; fails where it takes too long."""
     until = time.monotonic() + seconds
     while time.monotonic() < until:
-        found = condition()
-        if found:
-            return found
+        value = condition()
+        if value:
+            return value
         time.sleep(0.02)
     raise AssertionError(f"nothing within {seconds} s")
 

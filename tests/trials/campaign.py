@@ -39,8 +39,8 @@ def judged(text: str) -> dict:
             cells = [len(edges) - 1 for edges in decks.edges(deck)]
             if cells[0] * cells[1] > MOST_CELLS:
                 return {"ended": "large"}
-            told = check(deck)
-            told.lines(1)
+            texts = check(deck)
+            texts.lines(1)
         except DeckError as error:
             return {"ended": "refused" if str(error).strip() else "crash", "message": str(error)}
         try:
@@ -61,7 +61,7 @@ def judged(text: str) -> dict:
         _read(simulation)
         faults = simulation.faults() + simulation.doubts()
         ended = "untrusted" if faults else "beyond" if beyond else "trusted"
-        return {"ended": ended, "message": "; ".join(faults) or reason, "beyond": beyond, "warnings": told.warnings}
+        return {"ended": ended, "message": "; ".join(faults) or reason, "beyond": beyond, "warnings": texts.warnings}
     except Exception:
         return {"ended": "crash", "message": traceback.format_exc(), "beyond": beyond}
 
@@ -128,10 +128,10 @@ def run(numbers, note=lambda line: None) -> collections.Counter:
     watched, count = Watched(), collections.Counter()
     try:
         for number in numbers:
-            name, told, text = mutants.mutant(number)
+            name, changes, text = mutants.mutant(number)
             ended = watched(text)
             count[ended["ended"]] += 1
-            note({"number": number, "deck": name, "changes": told, **ended})
+            note({"number": number, "deck": name, "changes": changes, **ended})
     finally:
         watched.end()
     return count

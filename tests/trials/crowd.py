@@ -93,18 +93,18 @@ def sums(simulation: Simulation) -> dict[str, float]:
     s, grid = simulation.state, simulation.grid
     mass = s.vof * s.q[RHO] * grid.volume
     inside = (slice(None), *grid.inside)
-    found = {}
+    totals = {}
     for m, name in enumerate(simulation.table.names):
         of_body = mass[m][grid.inside]
-        found[f"mass {name}"] = float(of_body.sum())
-        found[f"internal energy {name}"] = float((of_body * s.q[E, m][grid.inside]).sum())
-        found[f"volume {name}"] = float((s.vof[m] * grid.volume)[grid.inside].sum())
+        totals[f"mass {name}"] = float(of_body.sum())
+        totals[f"internal energy {name}"] = float((of_body * s.q[E, m][grid.inside]).sum())
+        totals[f"volume {name}"] = float((s.vof[m] * grid.volume)[grid.inside].sum())
     vertices = grid.interior_vertices(s.mass)
     u, v = grid.interior_vertices(s.u), grid.interior_vertices(s.v)
     assert np.isfinite(s.q[:, s.vof > 0.0]).all()
     assert mass[inside].min() >= 0.0
-    return found | {"kinetic energy": float(0.5 * (vertices * (u**2 + v**2)).sum()), "momentum": float((vertices * v).sum()),
-                    "radial momentum": float((vertices * u).sum())}
+    return totals | {"kinetic energy": float(0.5 * (vertices * (u**2 + v**2)).sum()), "momentum": float((vertices * v).sum()),
+                     "radial momentum": float((vertices * u).sum())}
 
 
 def restarted(text: str) -> Simulation:
@@ -131,23 +131,23 @@ def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
         plain = advanced(text)
     except UnphysicalState:
         return text, None
-    found: dict[str, float | str] = {}
+    faults: dict[str, float | str] = {}
     missed = unexplained_by_sound(plain)
     if not missed < (CLOSES_BESIDE_PRODUCTS if "detonation" in text else CLOSES):
-        found["audit"] = missed
+        faults["audit"] = missed
     now, audit = sums(plain), plain.audit
     start, sinks = audit.start, audit.sinks.values()
     for m, name in enumerate(plain.table.names):
         lost = now[f"mass {name}"] + sum(sink.mass[m] for sink in sinks) - start.mass[m]
         if not abs(lost) <= 1e-11 * start.mass[m]:
-            found["independent mass"] = float(lost / start.mass[m])
+            faults["independent mass"] = float(lost / start.mass[m])
     energy = now["kinetic energy"] + sum(now[f"internal energy {name}"] for name in plain.table.names)
     lost = energy + sum(sink.energy for sink in sinks) - start.energy
     if not abs(lost) <= 1e-9 * audit.scale:
-        found["independent energy"] = float(lost / audit.scale)
+        faults["independent energy"] = float(lost / audit.scale)
     off = {name: cells for name, cells in plain.conservation()["off_course_cells"].items() if cells > COURSE}
     if off and plain.engine.courses.parted(plain.table.names):
-        found["course"] = max(off.values())
+        faults["course"] = max(off.values())
     scale = {key: max(abs(value), 1e-300) for key, value in now.items()}
     size = (2.0 * start.mass.sum() * audit.scale) ** 0.5
     for key in scale:
@@ -162,18 +162,18 @@ def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
         try:
             twin = sums(advanced(other))
         except UnphysicalState as error:
-            found[name] = str(error)
+            faults[name] = str(error)
             continue
         if name == "mirror":
             twin["momentum"] *= -1.0
         apart = {key: abs(now[key] - twin[key]) / scale[key] for key in now}
         worst = max(apart, key=apart.get)
         if not apart[worst] < TWINS:
-            found[name] = f"{worst}: {apart[worst]:.3g}"
+            faults[name] = f"{worst}: {apart[worst]:.3g}"
     again = restarted(text)
     if not all(np.array_equal(getattr(again.state, name), getattr(plain.state, name)) for name in ARRAYS):
-        found["restart"] = "other bits"
-    return text, found
+        faults["restart"] = "other bits"
+    return text, faults
 
 
 def main(first: str, last: str, file: str) -> None:
@@ -181,9 +181,9 @@ def main(first: str, last: str, file: str) -> None:
     count: collections.Counter = collections.Counter()
     with kept(first, last, file) as (numbers, note):
         for number in numbers:
-            text, found = wrong(number)
-            count.update(["unphysical"] if found is None else list(found) or ["sound"])
-            note({"number": number, "wrong": found} | ({"deck": text} if found else {}))
+            text, faults = wrong(number)
+            count.update(["unphysical"] if faults is None else list(faults) or ["sound"])
+            note({"number": number, "wrong": faults} | ({"deck": text} if faults else {}))
     print(dict(count))
 
 

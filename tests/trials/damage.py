@@ -50,8 +50,8 @@ def _columns(file: Path):
 
 
 def _restart(file: Path):
-    found = snapshot.read(file)
-    return found.arrays, found.texts()
+    contents = snapshot.read(file)
+    return contents.arrays, contents.texts()
 
 
 def _grid(file: Path):
@@ -78,10 +78,10 @@ def _case(directory: Path) -> layout.Case:
 
 
 def _record(file: Path):
-    found = record.read(_case(next(folder for folder in file.parents if folder.name == "run")))
-    if found.problems:
-        raise Error("; ".join(found.problems))
-    return found.deck, found.first, found.last, found.start
+    stored = record.read(_case(next(folder for folder in file.parents if folder.name == "run")))
+    if stored.problems:
+        raise Error("; ".join(stored.problems))
+    return stored.deck, stored.first, stored.last, stored.start
 
 
 #: readers by file

@@ -74,25 +74,25 @@ def _coarsened(edges: np.ndarray, factor: float) -> np.ndarray:
 
 def _segments(edges: np.ndarray) -> list[dict]:
     """Segments of a mesh with these edges, one for each row of equal cells."""
-    found: list[dict] = []
+    segments: list[dict] = []
     sizes = np.diff(edges)
     for number, size in enumerate(sizes):
         if number and abs(size - sizes[number - 1]) < 1e-6 * size:
-            found[-1] = {"to": float(edges[number + 1]), "cells": found[-1]["cells"] + 1}
+            segments[-1] = {"to": float(edges[number + 1]), "cells": segments[-1]["cells"] + 1}
         else:
-            found.append({"to": float(edges[number + 1]), "cells": 1})
-    return found
+            segments.append({"to": float(edges[number + 1]), "cells": 1})
+    return segments
 
 
 def mutant(number: int) -> tuple[str, list[str], str]:
     """The name of the shipped deck, the changes, in words, and the text of the changed deck."""
     chance = random.Random(number)
     name = chance.choice(shipped())
-    tables, told = copy.deepcopy(_base(name)), []
+    tables, words = copy.deepcopy(_base(name)), []
     for _ in range(chance.choice((1, 1, 2, 2, 3, 4))):
         change = chance.choice(changes.CHANGES)
-        told.append(f"{change.__name__}: {change(tables, chance)}")
-    return name, told, toml.dumps({"numbers": "SI", **tables})
+        words.append(f"{change.__name__}: {change(tables, chance)}")
+    return name, words, toml.dumps({"numbers": "SI", **tables})
 
 
 def unchanged(name: str) -> str:

@@ -93,8 +93,8 @@ class Reach:
     def _meets_itself(self) -> bool:
         """Whether a body may meet a wall, an edge with a velocity, the axis, or parts of itself."""
         edge = self.deck.boundaries
-        held = any(getattr(edge, key) in ("wall", "velocity", "piston") for key in ("r_min", "r_max", "z_min", "z_max"))
-        return held or self.converges or any(body.join is not None for body in self.deck.body)
+        edged = any(getattr(edge, key) in ("wall", "velocity", "piston") for key in ("r_min", "r_max", "z_min", "z_max"))
+        return edged or self.converges or any(body.join is not None for body in self.deck.body)
 
     def _limits(self, m: int, starts, table) -> Limits:
         row = self.materials[m]
@@ -118,10 +118,10 @@ def _speeds(simulation) -> np.ndarray:
     grid, edges = simulation.grid, simulation.engine.method.boundaries
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
-    found = [(0.0, 0.0)] if any(edges.having("holds")) else []
+    speeds = [(0.0, 0.0)] if any(edges.having("holds")) else []
     for body in simulation.deck.body:
         u, v = insertion.body_velocity(body, r, z)
-        found += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]
+        speeds += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]
     for n, edge in enumerate(edges.edges):
-        found += [(speed, 0.0) if n < 2 else (0.0, speed) for speed in edge.speeds() if speed]
-    return np.array(found)
+        speeds += [(speed, 0.0) if n < 2 else (0.0, speed) for speed in edge.speeds() if speed]
+    return np.array(speeds)

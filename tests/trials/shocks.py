@@ -54,8 +54,8 @@ class Material:
         low, high = 0.0, MOST_ETA
         for _ in range(60):
             middle = 0.5 * (low + high)
-            e1, found = self._behind(rho, e, middle)
-            weak = found < jump and self.pressure(rho / (1.0 - middle), e1) < pressure
+            e1, reached = self._behind(rho, e, middle)
+            weak = reached < jump and self.pressure(rho / (1.0 - middle), e1) < pressure
             low, high = (middle, high) if weak else (low, middle)
         if self._behind(rho, e, high)[1] == math.inf:
             return rho / (1.0 - low), e + 0.5 * jump**2 + max(self.pressure(rho, e), 0.0) * low / rho

@@ -54,9 +54,9 @@ def _key(original: str, chance: random.Random) -> str:
 def _line(original: str, chance: random.Random) -> str:
     """A line removed, repeated, or moved."""
     lines = original.split("\n")
-    taken = lines.pop(chance.randrange(len(lines)))
+    line = lines.pop(chance.randrange(len(lines)))
     for _ in range(chance.choice((0, 1, 2))):
-        lines.insert(chance.randrange(len(lines) + 1), taken)
+        lines.insert(chance.randrange(len(lines) + 1), line)
     return "\n".join(lines)
 
 

@@ -29,6 +29,6 @@ def test_damaged_files(finished, tmp_path):
 
 @pytest.mark.slow
 def test_thousands_of_damaged_files(finished, tmp_path, tell):
-    found = trials(finished, tmp_path, 1000, 1400)
-    tell(f"4000 damaged files, {found.total()} readings: {found['refused']} refused, {found['same']} as written, 0 crashes")
-    assert found["refused"] > 5000
+    counts = trials(finished, tmp_path, 1000, 1400)
+    tell(f"4000 damaged files, {counts.total()} readings: {counts['refused']} refused, {counts['same']} as written, 0 crashes")
+    assert counts["refused"] > 5000

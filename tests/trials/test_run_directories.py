@@ -28,7 +28,7 @@ def commands(run, study, folder, chance):
 
 def spoiled_directories(seeds, finished, folder):
     """Spoils one or two files of a copy, and runs a command on it; returns how many reported that they could not use it."""
-    told = 0
+    reports = 0
     for seed in seeds:
         chance, place = random.Random(seed), folder / "place"
         shutil.rmtree(place, ignore_errors=True)
@@ -38,8 +38,8 @@ def spoiled_directories(seeds, finished, folder):
         for file in {chance.choice(files), *chance.choices(files, k=chance.choice((0, 1)))}:
             spoil.file(file, chance, files)
         arguments, allowed = commands(str(place / "run"), str(place / "study"), place, chance)
-        told += spoil.judge(arguments, allowed)[0] != 0
-    return told
+        reports += spoil.judge(arguments, allowed)[0] != 0
+    return reports
 
 
 def test_unspoiled_directories_are_read(finished, tmp_path):
@@ -56,6 +56,6 @@ def test_spoiled_directories(finished, tmp_path):
 
 @pytest.mark.slow
 def test_a_thousand_spoiled_directories(finished, tmp_path, tell):
-    told = spoiled_directories(range(1000), finished, tmp_path)
-    tell(f"1000 spoiled directories, {told} refused in words, 0 failures")
-    assert told > 100
+    reports = spoiled_directories(range(1000), finished, tmp_path)
+    tell(f"1000 spoiled directories, {reports} refused in words, 0 failures")
+    assert reports > 100

@@ -13,16 +13,16 @@ from problems.verification.accuracy import BY_NAME, FOLDER
 @pytest.fixture(scope="module")
 def errors(tmp_path_factory):
     """(problem, advection, cells) -> errors in per cent by the name of the quantity; each run is made once."""
-    found = {}
+    percent = {}
 
     def of(name: str, cells: int, variant: str = "both") -> dict[str, float]:
         key = name, cells, variant
-        if key not in found:
+        if key not in percent:
             problem = BY_NAME[name]
             deck = hydro2d.Deck.from_file(FOLDER / problem.deck, problem.overrides(variant, cells))
             run = hydro2d.run(deck, tmp_path_factory.mktemp(name) / "run", quiet=True, columns=problem.columns)
-            found[key] = {each.name: each.error for each in problem.measure(run, cells)}
-        return found[key]
+            percent[key] = {each.name: each.error for each in problem.measure(run, cells)}
+        return percent[key]
 
     return of
 

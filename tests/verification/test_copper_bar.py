@@ -28,9 +28,9 @@ def history(name: str, *overrides: str, body: int = 0):
 def held(bars, known, length: float, foot: float, early: float = 0.05) -> None:
     """Length and foot agree with a solution within shares of its values: at its last time, the foot before within `early`."""
     for expected in known:
-        found, last = bar.at(bars, expected.time), expected is known[-1]
-        assert found.length == pytest.approx(expected.length, rel=length), f"length at {expected.time:g} s"
-        assert found.foot == pytest.approx(expected.foot, rel=foot if last else early), f"foot at {expected.time:g} s"
+        shape, last = bar.at(bars, expected.time), expected is known[-1]
+        assert shape.length == pytest.approx(expected.length, rel=length), f"length at {expected.time:g} s"
+        assert shape.foot == pytest.approx(expected.foot, rel=foot if last else early), f"foot at {expected.time:g} s"
 
 
 KNOWN = bar.reference(227.0, 32.4e-3)

@@ -42,10 +42,10 @@ def shock(up: float, rho: float, p: float) -> tuple[float, float, float]:
 
 
 def audit_closes(simulation: Simulation, to: float = 1e-12) -> None:
-    found = simulation.conservation()
-    assert max(map(abs, found["mass"].values())) < to
-    assert abs(found["axial_momentum"]) < to
-    assert abs(found["total_energy"]) < to
+    balance = simulation.conservation()
+    assert max(map(abs, balance["mass"].values())) < to
+    assert abs(balance["axial_momentum"]) < to
+    assert abs(balance["total_energy"]) < to
 
 
 @pytest.mark.parametrize("choice", ADVECTION)

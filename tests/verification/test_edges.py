@@ -34,10 +34,10 @@ def leaves_unchanged(simulation: Simulation, m: int, velocity: tuple[float, floa
             assert np.abs(g.interior_vertices(field)[s.group[m]][there] - expected).max(initial=0.0) < 1e-6 * SPEED
         assert np.abs(g.interior(s.vof * s.pm)[m]).max() < 1e6
     assert simulation.body_sums(m)[0].sum() < 1e-9 * mass
-    found = simulation.conservation()
-    assert max(map(abs, found["mass"].values())) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
-    assert abs(found["total_energy"]) < 1e-12
+    balance = simulation.conservation()
+    assert max(map(abs, balance["mass"].values())) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
+    assert abs(balance["total_energy"]) < 1e-12
 
 
 @pytest.mark.parametrize("options", [(), CONTACT], ids=["one velocity", "contact"])
@@ -106,10 +106,10 @@ def test_flow_through_transmitting_edges_is_recorded():
     simulation = Simulation(decks.loads(WAVE, ["body.kick.velocity=[0.0, 10.0]", "stop.time=4e-6"]))
     start = simulation.conservation()["start_energy_J"]
     middle(simulation, "v")
-    found = simulation.conservation()
-    assert found["sinks"]["transmitted"]["energy_J"] > 0.8 * start
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance = simulation.conservation()
+    assert balance["sinks"]["transmitted"]["energy_J"] > 0.8 * start
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
 
 
 CORNER = (
@@ -131,10 +131,10 @@ def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
     simulation = Simulation(decks.loads(CORNER, options))
     while simulation.stop_reason() is None:
         simulation.step()
-    found = simulation.conservation()
-    assert found["sinks"]["transmitted"]["energy_J"] > 0.2 * found["start_energy_J"]
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance = simulation.conservation()
+    assert balance["sinks"]["transmitted"]["energy_J"] > 0.2 * balance["start_energy_J"]
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
 
 
 
@@ -215,8 +215,8 @@ def test_a_ball_goes_about_between_four_anvils(sliding):
     assert simulation.state.u[0].min() >= -400.0
     assert simulation.audit.sinks["walls"].momentum > 1.0
     assert simulation.audit.sinks["outflow"].momentum == 0.0
-    found = simulation.conservation()
-    assert max(map(abs, (*found["mass"].values(), found["axial_momentum"], found["total_energy"]))) < 1e-11
+    balance = simulation.conservation()
+    assert max(map(abs, (*balance["mass"].values(), balance["axial_momentum"], balance["total_energy"]))) < 1e-11
 
 
 @pytest.mark.parametrize("edge", ["r_min", "r_max", "z_min", "z_max"])

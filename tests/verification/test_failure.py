@@ -110,15 +110,15 @@ def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
         if simulation.cycle % 5 == 0:
             assert np.all(s.q[SRR : SRZ + 1, where] == 0.0)
             alone.append((where & (s.vof == 1.0)).any(axis=0))
-            found = simulation.diagnostics()
-            counts.append((found["rod_failed_mass_kg"], found["target_failed_mass_kg"]))
-            assert found["rod_failed_mass_kg"] + found["rod_core_mass_kg"] <= found["rod_mass_kg"] * (1 + 1e-12)
+            measured = simulation.diagnostics()
+            counts.append((measured["rod_failed_mass_kg"], measured["target_failed_mass_kg"]))
+            assert measured["rod_failed_mass_kg"] + measured["rod_core_mass_kg"] <= measured["rod_mass_kg"] * (1 + 1e-12)
 
     simulation = finish(deck.loads(SHOT + sliding), watch)
-    found = simulation.diagnostics()
+    measured = simulation.diagnostics()
     rod, plate = counts[-1]
-    assert 0.02 < rod / found["rod_mass_kg"] < 0.9
-    assert plate > 0.02 * found["rod_mass_kg"]
+    assert 0.02 < rod / measured["rod_mass_kg"] < 0.9
+    assert plate > 0.02 * measured["rod_mass_kg"]
     assert abs(simulation.conservation()["total_energy"]) < 1e-2
 
 
@@ -195,8 +195,8 @@ def test_a_bar_of_two_bodies_breaks_where_the_tension_is(share):
     places = simulation.grid.zc[np.nonzero(failed(simulation).any(axis=(0, 2)))[0]]
     assert places.size > 0
     assert np.abs(places).max() < 3e-3
-    held = to_the_end(Simulation(deck.loads(text, ['materials.weak.fracture_stress="2.5 GPa"'])))
-    assert not failed(held).any()
+    intact = to_the_end(Simulation(deck.loads(text, ['materials.weak.fracture_stress="2.5 GPa"'])))
+    assert not failed(intact).any()
 
 
 @pytest.mark.parametrize("overrides", [
@@ -212,7 +212,7 @@ def test_settings_that_exclude_a_fracture_stress(overrides):
 
 
 def test_tensile_none_switches_a_fracture_stress_off_and_a_resolved_deck_keeps_it():
-    found = deck.loads(RING, ['materials.ring.fracture_stress="0.2 GPa"'])
-    again = deck.loads(found.to_toml())
+    loaded = deck.loads(RING, ['materials.ring.fracture_stress="0.2 GPa"'])
+    again = deck.loads(loaded.to_toml())
     assert again.materials["ring"].fracture_stress.value == 0.2e9
-    assert np.isinf(Simulation(deck.loads(found.to_toml(), ['failure.tensile="none"'])).table.fracture_stress).all()
+    assert np.isinf(Simulation(deck.loads(loaded.to_toml(), ['failure.tensile="none"'])).table.fracture_stress).all()

@@ -27,10 +27,10 @@ def advance(simulation: Simulation, cycles: int) -> Simulation:
 
 
 def closes(simulation: Simulation, tolerance: float = 1e-11) -> None:
-    found = simulation.conservation()
-    assert max(map(abs, found["mass"].values())) < tolerance
-    assert abs(found["axial_momentum"]) < tolerance
-    assert abs(found["total_energy"]) < tolerance
+    balance = simulation.conservation()
+    assert max(map(abs, balance["mass"].values())) < tolerance
+    assert abs(balance["axial_momentum"]) < tolerance
+    assert abs(balance["total_energy"]) < tolerance
 
 
 @pytest.mark.parametrize("options", [(), CONTACT], ids=["one velocity", "contact"])

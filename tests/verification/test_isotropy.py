@@ -129,10 +129,10 @@ def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
     density = 1.0
     energy = {2.5 * SPEED**2}
     """, list(options)))
-    found: dict[int, np.ndarray] = {}
+    at_marks: dict[int, np.ndarray] = {}
     dx = 1.4 / cells
     radii = np.linspace(dx / 2, 0.9, 6001)
-    while 10 not in found:
+    while 10 not in at_marks:
         simulation.step()
         if simulation.cycle % 5 or simulation.time < 0.5 / SPEED:
             continue
@@ -140,8 +140,8 @@ def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
         quarter = np.pad(pressure, ((1, 0), (1, 0)), mode="symmetric")
         here = np.array([radii[np.nonzero(along(quarter, radii, np.radians(angle), dx) > 0.25 * SPEED**2)[0][0]]
                          for angle in ANGLES]) / dx
-        found |= {mark: here for mark in (40, 20, 10) if here.mean() < mark and mark not in found}
-    return found
+        at_marks |= {mark: here for mark in (40, 20, 10) if here.mean() < mark and mark not in at_marks}
+    return at_marks
 
 
 @pytest.mark.slow

@@ -111,8 +111,8 @@ def bar(share: float, rate: float, strain: float, poisson: float, *overrides: st
     s.u[1], s.v[1] = poisson * rate * g.r, -rate * g.z[:, None]
     s.u[0], s.v[0] = np.where(g.r > 0.5 * surface, poisson * rate * surface**2 / np.maximum(g.r, 1e-9), 0.0), 0.0
     j0, j1, i0, i1 = simulation.engine.mesh_box
-    for held in (s.u[:, :, i0], s.u[:, :, i1], s.v[:, j0], s.v[:, j1]):
-        held[...] = 0.0
+    for prescribed in (s.u[:, :, i0], s.u[:, :, i1], s.v[:, j0], s.v[:, j1]):
+        prescribed[...] = 0.0
     engine = simulation.engine
     engine.audit = Audit.open(s, engine.sound_speeds)  # the audit begins with the given motion
     strains = np.zeros((2, COLUMN + 1))
@@ -244,12 +244,12 @@ def checkerboards(simulation):
     full = f[tip - 12 : tip + 1] == 1.0
     around = full[:-1, :-1] & full[1:, :-1] & full[:-1, 1:] & full[1:, 1:]
     assert around.sum() > 20
-    found = []
+    patterns = []
     for stress in (state.pm[0], *state.q[SRR:SRZ + 1, 0]):
         a = grid.interior(stress)[tip - 12 : tip + 1]
         pattern = 0.25 * ((a[:-1, :-1] + a[1:, 1:]) - (a[1:, :-1] + a[:-1, 1:]))[around]
-        found.append(np.sqrt(np.mean(pattern**2)))
-    return found
+        patterns.append(np.sqrt(np.mean(pattern**2)))
+    return patterns
 
 
 @functools.cache

@@ -63,7 +63,7 @@ def test_a_simple_wave(edge):
     moves = (np.abs(velocity) > 0.02) & (np.abs(velocity) < 0.18)
     assert moves.sum() > 20
     np.testing.assert_allclose(sign * velocity[moves], 5.0 * (sound[moves] - np.sqrt(1.4)), atol=2e-3)
-    found = simulation.conservation()
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
-    assert found["sinks"]["piston"]["energy_J"] < 0.0
+    balance = simulation.conservation()
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
+    assert balance["sinks"]["piston"]["energy_J"] < 0.0

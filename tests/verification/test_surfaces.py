@@ -146,12 +146,12 @@ class Bar:
 
 def beside(cells: np.ndarray) -> np.ndarray:
     """The neighbours of cells."""
-    found = np.zeros_like(cells)
-    found[1:] |= cells[:-1]
-    found[:-1] |= cells[1:]
-    found[:, 1:] |= cells[:, :-1]
-    found[:, :-1] |= cells[:, 1:]
-    return found
+    neighbours = np.zeros_like(cells)
+    neighbours[1:] |= cells[:-1]
+    neighbours[:-1] |= cells[1:]
+    neighbours[:, 1:] |= cells[:, :-1]
+    neighbours[:, :-1] |= cells[:, 1:]
+    return neighbours
 
 
 @functools.cache
@@ -169,22 +169,22 @@ def loaded(around: str, share: float, angle: int, law: str, cycles: int = 0):
     return under_load, at_rest
 
 
-def expected(found: SimpleNamespace, angle: int, law: str) -> float:
+def expected(measured: SimpleNamespace, angle: int, law: str) -> float:
     """Axial stress by the law under the measured lateral stress, which the fluid of a tube exerts."""
     if law == "plastic":
-        return found.across - YIELD * (2 / np.sqrt(3) if angle else 1.0)
+        return measured.across - YIELD * (2 / np.sqrt(3) if angle else 1.0)
     if angle:
-        return POISSON / (1 - POISSON) * found.across - YOUNG / (1 - POISSON**2) * found.strain
-    return 2 * POISSON * found.across - YOUNG * found.strain
+        return POISSON / (1 - POISSON) * measured.across - YOUNG / (1 - POISSON**2) * measured.strain
+    return 2 * POISSON * measured.across - YOUNG * measured.strain
 
 
 def held(around: str, share: float, angle: int, law: str, cycles: int, force: float, stress: float) -> None:
     """Force of the section, and stress of the cut and of the outermost full cells, within shares of their exact values."""
-    found, _ = loaded(around, share, angle, law, cycles)
-    assert found.force == pytest.approx(expected(found, angle, law), rel=force)
-    assert found.exerted == pytest.approx(expected(found, angle, law), rel=force)
-    assert found.outer == pytest.approx(found.inner, rel=stress)
-    assert found.cut == pytest.approx(found.inner, rel=stress)
+    measured, _ = loaded(around, share, angle, law, cycles)
+    assert measured.force == pytest.approx(expected(measured, angle, law), rel=force)
+    assert measured.exerted == pytest.approx(expected(measured, angle, law), rel=force)
+    assert measured.outer == pytest.approx(measured.inner, rel=stress)
+    assert measured.cut == pytest.approx(measured.inner, rel=stress)
 
 
 @pytest.mark.parametrize("share", SHARES)
@@ -220,9 +220,9 @@ def test_elastic_bar_in_gas(share):
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar_that_is_glued_in(share):
     """Along z, bonded to a fluid: stress of the cut row within 1 %; with one pressure in a cell 5 to 36 %."""
-    found, _ = loaded("glue", share, 0, "elastic")
-    assert found.outer == pytest.approx(found.inner, rel=0.001)
-    assert found.cut == pytest.approx(found.inner, rel=0.012)
+    measured, _ = loaded("glue", share, 0, "elastic")
+    assert measured.outer == pytest.approx(measured.inner, rel=0.001)
+    assert measured.cut == pytest.approx(measured.inner, rel=0.012)
 
 
 @pytest.mark.parametrize("share", SHARES)

@@ -68,9 +68,9 @@ def exact(velocity, number=None):
 @pytest.mark.parametrize("number", [11, 21, 41])
 def test_a_run_with_a_table_misses_the_model_by_what_the_interpolation_does(velocity, number):
     """The pressure behind the shock, against the jump conditions with the table and with the model."""
-    found, audit = behind(velocity, number)
-    assert found == pytest.approx(exact(velocity, number), rel=2e-3)
-    assert found / behind(velocity)[0] - 1.0 == pytest.approx(exact(velocity, number) / exact(velocity) - 1.0, abs=1e-3)
+    pressure, audit = behind(velocity, number)
+    assert pressure == pytest.approx(exact(velocity, number), rel=2e-3)
+    assert pressure / behind(velocity)[0] - 1.0 == pytest.approx(exact(velocity, number) / exact(velocity) - 1.0, abs=1e-3)
     assert audit["total_energy"] == pytest.approx(0.0, abs=1e-12)
 
 

@@ -120,13 +120,13 @@ def sedov(j: int, choice: str) -> Row:
     text += box("cold", energy=1e-9, join="hot", **cold, **state) + numerics(choice) + stop(1.0)
 
     def error(simulation: Simulation) -> float:
-        grid, found = simulation.grid, []
+        grid, ends = simulation.grid, []
         p = grid.interior(simulation.state.p)
         if j != 2:
-            found.append((grid.zc[grid.inside[0]], p[:, 0]))
+            ends.append((grid.zc[grid.inside[0]], p[:, 0]))
         if j != 1:
-            found.append((grid.rc[grid.inside[1]], p[0]))
-        radii = [crossing(x, line, 0.5 * line[x > 0.3 * radius].max()) for x, line in found]
+            ends.append((grid.rc[grid.inside[1]], p[0]))
+        radii = [crossing(x, line, 0.5 * line[x > 0.3 * radius].max()) for x, line in ends]
         return np.mean(radii) / (radius * simulation.time ** (2 / (j + 2))) - 1.0
 
     return Row("Sedov's blast", f"{name}, {choice}", text, error, 0.05)
@@ -137,9 +137,9 @@ def blast_energy(j: int) -> Row:
     row = sedov(j, "momentum")
 
     def error(simulation: Simulation) -> float:
-        found = simulation.conservation()
+        balance = simulation.conservation()
         depth = (2 * simulation.grid.dr[4], 2 * simulation.grid.dz[4], 0.5)[j - 1]  # of r-z one half
-        return (found["internal_energy_J"] + found["kinetic_energy_J"]) / (SEDOV[j][0] * depth) - 1.0
+        return (balance["internal_energy_J"] + balance["kinetic_energy_J"]) / (SEDOV[j][0] * depth) - 1.0
 
     return row._replace(name=f"{row.name}, energy", error=error, bound=0.02)
 
@@ -224,8 +224,8 @@ def expansion(choice: str) -> Row:
     text = tube(100, 0.0, 2.0, "z_min") + gas("gas", 0.0, 0.5, 1.0, pressure=1.0) + numerics(choice) + stop(time)
 
     def error(simulation: Simulation) -> float:
-        found = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
-        return found / (exact * simulation.time / time) - 1.0
+        energy = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
+        return energy / (exact * simulation.time / time) - 1.0
 
     return Row("tubes of gas", f"into the void, {choice}", text, error, 0.05)
 
@@ -242,8 +242,8 @@ def limited() -> Row:
             + box("block", "W_alloy", z=[2.7 * length, 2.9 * length]) + stop(time))
 
     def error(simulation: Simulation) -> float:
-        found = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
-        return found / (share * rho * c**3 * simulation.time) - 1.0
+        energy = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
+        return energy / (share * rho * c**3 * simulation.time) - 1.0
 
     return Row("tubes of gas", "into the void, beside tungsten", text, error, 0.05)
 
@@ -513,14 +513,14 @@ def film(speed: float, gap: float, time: str, frame: float = 0.0, geometry: str 
 
     def error(simulation: Simulation) -> float:
         mass = simulation.audit.start.mass[2]
-        found = simulation.grid.interior(simulation.state.vof[2] * simulation.state.rho[2] * simulation.state.e[2]
-                                         * simulation.grid.volume).sum() / mass
+        masses = simulation.grid.interior(simulation.state.vof[2] * simulation.state.rho[2] * simulation.state.e[2]
+                                          * simulation.grid.volume).sum() / mass
         if shock * simulation.time < gap * 1e-3:
             passed = shock * simulation.time / (gap * 1e-3)
             exact = first + passed * (0.5 * speed**2 + 1e5 * speed / (1.2 * shock))
         else:
             exact = crushed(speed, gamma, 1.2, impact.impact(impact.AL_5083, impact.AL_5083, speed).p)
-        return math.exp(abs(math.log(found / exact))) - 1.0
+        return math.exp(abs(math.log(masses / exact))) - 1.0
 
     return Row("gas beside metal", f"{gap:g} mm of air before a flyer, {speed:g} m/s, {time}, {frame:g} m/s more, {geometry}",
                text, error, 0.5)

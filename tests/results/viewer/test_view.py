@@ -26,8 +26,8 @@ class Page:
 
     def __init__(self, text: str):
         self.text = text
-        found = re.search(r'<script type="application/json" id="contents">(.*?)</script>', text, re.S)
-        self.about = json.loads(found[1])
+        match = re.search(r'<script type="application/json" id="contents">(.*?)</script>', text, re.S)
+        self.about = json.loads(match[1])
         self.runs = self.about["runs"]
         self.numbers = [base64.b64decode(each) for each in re.findall(r'class="numbers">([^<]*)</script>', text)]
 
@@ -262,12 +262,12 @@ def test_runs_that_cannot_be_shown_give_one_message(tmp_path, no_dumps, capsys, 
     (tmp_path / "empty").mkdir()
     places = {name: str(tmp_path / name) for name in ("run", "empty", "bare")}
     status = call(["view", *(word.format(**places) for word in arguments)])
-    found = capsys.readouterr()
+    printed = capsys.readouterr()
     assert status in (2, 4)
-    assert said in found.err
-    assert "Traceback" not in found.err
-    assert len(found.err.strip().splitlines()) == 1
-    assert found.out == ""
+    assert said in printed.err
+    assert "Traceback" not in printed.err
+    assert len(printed.err.strip().splitlines()) == 1
+    assert printed.out == ""
 
 
 def test_errors_of_the_interface(shot):
