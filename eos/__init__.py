@@ -1,6 +1,6 @@
 """Equations of state: one file each, scalar functions that the kernels inline.
 
-``MODELS`` maps the deck's word to the module. ``dispatch`` holds what kernels call. A row of parameters has ``ROW``
+``MODELS`` maps the name used in a deck to its module. Kernels call ``dispatch``. A row of parameters has ``ROW``
 numbers; slot ``RHO0`` is the density at rest and slot ``E0`` the specific internal energy at rest, in every model.
 """
 

@@ -1,11 +1,11 @@
 """Cracked material: the equation of state of a body whose damage model opens cracks, over that of the sound solid.
 
-What the material remembers is the volume of its cracks per mass, w. The rest of its volume is solid, and the pressure is that
-of the solid, so that at given w the pressure is the derivative of the energy by the volume:
+The internal variable is w, the volume of the cracks per mass. The rest of the volume is solid, and the pressure is that of
+the solid. At constant w the pressure is therefore the derivative of the energy with respect to the volume:
 
     1/rho = 1/rho_s + w,    p = p_s(rho_s, e).
 
-No deck names this model: a material has it while its damage model opens cracks (`materials.cracking`).
+No deck names this model: a material gets it if its damage model opens cracks (`materials.cracking`).
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ INTERNAL = (
 
 #: the variables
 CRACKS, GROWTH = 0, 1
-#: slot of the row beside RHO0 and E0; from SOLID_AT on stands the row of the solid
+#: slot of the row in addition to RHO0 and E0; the row of the solid begins at SOLID_AT
 SOLID_MODEL = 2
 
 #: the solid fills at least this share of cracked material: the remap may leave w a little above 1/rho
 LEAST_SHARE = 0.1
-#: bound of Newton's steps in the density of the solid, relative, and their number
+#: relative tolerance of Newton's method for the density of the solid, and its largest number of steps
 _TOLERANCE, _ITERATIONS = 1e-13, 40
 
 
@@ -51,8 +51,8 @@ def density_of_solid(rho, internal, par):
 def evaluate(rho, e, internal, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
 
-    The crack volume is held; but where cracks grow, they take all of a small change of volume, and dp/drho is zero. This is the
-    modulus from which a step predicts the pressure in its middle. explanation/fracture, (8)
+    The crack volume is constant, except where cracks grow: there they take up any small change of volume, and dp/drho is zero.
+    A step predicts the pressure at its middle from this modulus. explanation/fracture, (8)
     """
     share = solid_share(rho, internal[CRACKS])
     p, dpdrho, dpde, T = solid.evaluate(int(par[SOLID_MODEL]), rho / share, e, par[SOLID_AT:])
@@ -64,10 +64,10 @@ def density_at(p, rho_s, e, par):
     """Density of the solid at the pressure ``p``, Pa, and energy ``e``, by Newton's method from ``rho_s``; kg/m^3."""
     model, own = int(par[SOLID_MODEL]), par[SOLID_AT:]
     for _ in range(_ITERATIONS):
-        found, slope, dpde, T = solid.evaluate(model, rho_s, e, own)
+        pressure, slope, dpde, T = solid.evaluate(model, rho_s, e, own)
         if not slope > 0.0:
             break
-        step = (p - found) / slope
+        step = (p - pressure) / slope
         rho_s = min(max(rho_s + step, 0.5 * rho_s), 2.0 * rho_s)
         if abs(step) <= _TOLERANCE * rho_s:
             break
@@ -86,7 +86,7 @@ def opened(rho, e, limit, cracks, par):
 
 @late
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
-    """Closes cracks that are under pressure, until it is gone or they are: they bear none. explanation/fracture, (9)"""
+    """Closes cracks under pressure until the pressure or the cracks are gone: cracks bear none. explanation/fracture, (9)"""
     cracks = internal[CRACKS]
     if cracks <= 0.0:
         return

@@ -1,6 +1,6 @@
-"""Chooses the equation of state by its integer id, and derives from it what all have in common.
+"""Selects the equation of state by its integer id, and derives the quantities common to all of them.
 
-The models are those of ``registry`` when this module is imported, which is when the kernels are.
+The models are those in ``registry`` when this module is imported, together with the kernels.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ evaluate_without_memory = by_id(
 
 _evaluate_with_memory = by_id(
     tuple(module for module in MODULES if module.ID in WITH_MEMORY), "evaluate", registry.MEMORY_FUNCTIONS["evaluate"][0],
-    "The same of a model with internal variables, at which they are held; internal: float64[n], one cell's.", _NAN)
+    "(p, dp/drho, dp/de, T) of a model at constant internal variables; SI. internal: float64[n], one cell's.", _NAN)
 
 _update = by_id(
     tuple(module for module in MODULES if module.ID in WITH_MEMORY), "update", registry.MEMORY_FUNCTIONS["update"][0],
@@ -42,9 +42,9 @@ def evaluate_with_memory(model, rho, e, internal, par):
 
 @point
 def evaluate(model, rho, e, internal, par):
-    """(p, dp/drho, dp/de, T) of an equation of state, each derivative with the internal variables and the other one held; SI.
+    """(p, dp/drho at constant e, dp/de at constant rho, T) of an equation of state at constant internal variables; SI.
 
-    par : the material's row, float64[k];  internal : float64[n], one cell's; of no avail without memory
+    par : the material's row, float64[k];  internal : float64[n], one cell's; ignored by a model without internal variables
     """
     if model in WITH_MEMORY:
         return evaluate_with_memory(model, rho, e, internal, par)
@@ -53,7 +53,7 @@ def evaluate(model, rho, e, internal, par):
 
 @apart
 def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
-    """Internal variables of an equation of state at the end of a Lagrangian step, from what has happened in it.
+    """Internal variables of an equation of state at the end of a Lagrangian step.
 
     rho0, rho : density before and after, kg/m^3;  e : energy after, J/kg;  dep, work : plastic strain and plastic work of the
     step, J/m^3;  damage0, damage : before and after;  released : elastic energy of the deviator that the damage of the step has
@@ -66,7 +66,7 @@ def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, 
 
 @point
 def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2):
-    """Fills rows of pressure and c^2, 0 where the body is not (f = 0); failed material bears no tension.
+    """Fills rows of pressure and c^2, 0 outside the body (f = 0); failed material bears no tension.
 
     explanation/equation-of-state, explanation/fracture
     """
@@ -84,7 +84,7 @@ def pressure_row(model, par, floor, first, number, f, rho, e, damage, p, c2):
 
 @point
 def temperature_row(model, par, first, number, f, rho, e, T):
-    """Fills a row of temperature, 0 where the body is not. Apart from the pressure: a table cannot be read in lanes."""
+    """Fills a row of temperature, 0 outside the body. Separate from the pressure: a table cannot be read in vector lanes."""
     for x in range(number):
         i = first + x
         T[i] = evaluate_without_memory(model, rho[i], e[i], par)[3] if f[i] > 0.0 else 0.0
@@ -92,7 +92,7 @@ def temperature_row(model, par, first, number, f, rho, e, T):
 
 @apart
 def pressure_row_with_memory(model, par, floor, m, j, first, at, number, vof, q, pm, c2):
-    """`pressure_row` of body m in row j, from its column `at` on, whose model has internal variables from row `first` of q on.
+    """`pressure_row` of body m in row j from column `at` on; the internal variables of its model begin at row `first` of q.
 
     Reads    vof [m, j, i], q [k, m, j, i]
     Writes   pm, c2 [m, j, i]
@@ -105,7 +105,7 @@ def pressure_row_with_memory(model, par, floor, m, j, first, at, number, vof, q,
 
 @apart
 def temperature_row_with_memory(model, par, m, j, first, at, number, vof, q, tm):
-    """`temperature_row` likewise.
+    """`temperature_row` of a model with internal variables; arguments as in `pressure_row_with_memory`.
 
     Reads    vof [m, j, i], q [k, m, j, i]
     Writes   tm [m, j, i]
@@ -161,7 +161,7 @@ def zero_pressure_density(model, rho, e, internal, par):
         p, dpdrho, dpde, T = evaluate(model, x, e, internal, par)
         if p < 0.0:
             low = x
-        elif p != 0.0:  # a NaN too: the search ahead has left a table
+        elif p != 0.0:  # a NaN too: the search has left a table
             high = x
         else:
             return x

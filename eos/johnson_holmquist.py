@@ -1,4 +1,4 @@
-"""Johnson-Holmquist equation of state of brittle solids (JH-2): a polynomial, and a pressure that crushed material gains.
+"""Johnson-Holmquist equation of state of brittle solids (JH-2): a polynomial, and the pressure that crushed material gains.
 
 When damage weakens compressed material, the elastic energy that its deviator loses becomes pressure: broken pieces need more
 room. With mu = rho/rho0 - 1,
@@ -50,7 +50,7 @@ def evaluate(rho, e, internal, par):
     near = max(mu, 0.0)
     p = par[K1] * mu + near * near * (par[K2] + par[K3] * near)
     slope = par[K1] + near * (2.0 * par[K2] + 3.0 * par[K3] * near)
-    # int p drho/rho^2 by its series about rho0, p/rho0 mu/2: exact to the order of mu^2, all that the polynomial is known to
+    # int p drho/rho^2 by its series about rho0, p/rho0 mu/2: exact to order mu^2, to which the polynomial is known
     cold = 0.5 * p * mu / rho
     return p + internal[0], slope / par[RHO0], 0.0, max(par[T0] + (e - cold) * par[INVERSE_CV], 0.0)
 
@@ -65,9 +65,9 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
 
 
 def row(values) -> np.ndarray:
-    """Packs the parameters, by name; float64[ROW]. Raises ValueError for a missing, unknown or impossible value.
+    """Packs the parameters, by name; float64[ROW].
 
-    A polynomial whose slope is not positive in all of compression is refused.
+    Raises ValueError for a missing, unknown or impossible value, or a polynomial that does not rise throughout compression.
     """
     given = collect(NAME, PARAMETERS, values)
     first, second, third = given["K1"], given["K2"], given["K3"]

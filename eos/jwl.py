@@ -5,8 +5,8 @@ With V = rho0/rho, mu = rho/rho0 - 1, E = rho0 e the energy per initial volume, 
     p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),
     p_JWL = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V.
 
-The unreacted solid at rest has the energy of the detonation, e0 = E0/rho0, and products have what their work has left of it. F
-follows from a light time that a source of the deck gives to the material before the first step.
+The unreacted solid at rest has the energy of the detonation, e0 = E0/rho0; the products have that energy less the work they
+have done. F follows from a light time, which a source in the deck assigns to the material before the first step.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ SOURCE = (
     "Lee, Finger & Collins, UCID-16189 (1973); burn fraction: Wilkins, and LS-DYNA's *MAT_HIGH_EXPLOSIVE_BURN [recalled]"
 )
 VALIDITY = (
-    "detonations that run at the speed of the constants from points that the deck names; no initiation by a shock, no failure "
-    "below a critical diameter; the temperature is rough, with one specific heat"
+    "detonations that start at points named in the deck and run at the speed the constants give; no initiation by a shock, no "
+    "failure below a critical diameter; the temperature is rough, with one specific heat"
 )
 PARAMETERS = (
     Parameter("reference_density", "kg/m^3", REQUIRED, "density at rest", "rho0", POSITIVE),
@@ -42,9 +42,9 @@ PARAMETERS = (
     Parameter("R2", "", REQUIRED, "exponent of the second pressure", "R2", POSITIVE),
     Parameter("omega", "", REQUIRED, "Grueneisen parameter of the products", "omega", POSITIVE),
     Parameter("detonation_energy", "Pa", REQUIRED, "energy of the detonation per initial volume, J/m^3", "E0", POSITIVE),
-    Parameter("detonation_velocity", "m/s", REQUIRED, "speed of the detonation; the constants must have it within 1 %", "D",
+    Parameter("detonation_velocity", "m/s", REQUIRED, "speed of the detonation; the constants must give it within 1 %", "D",
               POSITIVE),
-    Parameter("cj_pressure", "Pa", REQUIRED, "Chapman-Jouguet pressure; the constants must have it within 1 %", "P_CJ",
+    Parameter("cj_pressure", "Pa", REQUIRED, "Chapman-Jouguet pressure; the constants must give it within 1 %", "P_CJ",
               POSITIVE),
     Parameter("sound_speed", "m/s", 2500.0, "bulk sound speed of the unreacted solid", "c0", POSITIVE),
     Parameter("compression_burn", "", 0.0, "burn fraction by compression over (1 - V)/(1 - V_CJ); 0: by time alone", "beta",
@@ -59,19 +59,19 @@ INTERNAL = (
     Field("light_time", "", "body", "s", 1, "mass", True, "time at which the detonation arrives", 0.0, initial=NEVER),
     Field("burn_time", "", "body", "s", 1, "mass", True, "time in which all of it burns", 0.0, initial=1.0),
 )
-#: internal variables of what the material becomes at most: products
+#: internal variables of fully burnt material
 SPENT = 1.0, NEVER, 1.0
-#: places of the internal variables
+#: indices of the internal variables
 BURNT, LIGHT, BURN_TIME = range(3)
 
-#: share of the burning time that lies before the light time, which is that of the middle of a cell: half of the explosive has
-#: burnt before the detonation arrives there and half of the pressure is reached after it, both within half a cell
+#: share of the burn time before the light time, which is that of the middle of a cell: half of the explosive has burnt before
+#: the detonation arrives there and half of the pressure is reached after it, both within half a cell
 LEAD = 0.64
 
 #: slots of the row; the common ones are RHO0 and E0
 FIRST, SECOND, R1, R2, OMEGA, C0_SQUARED, COMPRESSED, HEAT, T0 = range(2, 11)
 
-#: what D and P_CJ of the constants may miss of those stated
+#: largest relative difference between D and P_CJ from the constants and those stated
 TOLERANCE = 0.01
 #: volumes over the initial one between which the Chapman-Jouguet state is sought
 _LEAST, _MOST = 0.4, 0.999
@@ -90,7 +90,7 @@ def products(rho, e, par):
 
 @point
 def evaluate(rho, e, internal, par):
-    """(p, dp/drho, dp/de, T) at density ``rho`` > 0 and energy ``e``, the burn fraction held; SI.
+    """(p, dp/drho, dp/de, T) at density ``rho`` > 0, energy ``e`` and constant burn fraction; SI.
 
     explanation/explosives, (1)
     """
@@ -105,7 +105,7 @@ def evaluate(rho, e, internal, par):
 
 @point
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
-    """Burns by the time before and after the detonation arrives and by its compression, and never less than before.
+    """Burns by the time before and after the detonation arrives and by compression; the burn fraction never falls.
 
     explanation/explosives, (3)
     """
@@ -117,7 +117,7 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
 def cj_state(par: np.ndarray) -> tuple[float, float, float]:
     """(D in m/s, P_CJ in Pa, V_CJ) of a row: where the Rayleigh line touches the Hugoniot of the products, to round-off.
 
-    Raises ValueError where it touches it nowhere. explanation/explosives, (4)
+    Raises ValueError if there is no such point. explanation/explosives, (4)
     """
     rest = float(par[RHO0])
 
@@ -143,8 +143,8 @@ def cj_state(par: np.ndarray) -> tuple[float, float, float]:
 def row(values) -> np.ndarray:
     """Packs the parameters, by name; float64[ROW].
 
-    Raises ValueError for a missing, unknown or impossible value, and for constants that have another detonation velocity or
-    Chapman-Jouguet pressure than they state.
+    Raises ValueError for a missing, unknown or impossible value, and for constants that give another detonation velocity or
+    Chapman-Jouguet pressure than those stated.
     """
     given = collect(NAME, PARAMETERS, values)
     par = np.zeros(ROW)

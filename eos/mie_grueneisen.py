@@ -7,8 +7,8 @@ isentrope obeys de = p deta/rho0 and dT/T = Gamma rho deta/rho0, hence
     e_s' = p_ref/rho0 + Gamma0 e_s,            T_s = T0 exp(Gamma0 eta)             compression
     e_s' = p_ref/rho0 + Gamma0 e_s/(1 - eta),  T_s = T0 (1 - eta)^-Gamma0           expansion
 
-The cold temperature T_s - e_s/cv is tabulated once per material, uniformly in eta and with a node at eta = 0; what is
-left to do per cell is one interpolation, T = T_cold(eta) + e/cv.
+The cold temperature T_s - e_s/cv is tabulated once per material, uniformly in eta and with a node at eta = 0. A cell then
+needs one interpolation, T = T_cold(eta) + e/cv.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ SOURCE = (
     "the expansion branch is our choice: linear, continuous in p, and Gamma constant so that hot material can expand"
 )
 VALIDITY = (
-    "solids up to s eta = 0.95, beyond which the reference curve goes on along its tangent; constant cv; neither "
-    "melting nor vaporisation change p: far below rho0 the material is still as stiff as a solid with Gamma0 e in c^2"
+    "solids up to s eta = 0.95, beyond which the reference curve continues along its tangent; constant cv; neither "
+    "melting nor vaporisation changes p: far below rho0 the material is still as stiff as a solid with Gamma0 e in c^2"
 )
 PARAMETERS = (
     Parameter("reference_density", "kg/m^3", REQUIRED, "density at zero pressure and energy", "rho0", POSITIVE),
@@ -80,7 +80,7 @@ def evaluate(rho, e, par):
     near = min(max(eta, 0.0), par[GUARD])
     d = 1.0 / (1.0 - par[S] * near)
     slope = reference_slope(near, par[S], par[HALF_GAMMA])
-    # both branches first: a choice between two values in memory is a slow gather, one between two numbers is not
+    # both branches first: choosing between two values in memory is a slow gather, between two computed numbers it is not
     squeezed = par[BULK] * (near * (1.0 - par[HALF_GAMMA] * near) * (d * d) + slope * (eta - near))
     stretched = par[C0_SQUARED] * (rho - par[RHO0])
     squeezed_slope, stretched_slope = par[BULK] * slope * (v * v) * par[INVERSE_RHO0], par[C0_SQUARED] + gamma * e
@@ -123,7 +123,7 @@ def _guard(s: float, half_gamma: float) -> float:
 
 
 def heating(eta, gamma: float):
-    """T_s/T0 on an isentrope, by which e_s scales too where the reference pressure is zero."""
+    """T_s/T0 on an isentrope; e_s scales with it too where the reference pressure is zero."""
     return np.where(eta < 0.0, (1.0 - np.minimum(eta, 0.0)) ** -gamma, np.exp(gamma * eta))
 
 

@@ -1,12 +1,12 @@
-"""P-alpha: a porous material, whose pores a pressure closes, over the equation of state of its solid.
+"""P-alpha: a porous material, whose pores close under pressure, over the equation of state of its solid.
 
-The distention alpha = rho_s/rho is the volume of the material over that of its solid. What the material remembers is the
-distention A that it has once it is relieved of pressure; it falls as the pores crush, from alpha0 to 1. Below the crush curve
-the pores close and open elastically: with h = c/c_s, the sound speeds of the porous material and of its solid,
+The distention alpha = rho_s/rho is the volume of the material over that of its solid. The internal variable is A, the
+distention once the pressure is released; it falls from alpha0 to 1 as the pores crush. Below the crush curve the pores close
+and open elastically: with h = c/c_s, the sound speeds of the porous material and of its solid,
 
     rho_s/rho_s0 = (A rho/rho_s0)^(h^2),    h = 1 + (A - 1)/(alpha0 - 1) (c_e/c_s - 1),
 
-of which at low pressure c = h c_s and Herrmann's d(alpha)/dp = alpha^2/K_s (1 - 1/h^2) are consequences.
+At low pressure this gives c = h c_s and Herrmann's d(alpha)/dp = alpha^2/K_s (1 - 1/h^2).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "p-alpha"
 ID = 3
-#: it stands over the model that `solid` names in the deck
+#: it builds on the model that `solid` names in the deck
 OVER_SOLID = True
 EQUATION = """\
 p = p_s(rho_s, e)/alpha,  rho_s = alpha rho,  T = T_s(rho_s, e)
@@ -35,7 +35,7 @@ SOURCE = (
 )
 VALIDITY = (
     "crushing that does not depend on the rate; pores do not open again in tension; the elastic energy around the pores is not "
-    "counted, so that only alpha = 1 or c_e = c_s is consistent to the last"
+    "counted, so that only alpha = 1 or c_e = c_s is fully consistent"
 )
 PARAMETERS = (
     Parameter("reference_density", "kg/m^3", REQUIRED, "density at rest, with the pores", "rho0", POSITIVE),
@@ -45,19 +45,19 @@ PARAMETERS = (
     Parameter("crush_pressure", "Pa", REQUIRED, "pressure at which all pores are closed", "P_s", POSITIVE),
     Parameter("crush_exponent", "", 2.0, "exponent of the crush curve", "n", POSITIVE),
 )
-#: parameters of the solid that are not given: by what they are here
+#: parameters of the solid that are taken from parameters of this model
 GIVEN_TO_SOLID = {"reference_density": "solid_density"}
 INTERNAL = (
-    Field("distention", "", "body", "1", 1, "mass", True, "volume over that of the solid, relieved of pressure", 1.0,
+    Field("distention", "", "body", "1", 1, "mass", True, "volume over that of the solid, once the pressure is released", 1.0,
           initial=lambda par: par[VIRGIN]),
 )
 
 #: slots of the row; the common ones are RHO0 and E0. VIRGIN is alpha0, DISTENTION alpha_e, where the crush curve begins
 SOLID_MODEL, SOLID_RHO, P_ELASTIC, P_CRUSH, EXPONENT, VIRGIN, DISTENTION, SLOPE = range(2, 10)
 
-#: bound of the search on the crush curve, and its steps
+#: tolerance of the search on the crush curve, and its largest number of steps
 _TOLERANCE, _ITERATIONS = 1e-12, 80
-#: how far off the crush curve a state of the solid is that no table has
+#: distance from the crush curve of a state outside the table of the solid
 _BEYOND = math.inf
 
 
@@ -101,10 +101,10 @@ def crushed(p, par):
 
 @late
 def excess(rho, e, distention, par):
-    """(how far the distention is above the crush curve, pressure in Pa), of material that would have ``distention`` at rest.
+    """(excess of the distention over the crush curve, pressure in Pa) of material that has ``distention`` at rest.
 
-    Where the table of the solid has no such state, it is infinitely far above where the solid is compressed, and below where it
-    is expanded, and the pressure is NaN.
+    Outside the table of the solid the excess is infinite, positive where the solid is compressed and negative where it is
+    expanded, and the pressure is NaN.
     """
     rho_s, _ = solid_density(rho, distention, par)
     p = rho / rho_s * solid.evaluate(int(par[SOLID_MODEL]), rho_s, e, par[SOLID_AT:])[0]
@@ -117,10 +117,10 @@ def excess(rho, e, distention, par):
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Crushes the pores until the distention is on the crush curve at density ``rho`` and energy ``e``, or all are closed.
 
-    By a bracketed secant (Illinois) in the distention at rest: its excess rises with it. explanation/equation-of-state, (11)
+    By a bracketed secant (Illinois) in the distention at rest, with which the excess rises. explanation/equation-of-state, (11)
 
-    The search may begin beyond the table of the solid, and halves the bracket until both ends are in it. Where the table has no
-    state on the curve, the material is left in one that the table does not have.
+    The search may begin outside the table of the solid; it then halves the bracket until both ends are inside. If no state in
+    the table lies on the curve, the material is left in a state outside the table.
     """
     high = internal[0]
     if high <= 1.0:
@@ -141,16 +141,16 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
             middle = (low * above - high * below) / (above - below)
         else:
             middle = 0.5 * (low + high)
-        found, p = excess(rho, e, middle, par)
-        if found > 0.0:
-            high, above = middle, found
+        between, p = excess(rho, e, middle, par)
+        if between > 0.0:
+            high, above = middle, between
             below = 0.5 * below if side == 1 else below
             side = 1
         else:
-            low, below = middle, found
+            low, below = middle, between
             above = 0.5 * above if side == -1 else above
             side = -1
-        if found == 0.0:
+        if between == 0.0:
             break
     if above < _BEYOND:
         internal[0] = low
@@ -159,7 +159,7 @@ def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, in
 def row(values, over, *table) -> np.ndarray:
     """Packs the parameters, by name, and those of the solid, whose module is ``over``; float64[SOLID_AT + its own].
 
-    table : that of the solid (`hydro2d.materials.sesame.Table`), where it is made from one
+    table : that of the solid (`hydro2d.materials.sesame.Table`), if it has one
 
     Raises ValueError for a missing, unknown or impossible value, and for a material that is denser than its solid.
     """
@@ -186,7 +186,7 @@ def row(values, over, *table) -> np.ndarray:
     par[SOLID_AT:] = below
 
     def above(compression: float) -> float:
-        """Pressure of the virgin material over that at which it crushes; NaN where the table of the solid has no such state."""
+        """Pressure of the virgin material less that at which it crushes; NaN outside the table of the solid."""
         rho_s = rho_s0 * compression ** (ratio * ratio)
         rho = rho0 * compression
         return rho / rho_s * over.evaluate(rho_s, below[E0], below)[0] - lowest

@@ -1,6 +1,6 @@
-"""The equations of state: those of this folder, and those from outside that are added before the kernels are loaded.
+"""The equations of state: those in this folder, and those from outside, added before the kernels are loaded.
 
-A new equation of state is a file in this folder and its name in ``MODULES``.
+To add an equation of state, put a file in this folder and its name in ``MODULES``.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from hydro2d.jit import modules
 
 MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist", "jwl",
                   "tabular")
-#: models that no deck names: a material has them with a model of another part
+#: models that no deck names: a material gets them with a model of another kind
 BESIDE = modules("eos", "cracked")
 MODELS = {module.NAME: module for module in MODULES}
 
-#: what a model computes: the arguments of its functions and the number of values that they return
+#: functions of a model: their arguments and the number of values that they return
 FUNCTIONS = {"evaluate": ("rho, e, par", 4)}
 REQUIRED = ("evaluate",)
-#: and a model with internal variables, which `update` changes by what has happened in a step
+#: those of a model with internal variables, which `update` advances over a step
 MEMORY_FUNCTIONS = {
     "evaluate": ("rho, e, internal, par", 4),
     "update": ("rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal", 0),

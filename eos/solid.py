@@ -1,7 +1,8 @@
-"""The equation of state of a solid that another model stands over: ``solid.evaluate(model, rho, e, par)`` in its functions.
+"""The equation of state of the solid that another model builds on: its functions call ``solid.evaluate(model, rho, e, par)``.
 
-It is any model without internal variables, by its id. The models are chosen when kernels are loaded, so that it is looked up
-only when such a function is compiled. Such a function must not be called before `eos.dispatch` is loaded, which calls it.
+The solid has any model without internal variables, chosen by its id. The models are known only when kernels are loaded, so
+that ``evaluate`` is looked up when a function that calls it is compiled. Such a function must not be called before
+`eos.dispatch`, which calls it, is loaded.
 """
 
 from __future__ import annotations

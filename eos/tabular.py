@@ -1,13 +1,12 @@
-"""Tabular equation of state: pressure and energy between the points of a table over density and temperature.
+"""Tabular equation of state: pressure and energy interpolated in a table over density and temperature.
 
-Between four points of the table, with w and t the shares of the way in density and in temperature,
+Between four points of the table, with w and t the fractions of the interval in density and in temperature,
 
-    p = (1-w)(1-t) p_00 + w (1-t) p_10 + (1-w) t p_01 + w t p_11,    and so e and, of t alone, T.
+    p = (1-w)(1-t) p_00 + w (1-t) p_10 + (1-w) t p_01 + w t p_11,    likewise e and, in t alone, T.
 
-At a given density e is linear in t, so that t, p and T follow from (rho, e) in closed form, and so do the derivatives.
-Energies are counted from the state at rest, which is made a point of the table: bilinear interpolation in the two parts of an
-interval gives what it gave in the whole. There is nothing beyond the table, and nothing where c^2 is not positive: p and T are
-NaN there, and a run that gets there ends.
+At a given density e is linear in t, so that t, p, T and the derivatives follow from (rho, e) in closed form. Energies are
+counted from the state at rest, which is made a point of the table; dividing an interval in two does not change the bilinear
+interpolation. Outside the table, and where c^2 is not positive, p and T are NaN, and a run that gets there ends.
 """
 
 from __future__ import annotations
@@ -38,16 +37,16 @@ PARAMETERS = (
               POSITIVE),
     Parameter("reference_temperature", "K", 298.0, "temperature at rest, from which energies are counted", "T0"),
 )
-#: by what share of its terms the temperature may miss T ds = de - p drho/rho^2: a table is no better than what it was
-#: made from, and of what is tabulated here Tillotson's equations are the roughest
+#: largest error of the temperature in T ds = de - p drho/rho^2, as a share of its terms: a table is no better than its source,
+#: and Tillotson's equations are the roughest source tabulated here
 TEMPERATURE_WITHIN = 0.25
 
-#: slots of the row: numbers of densities and temperatures; from DATA on stand the densities, the temperatures, pressures and
-#: energies with the temperature running first, and 1 for every cell that is open, else 0
+#: slots of the row: numbers of densities and temperatures; from DATA on come the densities, the temperatures, pressures and
+#: energies with the temperature running first, and 1 for every open cell, else 0
 DENSITIES, TEMPERATURES, DATA = 2, 3, 4
-#: reference_density may miss the density without pressure by this share: the digits of a printed number
+#: largest relative difference of reference_density from the density at zero pressure: the digits of a printed number
 NEAR = 1e-5
-#: points nearer to each other than this share are one
+#: points closer together than this relative distance are one
 ONE = 1e-9
 
 _NAN = float("nan")
@@ -70,7 +69,7 @@ def interval(x, par, first, number):
 def evaluate(rho, e, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` and specific energy ``e``; SI.
 
-    All are NaN where the table has nothing. explanation/equation-of-state, (17) to (19)
+    All are NaN outside the table and in closed cells. explanation/equation-of-state, (17) to (19)
     """
     nr, nt = int(par[DENSITIES]), int(par[TEMPERATURES])
     if not (par[DATA] <= rho and rho <= par[DATA + nr - 1]):
@@ -108,7 +107,7 @@ def evaluate(rho, e, par):
 def row(values, table) -> np.ndarray:
     """Packs the parameters, by name, and a table (`hydro2d.materials.sesame.Table`); float64[k], at least ROW long.
 
-    Raises ValueError for a missing, unknown or impossible value, and where the table has not the state at rest.
+    Raises ValueError for a missing, unknown or impossible value, and if the table does not contain the state at rest.
     """
     given = collect(NAME, PARAMETERS, values)
     rho0, T0 = given["reference_density"], given["reference_temperature"]
@@ -138,7 +137,7 @@ def row(values, table) -> np.ndarray:
 
 
 def with_point(x: np.ndarray, values, at: float):
-    """(points, values) with a point at ``at`` that is not there, where the values are those between its neighbours.
+    """(points, values) with a point inserted at ``at``, its values interpolated between its neighbours.
 
     x : float64[n], rising;  values : arrays float64[n, k]. A point within round-off of ``at`` is moved there.
     """
@@ -164,13 +163,13 @@ def densities_without_pressure(table, T: float) -> list[float]:
 
 def without_pressure(table, T: float) -> str:
     """Says at which densities the pressure is zero at a temperature in K."""
-    found = [rho for rho in densities_without_pressure(table, T) if rho > 0.0]
-    at = " and ".join(f"{rho:.8g}" for rho in found)
-    return f"it is zero at {at} kg/m^3" if found else "it is zero at no density there"
+    densities = [rho for rho in densities_without_pressure(table, T) if rho > 0.0]
+    at = " and ".join(f"{rho:.8g}" for rho in densities)
+    return f"it is zero at {at} kg/m^3" if densities else "it is zero at no density there"
 
 
 def open_cells(rho: np.ndarray, T: np.ndarray, p: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """Whether c^2 is positive all over each cell of a table, bool[i - 1, j - 1]; at 0 K it may be zero. p, e : float64[i, j].
+    """Whether c^2 is positive throughout each cell of a table, bool[i - 1, j - 1]; at 0 K it may be zero. p, e : float64[i, j].
 
     In a cell G = rho^2 c^2 de/dt is linear in t, and along its sides t = 0 and t = 1 a cubic of w, whose least value is at an
     end or where its slope vanishes. explanation/equation-of-state, (20)
@@ -202,18 +201,18 @@ def _least(g0, g1, g2, g3) -> np.ndarray:
     def at(w):
         return g0 + w * (g1 + w * (g2 + w * g3))
 
-    found = np.minimum(at(0.0), at(1.0))
+    least = np.minimum(at(0.0), at(1.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(g2 * g2 - 3.0 * g1 * g3)
         far = -(g2 + np.copysign(root, g2))
         for w in (far / (3.0 * g3), g1 / far):
             inside = (w > 0.0) & (w < 1.0)
-            found = np.where(inside, np.minimum(found, at(np.where(inside, w, 0.0))), found)
-    return found
+            least = np.where(inside, np.minimum(least, at(np.where(inside, w, 0.0))), least)
+    return least
 
 
 def span(par: np.ndarray) -> str:
-    """What the table of a row covers, in words."""
+    """Range of the table of a row, in words."""
     nr, nt = int(par[DENSITIES]), int(par[TEMPERATURES])
     rho, T = par[DATA:][:nr], par[DATA + nr:][:nt]
     cells = par[DATA + nr + nt + 2 * nr * nt:][: (nr - 1) * (nt - 1)].reshape(nr - 1, nt - 1)
@@ -221,13 +220,13 @@ def span(par: np.ndarray) -> str:
     closed = np.argwhere(cells == 0.0)
     if len(closed):
         (i0, j0), (i1, j1) = closed.min(axis=0), closed.max(axis=0) + 1
-        said += (f", but for {len(closed)} of {cells.size} cells in which c^2 is not positive, between {rho[i0]:.6g} and "
+        said += (f", except {len(closed)} of {cells.size} cells in which c^2 is not positive, between {rho[i0]:.6g} and "
                  f"{rho[i1]:.6g} kg/m^3, {T[j0]:.6g} and {T[j1]:.6g} K")
     return said
 
 
 def energies(rho: float, par: np.ndarray) -> tuple[float, float] | None:
-    """Least and greatest energy of the table at a density, J/kg; None beyond it."""
+    """Least and greatest energy of the table at a density, J/kg; None outside it."""
     nr, nt = int(par[DENSITIES]), int(par[TEMPERATURES])
     if not par[DATA] <= rho <= par[DATA + nr - 1]:
         return None

@@ -6,12 +6,12 @@ With x = rho/rho0, mu = x - 1, w = e/(E0 x^2) + 1 and y = 1/x - 1:
     expanded, e >= Ecv                      p_e = a rho e + (b rho e/w + A mu exp(-beta y)) exp(-alpha y^2)
     expanded, Eiv < e < Ecv                 p = [(e - Eiv) p_e + (Ecv - e) p_c]/(Ecv - Eiv)
 
-Two things are ours. The cold curve A mu + B mu^2 of expanded material goes on along its tangent from where its slope has fallen
-to a tenth of A: without that it turns, and material that is torn apart would be pushed together again. And where e is negative,
-as a little below the isentrope at rest, w is 1.
+Two choices are ours. In expansion the cold curve A mu + B mu^2 continues along its tangent once its slope has fallen to a tenth
+of A: otherwise it would turn, and push material that is torn apart together again. Where e is negative, as slightly below the
+isentrope at rest, w is 1.
 
 Tillotson's equations have no temperature. Ours is that of a solid of constant specific heat about the isentrope through
-(rho0, e = 0), whose Grueneisen coefficient is (1/rho) dp/de there; the heats of melting and vaporisation are not in it.
+(rho0, e = 0), whose Grueneisen coefficient is (1/rho) dp/de there. It leaves out the heats of melting and vaporisation.
 """
 
 from __future__ import annotations
@@ -39,12 +39,13 @@ SOURCE = (
 )
 VALIDITY = (
     "metals and rocks from the elastic range to vapour; p is continuous, its slopes jump at rho0, Eiv and Ecv; the temperature "
-    "knows no heat of melting or vaporisation, and its slopes miss those that p asks for by 2 % at 0.1 MJ/kg and 20 % at Eiv"
+    "has no heat of melting or vaporisation, and its slopes differ from those consistent with p by 2 % at 0.1 MJ/kg and 20 % "
+    "at Eiv"
 )
 PARAMETERS = (
     Parameter("reference_density", "kg/m^3", REQUIRED, "density at zero pressure and energy", "rho0", POSITIVE),
     Parameter("a", "", REQUIRED, "Grueneisen coefficient of the vapour", "a", POSITIVE),
-    Parameter("b", "", REQUIRED, "what the solid has of it beside a", "b", NON_NEGATIVE),
+    Parameter("b", "", REQUIRED, "the solid's Grueneisen coefficient in addition to a", "b", NON_NEGATIVE),
     Parameter("A", "Pa", REQUIRED, "bulk modulus at rest", "A", POSITIVE),
     Parameter("B", "Pa", REQUIRED, "second coefficient of the cold curve", "B", NON_NEGATIVE),
     Parameter("E0", "J/kg", REQUIRED, "energy in the Grueneisen coefficient", "E0", POSITIVE),
@@ -56,19 +57,19 @@ PARAMETERS = (
     Parameter("reference_temperature", "K", 298.0, "temperature at rho0 and zero energy", "T0", POSITIVE),
 )
 
-#: slots of the row, beside those of `mie_grueneisen` whose table of temperatures this one is
+#: slots of the row, next to those that its table of temperatures shares with `mie_grueneisen`
 A_VAPOUR, B_SOLID, BULK, SECOND, INVERSE_ENERGY, ALPHA = 3, 4, 5, 6, 7, 8
 BETA, TURN, EIV, ECV = 12, 13, 14, 15
 
-#: slope of the cold curve over A from which it goes on along its tangent
+#: slope of the cold curve, over A, below which it continues along its tangent
 LEAST_SLOPE = 0.1
 #: the ends of the table, in 1 - rho0/rho
 EXPANSION, COMPRESSION = 0.6, 0.8
 #: largest exponent of the decay in hot expansion: exp of more is 0
 FARTHEST = 700.0
-#: least rho/rho0 that the equations are evaluated at, so that no power of it vanishes
+#: least rho/rho0 at which the equations are evaluated, so that no power of it vanishes
 THINNEST = 1e-90
-#: by what share of its terms the temperature may miss T ds = de - p drho/rho^2: it knows one isentrope only
+#: largest error of the temperature in T ds = de - p drho/rho^2, as a share of its terms: it is based on one isentrope only
 TEMPERATURE_WITHIN = 0.25
 
 
@@ -163,15 +164,15 @@ def row(values) -> np.ndarray:
 def isentrope(par: np.ndarray, T0: float, step: float, number: int) -> np.ndarray:
     """T_s - e_s/cv at 1 - rho0/rho = 0, step, 2 step and so on, on the isentrope through (rho0, T0, e = 0); K.
 
-    de = p deta/rho0 and dT/T = (dp/de) deta/rho0 with eta = 1 - rho0/rho, by Runge and Kutta's rule of fourth order.
+    de = p deta/rho0 and dT/T = (dp/de) deta/rho0 with eta = 1 - rho0/rho, by the Runge-Kutta method of fourth order.
     """
     def slopes(eta, e):
         p, _, dpde = mechanical(par[RHO0] / (1.0 - eta), e, par)
         return p / par[RHO0], dpde / par[RHO0]
 
-    found, e, log = np.zeros(number), 0.0, 0.0
+    temperatures, e, log = np.zeros(number), 0.0, 0.0
     for k in range(number):
-        found[k] = T0 * np.exp(log) - e * par[INVERSE_CV]
+        temperatures[k] = T0 * np.exp(log) - e * par[INVERSE_CV]
         eta, total = k * step, np.zeros(2)
         at = slopes(eta, e)
         for part, weight in ((0.5, 1.0), (0.5, 2.0), (1.0, 2.0), (0.0, 1.0)):
@@ -179,4 +180,4 @@ def isentrope(par: np.ndarray, T0: float, step: float, number: int) -> np.ndarra
             at = slopes(eta + part * step, e + part * step * at[0]) if part else at
         e += step / 6.0 * total[0]
         log += step / 6.0 * total[1]
-    return found
+    return temperatures

@@ -1,7 +1,7 @@
 """Strength and failure of solids: one file per model, scalar functions that the kernels inline.
 
-``STRENGTH_MODELS`` and ``DAMAGE_MODELS`` map the deck's word to the module; ``dispatch`` and ``radial_return`` hold
-what kernels call. A strength row has ``ROW`` numbers and a damage row ``DAMAGE_ROW``; in a strength row, slot ``SHEAR``
+``STRENGTH_MODELS`` and ``DAMAGE_MODELS`` map the name used in a deck to its module. Kernels call ``dispatch`` and
+``radial_return``. A strength row has ``ROW`` numbers and a damage row ``DAMAGE_ROW``; in a strength row, slot ``SHEAR``
 is the shear modulus and slot ``YIELD`` the yield stress of the virgin material at rest, in every model.
 """
 
@@ -33,6 +33,6 @@ def describe(name: str) -> Description:
 
 
 def describe_damage(name: str) -> Description:
-    """The same of a damage model, or of ``tensile-pressure``."""
+    """`describe` for a damage model, or for ``tensile-pressure``."""
     models = {**DAMAGE_MODELS, tensile_pressure.NAME: tensile_pressure}
     return described(by_name(name, "failure model", models), "failure model")

@@ -1,4 +1,4 @@
-"""Cochran-Banner damage: cracks open where the tension reaches the fracture pressure, and what they bear falls as they open."""
+"""Cochran-Banner damage: cracks open where the tension reaches the fracture pressure, and bear less the wider they open."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ SOURCE = (
     "without pressure are ours"
 )
 VALIDITY = (
-    "spall of metals; the rate of the tension does not matter; needs a fracture pressure and an equation of state without "
+    "spall of metals; independent of the rate of tension; needs a fracture pressure and an equation of state without "
     "internal variables"
 )
 PARAMETERS = (
-    Parameter("opening", "m", REQUIRED, "volume of cracks per area of the crack at which nothing is borne", "D0", POSITIVE),
+    Parameter("opening", "m", REQUIRED, "volume of cracks per crack area at which they bear no tension", "D0", POSITIVE),
 )
 
 #: slot of the row
@@ -42,7 +42,7 @@ def tension_left(damage, par):
 
 @point
 def full_opening(par):
-    """Volume of cracks per area at which nothing is borne any more, m."""
+    """Volume of cracks per crack area at which they bear no tension, m."""
     return par[OPENING]
 
 

@@ -1,6 +1,6 @@
-"""Chooses strength and damage models by their integer ids.
+"""Selects strength and damage models by their integer ids.
 
-The models are those of ``registry`` when this module is imported, which is when the kernels are.
+The models are those in ``registry`` when this module is imported, together with the kernels.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from strength.layout import SHEAR
 STRENGTH_MODULES = registry.chosen()
 DAMAGE_MODULES = registry.chosen_damage()
 
-#: ids of the models whose shear modulus is the number in slot SHEAR, whatever the state: no cell need be evaluated
+#: ids of the models whose shear modulus is the number in slot SHEAR in every state: no cell need be evaluated
 CONSTANT_MODULUS = tuple(module.ID for module in STRENGTH_MODULES if module.CONSTANT_MODULUS)
-#: ids of the models that ask for the temperature
+#: ids of the models that use the temperature
 THERMAL = tuple(module.ID for module in STRENGTH_MODULES if module.THERMAL)
 #: ids of the models that have internal variables
 WITH_INTERNAL = tuple(module.ID for module in STRENGTH_MODULES if hasattr(module, "INTERNAL"))
@@ -60,7 +60,7 @@ back_stress = by_id(
 
 kinematic_modulus = by_id(
     STRENGTH_MODULES, "kinematic_modulus", registry.STRENGTH_FUNCTIONS["kinematic_modulus"][0],
-    "How far the centre of the yield surface moves, as a tensile stress, per plastic strain, Pa: 0 for most models.", "0.0")
+    "Shift of the centre of the yield surface per plastic strain, as a tensile stress, Pa: 0 for most models.", "0.0")
 
 melted = by_id(
     STRENGTH_MODULES, "melted", registry.STRENGTH_FUNCTIONS["melted"][0],
@@ -80,7 +80,7 @@ tension_left = by_id(
 
 full_opening = by_id(
     DAMAGE_MODULES, "full_opening", registry.DAMAGE_FUNCTIONS["full_opening"][0],
-    "Volume of cracks per area of the crack at which the damage is 1, m, of a damage model that opens cracks.")
+    "Volume of cracks per crack area at which the damage is 1, m, of a damage model that opens cracks.")
 
 
 @point
@@ -110,5 +110,5 @@ def end_at_melt(line, first, number, rho, T, shear):
 
 @point
 def feels_temperature(model, damage_model, line):
-    """Whether the temperature is asked for at all."""
+    """Whether anything here needs the temperature: the strength model, the damage model or the melting line."""
     return model in THERMAL or damage_model in DAMAGE_THERMAL or melting.melts(line)

@@ -1,4 +1,4 @@
-"""Elastic-plastic, perfectly or with linear hardening, an upper bound and linear softening up to melt."""
+"""Elastic-plastic: perfectly plastic, or with linear hardening, an upper bound and linear softening up to melt."""
 
 from __future__ import annotations
 

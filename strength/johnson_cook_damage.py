@@ -35,7 +35,7 @@ PARAMETERS = (
 #: slots of the row
 D1, D2, D3, D4, D5, INVERSE_RATE0, LEAST, REFERENCE_T, INVERSE_RANGE, RATE_EXPONENT = range(10)
 
-#: the exponent is kept where exp() is finite, and the triaxiality of an unstressed material is taken against 1 Pa
+#: largest exponent, at which exp() is still finite; least von Mises stress in the triaxiality, Pa
 _STEEPEST, _UNSTRESSED = 700.0, 1.0
 
 

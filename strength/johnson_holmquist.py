@@ -20,7 +20,7 @@ p* = p/P_HEL,  T* = T/P_HEL,  S = 1.5 (HEL - P_HEL),  R = 1 + C ln max(1, rate/r
 SOURCE = "Johnson & Holmquist, High-Pressure Science and Technology 1993, AIP Conf. Proc. 309 (1994) 981"
 VALIDITY = (
     "ceramics and glass under pressure; with the damage of the same name, crushed material keeps the strength Yf and bears no "
-    "tension; the equation of state `bulking` gives it the pressure that it gains"
+    "tension; `bulking` in the equation of state sets the pressure that it gains"
 )
 PARAMETERS = (
     Parameter("shear_modulus", "Pa", REQUIRED, "shear modulus", "G", POSITIVE),
@@ -39,7 +39,7 @@ PARAMETERS = (
 #: slots of the row; the common ones are SHEAR and YIELD
 INTACT, CRUSHED, RATE, CRUSHED_EXPONENT, INTACT_EXPONENT, TENSION, INVERSE_P, LIMIT, INVERSE_RATE0 = range(2, 11)
 
-#: by what share P_HEL may miss what the equation of state, the shear modulus and HEL give
+#: largest relative difference of P_HEL from the value that the equation of state, the shear modulus and HEL give
 CONSISTENT = 0.01
 
 
@@ -64,7 +64,7 @@ def flow_stress(ep, rate, T, p, rho, par):
 
 @point
 def weakened(flow, rate, p, damage, par):
-    """Flow stress of damaged material from that of intact one, ``flow``, Pa: explanation/strength, (15)."""
+    """Flow stress of damaged material from that of intact material, ``flow``, Pa: explanation/strength, (15)."""
     pressed = max(p * par[INVERSE_P], 0.0)
     crushed = par[CRUSHED] * power(pressed, par[CRUSHED_EXPONENT]) * by_rate(rate, par) if pressed > 0.0 else 0.0
     return flow - damage * (flow - min(min(crushed, par[LIMIT]), flow))
@@ -87,7 +87,7 @@ def row(values) -> np.ndarray:
 
 
 def check_with(values: Mapping[str, float], pressure) -> None:
-    """Raises ValueError where P_HEL is not what HEL, the shear modulus and the equation of state give.
+    """Raises ValueError if P_HEL contradicts HEL, the shear modulus and the equation of state.
 
     Uniaxial compression to HEL has 1 - rho0/rho = mu/(1 + mu) and so HEL = p(mu) + 4/3 G mu/(1 + mu).
 
@@ -98,7 +98,7 @@ def check_with(values: Mapping[str, float], pressure) -> None:
         mu = 0.5 * (low + high)
         below = pressure(mu) + 4.0 / 3.0 * shear * mu / (1.0 + mu) < hel
         low, high = (mu, high) if below else (low, mu)
-    found = pressure(low)
-    if abs(found - values["P_HEL"]) > CONSISTENT * values["P_HEL"]:
+    p_hel = pressure(low)
+    if abs(p_hel - values["P_HEL"]) > CONSISTENT * values["P_HEL"]:
         raise ValueError(f"{NAME}: P_HEL = {values['P_HEL']:g} Pa, but HEL = {hel:g} Pa, the shear modulus and the equation of "
-                         f"state give {found:g} Pa: the constants contradict each other")
+                         f"state give {p_hel:g} Pa: the constants contradict each other")

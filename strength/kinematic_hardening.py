@@ -1,4 +1,4 @@
-"""Linear hardening that shifts the yield surface, widens it, or does both."""
+"""Linear hardening that shifts the yield surface, widens it, or both."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EQUATION = """\
 sqrt(3/2 (s - a):(s - a)) = Y,  Y = Y0 + b H ep,  da = 2/3 (1 - b) H d(plastic strain), turned with the material,
 G constant"""
 SOURCE = "Prager, J. Appl. Mech. 23 (1956) 493; mixed with isotropic hardening as by Krieg & Key, ASME AMD-20 (1976) 125"
-VALIDITY = "loads that turn round at strains of some per cent; the back stress grows without bound, and nothing softens"
+VALIDITY = "loads that reverse at strains of some per cent; the back stress grows without bound, and nothing softens"
 PARAMETERS = (
     Parameter("shear_modulus", "Pa", REQUIRED, "shear modulus", "G"),
     Parameter("yield_stress", "Pa", REQUIRED, "initial yield stress in tension", "Y0"),
@@ -67,7 +67,7 @@ def turn(spin, internal):
 
 @point
 def melted(internal):
-    """A melt has no back stress: what freezes begins anew."""
+    """Clears the back stress: a melt has none, and starts without it when it freezes."""
     internal[0], internal[1], internal[2] = 0.0, 0.0, 0.0
 
 

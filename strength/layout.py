@@ -1,4 +1,4 @@
-"""The rows of numbers that strength and damage models read, as far as all of them share them."""
+"""The slots and lengths that the rows of numbers of all strength models share, and of all damage models."""
 
 #: slots that every strength model fills: shear modulus and yield stress of the virgin material at rest
 SHEAR, YIELD = 0, 1

@@ -1,13 +1,13 @@
-"""The melting line of a material: its melting temperature against its density, from which on it has no strength.
+"""The melting line of a material: its melting temperature against its density. From that temperature on it has no strength.
 
-Lindemann's criterion says that a crystal melts when its atoms vibrate by a certain share of their distance. With the Debye
-temperature d ln(theta)/d ln(rho) = Gamma it gives d ln(Tm)/d ln(rho) = 2 (Gamma - 1/3). Steinberg, Cochran and Guinan let
-Gamma = Gamma0 - a (1 - 1/eta), eta = rho/rho0, and the integral from eta = 1 is their melting line.
+Lindemann's criterion says that a crystal melts when its atoms vibrate by a certain share of their distance. With
+d ln(theta)/d ln(rho) = Gamma for the Debye temperature theta it gives d ln(Tm)/d ln(rho) = 2 (Gamma - 1/3). Steinberg, Cochran
+and Guinan let Gamma = Gamma0 - a (1 - 1/eta), eta = rho/rho0, and the integral from eta = 1 is their melting line.
 
-A line is a row of `ROW` numbers, `NONE` for a material that has none. Models of strength that end at such a line by themselves
-use the same functions. The line needs an exponential and a power. Since ln(eta) >= 1 - 1/eta, ln(eta) <= eta - 1 and
+A line is a row of `ROW` numbers, `NONE` for a material without one. Strength models with a melting line of their own use the
+same functions. The line needs an exponential and a power. Since ln(eta) >= 1 - 1/eta, ln(eta) <= eta - 1 and
 exp(y) >= 1 + y, it is never below Tm0 (1 + y) with y = 2a(1 - 1/eta) + k (1 - 1/eta) for k >= 0 or + k (eta - 1) for
-k < 0, k = 2(Gamma0 - a - 1/3): only a material hotter than that is asked for its exact melting point. In a row of cells the
+k < 0, k = 2(Gamma0 - a - 1/3). The exact melting point is needed only for material hotter than that. In a row of cells the
 compiler evaluates both sides of every choice, for several cells at once.
 """
 
@@ -25,7 +25,7 @@ NAME = "melting"
 EQUATION = """\
 G = Y = 0 from Tm = Tm0 exp(2a(1 - 1/eta)) eta^(2(Gamma0 - a - 1/3)) on,  eta = rho/rho0"""
 SOURCE = "Steinberg, Cochran & Guinan, J. Appl. Phys. 51 (1980) 1498, after Lindemann, Phys. Z. 11 (1910) 609"
-VALIDITY = "metals whose solid has one phase; no heat of fusion: neither the temperature nor the pressure knows of melting"
+VALIDITY = "metals whose solid has one phase; no heat of fusion: melting changes neither the temperature nor the pressure"
 
 PARAMETERS = (
     Parameter("melt_temperature", "K", REQUIRED, "melting temperature at rho0", "Tm0", POSITIVE),
@@ -34,7 +34,7 @@ PARAMETERS = (
     Parameter("reference_density", "kg/m^3", REQUIRED, "density at rest", "rho0", POSITIVE, from_eos=True),
 )
 
-#: places in a line: Tm0, 2a, k and 1/rho0; and their number
+#: indices in a line: Tm0, 2a, k and 1/rho0; and their number
 MELT, TWO_A, K, INVERSE_RHO0 = range(4)
 ROW = 4
 #: the line of a material that never melts
@@ -49,7 +49,7 @@ def melting_temperature(eta, melt, two_a, k):
 
 @point
 def is_solid(T, eta, melt, two_a, k):
-    """Whether the temperature ``T``, K, is below the melting temperature at ``eta``; true of a NaN, which is to stay one."""
+    """Whether the temperature ``T``, K, is below the melting temperature at ``eta``; true for a NaN, so that it stays one."""
     w = 1.0 - 1.0 / eta
     bend = k * (w if k >= 0.0 else eta - 1.0)
     if melt * (1.0 + two_a * w + bend) > T:
@@ -65,7 +65,7 @@ def melts(line):
 
 @point
 def solid_modulus(modulus, rho, T, line):
-    """The shear ``modulus``, Pa, of a material with a melting ``line``: zero from the line on."""
+    """The shear ``modulus``, Pa, of a material with a melting ``line``: zero at the line and above."""
     return modulus if is_solid(T, rho * line[INVERSE_RHO0], line[MELT], line[TWO_A], line[K]) else 0.0
 
 

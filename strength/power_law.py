@@ -1,8 +1,8 @@
 """Power-law hardening in the total strain, as in cavity-expansion theory.
 
 sigma = Y0 (E eps/Y0)^n with eps = ep + sigma/E. With x = sigma/Y0 and a = E ep/Y0 this is x = (a + x)^n. Its root lies
-at x >= 1, where f = x - (a + x)^n is convex and increasing. The number of steps towards it is fixed and nothing branches, so
-that rows of cells are evaluated together.
+at x >= 1, where f = x - (a + x)^n is convex and increasing. The number of steps is fixed and nothing branches, so that rows of
+cells are evaluated together.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def flow_stress(ep, rate, T, p, rho, par):
 
 @point
 def yield_floor(par):
-    """The flow stress only hardens."""
+    """The initial yield stress: the material only hardens."""
     return par[YIELD]
 
 

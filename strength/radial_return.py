@@ -1,7 +1,7 @@
 """Radial return of the deviator to the yield surface (Wilkins 1964), with hardening and rate solved implicitly.
 
-One cell is solved by `plastic_increment`, up to `LANES` cells at once by `return_together`: both take the same steps,
-`next_trial`, so that a cell's answer does not depend on which of them solves it, nor on its company.
+`plastic_increment` solves one cell, `return_together` up to `LANES` cells at once. Both take the same steps, `next_trial`, so
+that a cell's answer depends neither on which of them solves it nor on the cells solved with it.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from strength.lanes import (
     TRIAL,
 )
 
-#: the stress is solved to this share of the trial; the iterations end far earlier but for roots at a kink of Y
+#: tolerance on the stress as a share of the trial, and the most iterations; only roots at a kink of Y come near that number
 _TOLERANCE, _ITERATIONS = 1e-10, 60
 
-#: logarithm of the largest plastic increment over one that does not matter: a third of what the tolerance allows
+#: logarithm of the largest plastic increment over a negligible one: a third of what the tolerance allows
 _SPAN = 1.0 - math.log(_TOLERANCE)
 
-#: a residual that does not shrink to this share is answered with a bisection
+#: a trial whose residual does not shrink to this share is followed by a bisection
 _PROGRESS = 0.7
 
-#: a first rise of the flow stress beyond this share of the elastic stress is taken for one with the rate
+#: a first rise of the flow stress beyond this share of the elastic stress is attributed to the rate
 _RATE_SHARE = 0.1
 
 
@@ -43,7 +43,7 @@ _RATE_SHARE = 0.1
 def first_trial(seq, stiffness, Y):
     """(whether the step is plastic, x, ln x, ln of the largest x): the root x for a constant flow stress ``Y`` is tried first.
 
-    A NaN counts as plastic, and ends as NaN; without ``stiffness`` = 3 G nothing returns.
+    A NaN counts as plastic, and ends as NaN; with ``stiffness`` = 3 G = 0 no step is plastic.
     """
     excess = seq - Y
     x = (seq if excess > seq else excess) / stiffness
@@ -52,10 +52,10 @@ def first_trial(seq, stiffness, Y):
 
 @point
 def next_trial(first, seq, stiffness, x, u, Y, low, high, u_before, Y_before, before, log_dt):
-    """(ended, dep, stress, next u, low, high, size of the residual) after the flow stress ``Y`` was found at the trial ``x``.
+    """(ended, dep, stress, next u, low, high, size of the residual) from the flow stress ``Y`` at the trial ``x``.
 
-    u = ln x; ``low`` and ``high`` bracket its root, ``before`` is the size of the residual of the trial before, Pa. Where
-    ``ended``, dep and stress are the answer of `plastic_increment`, NaN where the residual is one.
+    u = ln x; ``low`` and ``high`` bracket its root, ``before`` is the size of the previous residual, Pa. Where ``ended``, dep
+    and stress are the answer of `plastic_increment`, NaN where the residual is one.
 
     After the ``first`` trial, Y is taken to be linear in x from its value at x = 0 where it rose little, and linear in the
     logarithm of the rate, from 1/s on, where it rose much. From then on the last two points give a Y linear in u: hardening
@@ -79,7 +79,7 @@ def next_trial(first, seq, stiffness, x, u, Y, low, high, u_before, Y_before, be
     slope = rise / width
     both = elastic + slope
     straight = little or (slope <= elastic and not first)
-    # of a step in x, ln(1 + f/both) by the Pade approximant s (6 + s)/(6 + 4 s)
+    # for a step in x, ln(1 + f/both) by the Pade approximant s (6 + s)/(6 + 4 s)
     trial = u + (f * (6.0 * both + f) if straight else f) / (both * (6.0 * both + 4.0 * f) if straight else both)
     good = low < trial and trial < high and size <= _PROGRESS * before
     stress = Y if solved else seq - elastic
@@ -93,7 +93,7 @@ def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par, damage):
 
     ``seq`` von Mises stress of the elastic trial, ``ep`` plastic strain, ``T``, ``p`` and ``rho`` temperature, pressure
     and density, ``G`` shear modulus, ``factor`` multiplies every flow stress, ``par`` row of the strength model
-    ``model``, ``damage`` what weakens it, if it is a model that damage weakens.
+    ``model``, ``damage`` the damage, for a model that it weakens.
 
     Where seq <= Y(ep, rate 0) the step is elastic and Y that flow stress. Otherwise x = dep >= 0 solves
     (explanation/strength, (4))
@@ -101,7 +101,7 @@ def plastic_increment(model, seq, ep, dt, T, p, rho, G, factor, par, damage):
         f(x) = seq - 3 G x - factor Y(ep + x, x/dt) = 0,    f(0) > 0 >= f(seq/(3 G)),
 
     and the deviator is to be scaled by Y/seq: molten (Y = 0), it vanishes and dep = seq/(3 G). Without a shear modulus
-    the answer is (0, 0). A NaN in what the answer depends on makes both NaN.
+    the answer is (0, 0). A NaN in any value that the answer depends on makes both NaN.
     """
     if not G > 0.0:
         return 0.0, 0.0

@@ -1,6 +1,6 @@
-"""The strength and damage models: those of this folder, and those from outside that are added before the kernels are loaded.
+"""The strength and damage models: those in this folder, and those from outside, added before the kernels are loaded.
 
-A new model is a file in this folder and its name in ``STRENGTH_MODULES`` or ``DAMAGE_MODULES``.
+To add a model, put a file in this folder and its name in ``STRENGTH_MODULES`` or ``DAMAGE_MODULES``.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage", "johnso
 STRENGTH_MODELS = {module.NAME: module for module in STRENGTH_MODULES}
 DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}
 
-#: what a strength model computes: the arguments of its functions and the number of values that they return
+#: functions of a strength model: their arguments and the number of values that they return
 STRENGTH_FUNCTIONS = {
     "shear_modulus": ("p, rho, T, par", 1),
     "flow_stress": ("ep, rate, T, p, rho, par", 1),
@@ -29,7 +29,7 @@ STRENGTH_FUNCTIONS = {
     "harden": ("dep, rr, zz, rz, par, internal", 0),
 }
 STRENGTH_REQUIRED = ("shear_modulus", "flow_stress")
-#: and a damage model
+#: those of a damage model
 DAMAGE_FUNCTIONS = {
     "damage_increment": ("dep, rate, T, p, seq, par", 1),
     "tension_left": ("damage, par", 1),
@@ -43,10 +43,10 @@ DAMAGE_ADDED: list[ModuleType] = []
 
 
 def chosen() -> tuple[ModuleType, ...]:
-    """The strength models that kernels choose among; their order does not depend on that in which they were added."""
+    """The strength models that kernels choose among, in an order that does not depend on the order in which they were added."""
     return (*STRENGTH_MODULES, *sorted(STRENGTH_ADDED, key=lambda module: module.ID))
 
 
 def chosen_damage() -> tuple[ModuleType, ...]:
-    """The same of damage models."""
+    """The damage models that kernels choose among, likewise ordered."""
     return (*DAMAGE_MODULES, *sorted(DAMAGE_ADDED, key=lambda module: module.ID))

@@ -1,4 +1,4 @@
-"""Symmetric tensors of the meridian plane, turned by the spin of the material."""
+"""Rotation of symmetric tensors in the meridian plane by the spin of the material."""
 
 from hydro2d.jit import point
 

@@ -1,4 +1,4 @@
-"""Zerilli-Armstrong flow stress of body-centred cubic metals: thermally activated, hardening beside it."""
+"""Zerilli-Armstrong flow stress of body-centred cubic metals: a thermally activated stress plus a hardening stress."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PARAMETERS = (
     Parameter("hardening_exponent", "", 1.0, "exponent of the plastic strain", "n", POSITIVE),
     Parameter("lowest_rate", "1/s", 1e-3, "strain rate below which the rate does not matter", "rate_min", POSITIVE),
     Parameter("yield_temperature", "K", 298.0, "temperature at which the yield stress is quoted", "T0", POSITIVE),
-    Parameter("melt_temperature", "K", math.inf, "temperature without strength", "Tm", POSITIVE),
+    Parameter("melt_temperature", "K", math.inf, "temperature from which on there is no strength", "Tm", POSITIVE),
 )
 
 #: slots of the row; the common ones are SHEAR and YIELD

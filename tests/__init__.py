@@ -2,5 +2,5 @@
 
 import os
 
-# threads that wait for work give their core away: on a machine that does other things as well, spinning ones would crawl
+# waiting threads give up their core: spinning ones would crawl on a machine that does other things as well
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")

@@ -1,4 +1,4 @@
-"""What tests of several folders need."""
+"""Fixtures for tests of several folders."""
 
 import os
 import sys
@@ -13,7 +13,7 @@ from tests.browser import browser  # noqa: F401
 
 @pytest.fixture(autouse=True)
 def no_terminal(monkeypatch):
-    """Workers of pytest-xdist say that a terminal is 80 columns wide. There is none: what commands print is not broken."""
+    """pytest-xdist tells its workers that a terminal is 80 columns wide. There is none: output of commands is not broken."""
     monkeypatch.delenv("COLUMNS", raising=False)
 
 
@@ -29,7 +29,7 @@ def one_thread_for_a_worker():
 
 @pytest.fixture
 def simulation(monkeypatch):
-    """The fake simulation in the place of the real one; the class is the test's own."""
+    """The fake simulation in place of the real one; each test has its own class."""
     own = type("Simulation", (fake.Simulation,), {})
     module = SimpleNamespace(Simulation=own)
     monkeypatch.setitem(sys.modules, "hydro2d.solver.simulation", module)

@@ -3,7 +3,7 @@
 ``mesh((...), (...)) + rod("3 mm", "10 mm", tip=0.0, velocity="1000 m/s") + plate("20 mm") + stop("1 us")``
 
 Every key that a table of the deck may have can be given by its own name; numbers are in SI units. The mesh comes first. Decks
-that are a subject themselves (how they are read, what is said of them) stand as text where they are tested.
+that are themselves under test (how they are read, the messages about them) are written as text in their tests.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ def _lines(head: str, keys: dict[str, Value]) -> str:
 
 
 def table(name: str, /, **keys: Value) -> str:
-    """A table that a deck has once, as ``table("numerics", advection="ke")``."""
+    """A table that occurs once in a deck, as ``table("numerics", advection="ke")``."""
     return _lines(f"[{name}]", keys)
 
 
 def entry(name: str, /, **keys: Value) -> str:
-    """A table of which a deck may have several: a body, a tracer, a gauge."""
+    """A table that may occur several times in a deck: a body, a tracer, a gauge."""
     return _lines(f"[[{name}]]", keys)
 
 
 def mesh(r: Axis, z: Axis, **keys: Value) -> str:
-    """The mesh, which comes first, with what the whole deck says of its numbers: that they are in SI units.
+    """The mesh, which comes first, after the line for the whole deck that its numbers are in SI units.
 
-    An axis is (end, cells), (start, end, cells), or the list of its segments as in a deck. In place of the number of
-    cells, an int, may stand the size of a cell, a text or a float.
+    An axis is (end, cells), (start, end, cells), or the list of its segments as in a deck. Instead of the number of cells, an
+    int, the size of a cell may be given, a text or a float.
     """
     for name, axis in (("r", r), ("z", z)):
         if isinstance(axis, tuple):
@@ -69,17 +69,17 @@ def box(name: str, material: str, **keys: Value) -> str:
 
 def rod(radius: Value, length: Value, *, name: str = "rod", material: str = "W_alloy", nose: str = "hemispherical",
         **keys: Value) -> str:  # fmt: skip
-    """A rod, of the tungsten alloy and with a hemispherical nose if nothing else is said."""
+    """A rod, of the tungsten alloy and with a hemispherical nose by default."""
     return body(name, material, "rod", nose=nose, radius=radius, length=length, **keys)
 
 
 def plate(thickness: Value, *, name: str = "plate", material: str = "Al5083", z_front: Value = 0.0, **keys: Value) -> str:
-    """A plate, of aluminium 5083 from z = 0 on if nothing else is said."""
+    """A plate, of aluminium 5083 from z = 0 on by default."""
     return body(name, material, "plate", z_front=z_front, thickness=thickness, **keys)
 
 
 def material(name: str, based_on: str, **keys: Value) -> str:
-    """A material of the deck's own, made from one of the library."""
+    """A material of the deck, based on one of the library."""
     return table(f"materials.{name}", based_on=based_on, **keys)
 
 

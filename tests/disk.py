@@ -1,4 +1,4 @@
-"""A disk that is full from some write on, for tests of what then becomes of files."""
+"""A disk that is full from some write on, for tests of the files that remain."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hydro2d.output import snapshot
 
 
 class Disk:
-    """Counts the files that are flushed to disk, and is full from one of them on, or for that one alone."""
+    """Counts the files that are flushed to disk, and is full from one of them on, or for that one only."""
 
     def __init__(self, monkeypatch):
         self.count, self.full, self.once = 0, 0, False
@@ -26,5 +26,5 @@ class Disk:
         self.sync(path)
 
     def begin(self, full: int = 0, once: bool = False) -> None:
-        """Counts anew. full : number of the first file for which there is no space, 0 for none;  once : for no other"""
+        """Starts the count again. full : number of the first file without space, 0 for none;  once : for that file only"""
         self.count, self.full, self.once = 0, full, once

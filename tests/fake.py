@@ -1,4 +1,4 @@
-"""A simulation without a solver: a rod that advances into a plate, on a real mesh, for tests of what is written."""
+"""A simulation without a solver: a rod that advances into a plate, on a real mesh, for tests of the files written."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ RADIUS, LENGTH, SPEED, STOP = 4e-3, 20e-3, 1000.0, 20e-6
 
 
 class FakeDeck:
-    """What run.py needs of a deck; a real one has the same names."""
+    """The part of a deck that run.py uses; a real one has the same names."""
 
     def __init__(self, **output):
         self.name, self.title = "fake", "a rod that meets a plate"
@@ -79,9 +79,9 @@ class Simulation:
         )
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         places = np.array([[0.0, 0.0], [1e-3, 5e-3]])
-        found = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
+        where = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
         self.columns, self.formulas, self.warnings = {}, {}, []
-        self.stations = SimpleNamespace(tracers=places, measure=lambda: found)
+        self.stations = SimpleNamespace(tracers=places, measure=lambda: where)
         self._place()
 
     def _place(self) -> None:

@@ -1,4 +1,4 @@
-"""Lock files as other processes hold them."""
+"""Lock files as held by other processes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 @contextmanager
 def held(path: Path, process: int | None = None) -> Iterator[None]:
-    """A lock that a process of this machine holds, which calls itself by this number."""
+    """A lock held by a process of this machine that gives this number as its own."""
     with open(path, "w", encoding="utf-8") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         file.write(f"{socket.gethostname()} {process or os.getppid()}\n")

@@ -1,4 +1,4 @@
-"""Names that a deck may have: every printable character but / and \\ in one of them, and those that a format has a use for."""
+"""Names that a deck may have: every printable character but / and \\ in one of them, and those special to some format."""
 
 import string
 import sys
@@ -6,7 +6,7 @@ import unicodedata
 
 #: printable characters of ASCII that names may have
 ASCII = "".join(character for character in string.printable if character.isprintable() and character not in "/\\")
-#: the first printable character of every category and every thousandth of all, which stand for the rest of Unicode
+#: the first printable character of every category and every thousandth of all, to represent the rest of Unicode
 _REST = [chr(code) for code in range(0xA1, sys.maxunicode + 1) if chr(code).isprintable()]
 UNICODE = "".join(dict.fromkeys([*{unicodedata.category(character): character for character in reversed(_REST)}.values(),
                                  *_REST[::1000]]))  # fmt: skip

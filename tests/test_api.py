@@ -41,17 +41,17 @@ def shot(deck, tmp_path_factory):
 def test_importing_hydro2d_is_cheap_and_the_names_are_there():
     text = ("import sys, hydro2d; print(sorted({'numba', 'pandas', 'vtk', 'pydantic'} & set(sys.modules)));"
             "print([name for name in hydro2d.__all__ if getattr(hydro2d, name).__doc__ is None])")  # fmt: skip
-    found = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert found.stdout.splitlines() == ["[]", "[]"]
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["[]", "[]"]
 
 
 @pytest.mark.parametrize("first", ["", "import eos; "])
-def test_another_package_called_eos_is_told(tmp_path, first):
+def test_another_package_called_eos_is_reported(tmp_path, first):
     (tmp_path / "eos.py").write_text("ROTATION = 1\n")
-    found = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
-                           env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
-    assert found.returncode == 1
-    assert f"hydro2d has its own package eos, but Python finds another one at {tmp_path / 'eos.py'}" in found.stderr
+    done = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
+    assert done.returncode == 1
+    assert f"hydro2d has its own package eos, but Python finds another one at {tmp_path / 'eos.py'}" in done.stderr
 
 
 TYPED = """
@@ -65,7 +65,7 @@ wrong: int = hydro2d.Simulation(deck).run(until=1e-6)
 
 
 def test_a_type_checker_finds_hydro2d_from_any_folder(tmp_path):
-    """In an editable install as well: the mistake is found, and nothing is missing."""
+    """In an editable install as well: the mistake is found, and no name is missing."""
     (tmp_path / "program.py").write_text(TYPED)
     (tmp_path / "mypy.ini").write_text("[mypy]\nfollow_imports = skip\n[mypy-hydro2d.*]\nfollow_imports = silent\n")
     done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", "cache", "program.py"], cwd=tmp_path, text=True,
@@ -78,8 +78,8 @@ def test_the_names_load_no_kernels():
     """Until the first simulation is made a deck can still bring a model of its own."""
     text = ("import sys, hydro2d; [getattr(hydro2d, name) for name in hydro2d.__all__];"
             "print({'eos.dispatch', 'strength.dispatch'} & set(sys.modules))")  # fmt: skip
-    found = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "set()"
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
 
 
 def test_an_unknown_name_is_refused():
@@ -108,9 +108,9 @@ def test_the_three_ways_to_a_deck_give_the_same(tmp_path, deck):
 
 def test_numbers_of_numpy_and_tuples_are_values():
     mesh = {"r": [{"to": np.float64(9e-3), "cells": np.int64(18)}], "z_start": -12e-3, "z": ({"to": 12e-3, "cells": 48},)}
-    found = hydro2d.Deck.from_dict({**tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
-    assert found.body[0].velocity == (0.0, 80.0)
-    assert found.mesh.r[0].cells == 18
+    loaded = hydro2d.Deck.from_dict({**tomllib.loads(TEXT), "mesh": mesh}, {"body.rod.velocity": np.array([0.0, 80.0])})
+    assert loaded.body[0].velocity == (0.0, 80.0)
+    assert loaded.mesh.r[0].cells == 18
 
 
 def test_a_dict_is_not_changed():
@@ -124,15 +124,15 @@ def test_the_class_alone_makes_no_deck():
         hydro2d.Deck(**tomllib.loads(TEXT))
 
 
-@pytest.mark.parametrize(("changes", "told"), [
+@pytest.mark.parametrize(("changes", "said"), [
     ({"body.rod.velocity": "80 kg"}, r'override body.rod.velocity = .80 kg.: body\[0\].velocity: "80 kg" is a mass'),
     ({"body.bar.velocity": 80.0}, "override body.bar.velocity = 80.0: there is no entry bar; there are rod, plate"),
     ({"numerics.advection": "kinetic"}, "override numerics.advection"),
     ({"": 1}, "the key is empty"),
     ("stop.time=1", 'not the text "stop.time=1"'),
 ])  # fmt: skip
-def test_a_wrong_override_is_named(changes, told):
-    with pytest.raises(hydro2d.DeckError, match=told):
+def test_a_wrong_override_is_named(changes, said):
+    with pytest.raises(hydro2d.DeckError, match=said):
         hydro2d.Deck.from_toml(TEXT, changes)
 
 
@@ -223,7 +223,7 @@ def test_an_interrupt_waits_for_the_end_of_the_cycle(deck):
     pandas.testing.assert_frame_equal(sim.to_pandas(), whole.to_pandas(), check_exact=True)
 
 
-@pytest.mark.parametrize(("name", "column", "told"), [
+@pytest.mark.parametrize(("name", "column", "said"), [
     ("penetration_depth_m", lambda sim: 1.0, "the history has a column penetration_depth_m of its own"),
     ("crater_radius", lambda sim: 1.0, "a column cannot be called 'crater_radius'"),
     ("a/b", lambda sim: 1.0, "a column cannot be called 'a/b'"),
@@ -232,10 +232,10 @@ def test_an_interrupt_waits_for_the_end_of_the_cycle(deck):
     ("mine", lambda sim: 1 / 0, "the column mine fails: ZeroDivisionError: division by zero"),
     ("mine", lambda sim: None, "the column mine fails: TypeError"),
 ])  # fmt: skip
-def test_a_wrong_column_is_named(deck, name, column, told):
+def test_a_wrong_column_is_named(deck, name, column, said):
     sim = hydro2d.Simulation(deck)
     sim.columns[name] = column
-    with pytest.raises(hydro2d.Error, match=told):
+    with pytest.raises(hydro2d.Error, match=said):
         sim.run(until="1 us")
 
 
@@ -252,8 +252,8 @@ def test_a_column_that_fails_leaves_a_run_that_can_go_on(tmp_path, deck, shot):
         hydro2d.run(deck, tmp_path / "run", quiet=True, columns=fails)
     assert not (tmp_path / "run" / "progress.json").exists()
     rights = {"highest_Pa": lambda sim: sim.array("pressure").max()}
-    found = hydro2d.run(deck, tmp_path / "run", restart=True, quiet=True, columns=rights)
-    assert found.summary["cycles"] == shot.summary["cycles"]
+    results = hydro2d.run(deck, tmp_path / "run", restart=True, quiet=True, columns=rights)
+    assert results.summary["cycles"] == shot.summary["cycles"]
 
 
 def test_arrays_are_views(deck):
@@ -292,18 +292,18 @@ def test_fields_are_computed_from_the_state(deck):
     assert grid.bounds[:4] == pytest.approx((0.0, 9e-3, -12e-3, 12e-3))
 
 
-@pytest.mark.parametrize(("key", "body", "told"), [
+@pytest.mark.parametrize(("key", "body", "said"), [
     ("presure", None, 'unknown field "presure"'),
     ("body_density", None, "body_density is one of every body"),
     ("body_density", "bar", 'unknown body "bar"'),
     ("contact_pressure", None, "contact_pressure: the simulation has none"),
 ])  # fmt: skip
-def test_a_field_that_is_not_there_is_refused(deck, key, body, told):
-    with pytest.raises(FieldError, match=told):
+def test_a_field_that_is_not_there_is_refused(deck, key, body, said):
+    with pytest.raises(FieldError, match=said):
         hydro2d.Simulation(deck).field(key, body)
 
 
-def test_a_deviator_asked_for_by_its_old_name_is_told_its_new_one(deck):
+def test_the_message_on_an_old_name_of_a_deviator_has_the_new_one(deck):
     sim = hydro2d.Simulation(deck)
     with pytest.raises(FieldError, match="stress_zz is now called deviator_zz"):
         sim.array("stress_zz")
@@ -355,8 +355,8 @@ def test_the_history_of_a_run_under_way_is_read_again(tmp_path, shot):
 
 def test_a_mesh_that_travels_says_where_it_is(tmp_path):
     deck = hydro2d.Deck.from_toml(TEXT, FOLLOWING)
-    found = hydro2d.run(deck, tmp_path / "following", quiet=True)
-    fields = found.fields
+    results = hydro2d.run(deck, tmp_path / "following", quiet=True)
+    fields = results.fields
     travelled = fields.mesh_position.values
     assert travelled[0] == 0.0
     assert (np.diff(travelled) > 0).all()
@@ -364,7 +364,7 @@ def test_a_mesh_that_travels_says_where_it_is(tmp_path):
     assert fields.volume_fraction.dims == ("time", "body", "mesh_z", "r")
     assert fields.z.dims == ("time", "mesh_z")
     np.testing.assert_allclose(fields.mesh_z + fields.mesh_position, fields.z.T, atol=1e-12)
-    for number, (_, file) in enumerate(found.dumps):
+    for number, (_, file) in enumerate(results.dumps):
         np.testing.assert_array_equal(fields.z[number], read_grid(file).z_centres)
     last = fields.isel(time=-1).swap_dims(mesh_z="z")
     place = float(last.z[7]) + 1e-6
@@ -372,7 +372,7 @@ def test_a_mesh_that_travels_says_where_it_is(tmp_path):
 
 
 def test_a_mesh_that_will_travel_has_its_dimensions_from_the_first_dump_on(tmp_path):
-    """A script must not break on how far a run has come."""
+    """A script must not depend on how far a run has come."""
     directory = made_run.write(tmp_path / "run", dumps=1)
     assert hydro2d.open_run(directory).fields.pressure.dims == ("time", "z", "r")
     (directory / "deck.toml").write_text(made_run.DECK_TEXT.format(geometry="cylindrical").replace(
@@ -422,8 +422,8 @@ def test_an_interrupted_run_raises_and_goes_on(tmp_path, deck, shot, monkeypatch
     with pytest.raises(KeyboardInterrupt, match="stopped: interrupted"):
         hydro2d.run(deck, place, quiet=True, columns=columns)
     monkeypatch.undo()
-    found = hydro2d.run(deck, place, restart=True, quiet=True, columns=columns)
-    pandas.testing.assert_frame_equal(found.to_pandas(), shot.to_pandas(), check_exact=True)
+    results = hydro2d.run(deck, place, restart=True, quiet=True, columns=columns)
+    pandas.testing.assert_frame_equal(results.to_pandas(), shot.to_pandas(), check_exact=True)
 
 
 # ---------------------------------------------------------------------------------------------------- sweeps
@@ -456,7 +456,7 @@ def test_a_sweep_of_a_deck_object_and_of_a_study_file(tmp_path):
 
 
 def test_a_sweep_of_a_deck_object_resolves_its_defaults_anew(tmp_path):
-    """The surface from which the depth counts and the intervals of output follow the case, not the deck that it was made of."""
+    """The surface from which the depth counts and the intervals of output follow the case, not the original deck."""
     deck = hydro2d.Deck.from_toml(TEXT)
     plan = api._plan(deck, {"body.plate.z_front": ["0 mm", "1 mm"], "stop.time": ["10 us", "20 us"]}, (), tmp_path / "study")
     cases = [hydro2d.Deck.from_toml(case.text) for case in plan.cases]
@@ -464,16 +464,16 @@ def test_a_sweep_of_a_deck_object_resolves_its_defaults_anew(tmp_path):
     assert [case.output.history_interval for case in cases] == [1e-8, 2e-8, 1e-8, 2e-8]
 
 
-def test_what_is_no_study_is_refused(tmp_path):
+def test_a_sweep_with_wrong_arguments_is_refused(tmp_path):
     with pytest.raises(hydro2d.StudyError, match="give `axes`, the keys to vary"):
         hydro2d.sweep(hydro2d.Deck.from_toml(tubes.TUBE))
-    for axes, told in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
-                       ({"body.low.pressure": ["low"]}, "no case has a valid deck")):  # fmt: skip
-        with pytest.raises(hydro2d.StudyError, match=told):
+    for axes, error in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
+                        ({"body.low.pressure": ["low"]}, "no case has a valid deck")):  # fmt: skip
+        with pytest.raises(hydro2d.StudyError, match=error):
             hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), axes, directory=tmp_path / "out")
-    for options, told in (({"workers": 0}, "workers = 0"), ({"threads": -1}, "threads = -1"),
-                          ({"overrides": "a=1"}, "not the text")):  # fmt: skip
-        with pytest.raises(hydro2d.StudyError, match=told):
+    for options, error in (({"workers": 0}, "workers = 0"), ({"threads": -1}, "threads = -1"),
+                           ({"overrides": "a=1"}, "not the text")):  # fmt: skip
+        with pytest.raises(hydro2d.StudyError, match=error):
             hydro2d.sweep(tubes.write(tmp_path), directory=tmp_path / "out", **options)
     with pytest.raises(hydro2d.StudyError, match="no deck has the key body.low.colour"):
         hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), {"body.low.colour": [1]}, directory=tmp_path / "out")
@@ -482,19 +482,19 @@ def test_what_is_no_study_is_refused(tmp_path):
 # ---------------------------------------------------------------------------------------------------- plain numbers, threads
 
 
-#: the shot as it stands, without the line that lets numbers be in SI units
+#: the deck of the shot, without the line that lets numbers be in SI units
 WITH_UNITS = TEXT.replace('numbers = "SI"\n', "")
 
 
-@pytest.mark.parametrize(("changes", "told"), [
+@pytest.mark.parametrize(("changes", "said"), [
     ({"body.rod.radius": 2.5}, r'2.5: body\[0\].radius: 2.5 has no unit; write "2.5 mm" \(or numbers = "SI"'),
     ({"stop.time": 60}, 'stop.time: 60 has no unit; write "60 us"'),
     ({"body.rod.velocity": 1086.0}, 'write "1086 m/s"'),
     ({"mesh.z": [{"to": 40, "cells": 20}]}, r"mesh.z\[0\].to: 40 has no unit"),
     ({"gauge": [{"name": "a", "r": np.float64(3.0), "z": 0.0}]}, r"gauge\[0\].r: 3 has no unit"),
 ])  # fmt: skip
-def test_a_number_that_lacks_its_unit_is_refused(changes, told):
-    with pytest.raises(hydro2d.DeckError, match=told):
+def test_a_number_that_lacks_its_unit_is_refused(changes, said):
+    with pytest.raises(hydro2d.DeckError, match=said):
         hydro2d.Deck.from_toml(WITH_UNITS, changes)
 
 
@@ -510,15 +510,15 @@ def test_a_ball_of_radius_two_and_a_half_is_refused_in_a_dict_and_an_axis(tmp_pa
 
 def test_numbers_of_programs_are_in_si_where_they_say_so():
     changes = {"body.rod.radius": 2e-3, "stop.speed_below": 5, "body.rod.velocity": np.float64(5.0), "stop.time": 1e-5}
-    for found in (hydro2d.Deck.from_toml(WITH_UNITS, {"numbers": "SI", **changes}),
-                  hydro2d.Deck.from_toml('numbers = "SI"\n' + WITH_UNITS, changes),
-                  hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(WITH_UNITS)}, changes)):
-        assert (found.body[0].radius, found.stop.speed_below, found.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
+    for loaded in (hydro2d.Deck.from_toml(WITH_UNITS, {"numbers": "SI", **changes}),
+                   hydro2d.Deck.from_toml('numbers = "SI"\n' + WITH_UNITS, changes),
+                   hydro2d.Deck.from_dict({"numbers": "SI", **tomllib.loads(WITH_UNITS)}, changes)):
+        assert (loaded.body[0].radius, loaded.stop.speed_below, loaded.body[0].velocity) == (2e-3, 5.0, (0.0, 5.0))
 
 
 def test_zero_and_what_has_no_unit_need_none():
-    found = hydro2d.Deck.from_toml(WITH_UNITS, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
-    assert (found.body[1].velocity, found.numerics.courant) == ((0.0, 0.0), 0.3)
+    loaded = hydro2d.Deck.from_toml(WITH_UNITS, {"body.plate.velocity": 0.0, "numerics.courant": 0.3, "mesh.r.0.cells": 20})
+    assert (loaded.body[1].velocity, loaded.numerics.courant) == ((0.0, 0.0), 0.3)
 
 
 def test_the_deck_of_a_run_is_a_deck(deck, shot):
@@ -557,8 +557,8 @@ def test_reprs_are_short(deck, shot):
 # ---------------------------------------------------------------------------------------------------- extras
 
 
-def test_without_xarray_and_pandas_the_extra_is_told(shot, deck, tmp_path, monkeypatch):
-    """Results are read without them; what needs them says which extra brings them, a sweep before it runs anything."""
+def test_without_xarray_and_pandas_the_extra_is_named(shot, deck, tmp_path, monkeypatch):
+    """Results are read without them; functions that need them name the extra that brings them, a sweep before it runs."""
     for name in ("pandas", "xarray"):
         monkeypatch.setitem(sys.modules, name, None)
     assert shot.history["time"].size > 1

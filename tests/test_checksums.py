@@ -1,4 +1,4 @@
-"""The checksum in a file fits at any moment, is in nobody's way, and gives way to a user who means a change."""
+"""The checksum in a file matches at any moment, is in nobody's way, and yields to a user's deliberate change."""
 
 import json
 import os
@@ -32,7 +32,7 @@ def done(simulation, tmp_path):
 
 
 def is_sealed(file: Path) -> bool:
-    """Whether one bit more in the middle is refused."""
+    """Whether one changed bit in the middle is refused."""
     data = bytearray(file.read_bytes())
     data[len(data) // 2] ^= 1
     other = file.with_name(f"other{file.suffix}")
@@ -53,7 +53,7 @@ def test_every_file_of_a_run_has_one(done):
 
 
 def test_every_file_fits_whenever_it_is_replaced(simulation, tmp_path, monkeypatch):
-    """So that a reader, or a process that is killed, finds no file without its checksum."""
+    """So that a reader, or a killed process, finds no file without its checksum."""
     seen = []
 
     def replace(source, target):
@@ -99,8 +99,8 @@ def test_a_change_is_refused_until_it_is_meant(done, name, change, remedy):
     with pytest.raises(ResultsError, match=f"{name} does not fit its checksum: it was damaged or changed .*; {remedy}"):
         Results(done)
     file.write_text("\n".join(line for line in changed.split("\n") if "sha256 " not in line and '"sha256"' not in line))
-    found = Results(done)
-    assert "fine" in found.summary["status"] or found.tables["numerics"]["courant"] == 0.4
+    results = Results(done)
+    assert "fine" in results.summary["status"] or results.tables["numerics"]["courant"] == 0.4
 
 
 def test_files_of_earlier_versions_are_read(tmp_path):
@@ -116,7 +116,7 @@ def test_files_of_earlier_versions_are_read(tmp_path):
 
 
 def test_a_file_that_another_program_added_to_is_read(done):
-    """h5py leaves out what stands behind the end."""
+    """h5py ignores data behind the end."""
     with h5py.File(done / "history.h5", "a") as file:
         file["mine"] = np.zeros(len(file["time"]))
     assert "mine" in history.read(done / "history.h5")
@@ -143,7 +143,7 @@ def test_nothing_but_files_is_read(tmp_path):
 @pytest.mark.parametrize("name", ["deck.toml", "summary.json", "progress.json", "study.json", "series.pvd", "history.h5",
                                   "restart.h5", "dump_000000.vtr"])  # fmt: skip
 def test_the_size_of_a_file_is_looked_at_before_it_is_read(tmp_path, name):
-    """One of a terabyte takes no memory."""
+    """A file of a terabyte takes no memory."""
     file = tmp_path / name
     with open(file, "wb") as sparse:
         sparse.truncate(1 << 40)
@@ -176,9 +176,9 @@ def test_a_series_that_is_damaged_is_read_from_the_dumps(done):
 
 
 @pytest.mark.parametrize("suffix", [*checksums.FORMS, ".h5"])
-def test_what_is_sealed_holds_what_it_was_made_of(suffix):
+def test_sealed_data_contain_their_original(suffix):
     begin = checksums.FORMS[suffix].begin if suffix in checksums.FORMS else b"\x89HDF\r\n\x1a\n"
-    found = sealed(begin + b"the rest", suffix)
-    assert found.startswith(begin)
-    assert b"the rest" in found
-    assert found.count(b"sha256") == 1
+    data = sealed(begin + b"the rest", suffix)
+    assert data.startswith(begin)
+    assert b"the rest" in data
+    assert data.count(b"sha256") == 1

@@ -1,4 +1,4 @@
-"""Modules and settings that lie in the current directory are not run, by no process that hydro2d starts."""
+"""Modules and settings in the current directory are not run by any process that hydro2d starts."""
 
 import os
 import subprocess
@@ -13,28 +13,28 @@ from hydro2d.compilation import Second
 from hydro2d.study import cluster
 from tests.materials.made_models import DECK, VOCE
 
-#: further modules that someone might plant; those of `eos`, `strength` and `hydro2d` themselves are found out
+#: further modules that someone might plant; those of `eos`, `strength` and `hydro2d` are determined here
 FURTHER = ("numpy", "h5py", "numba", "pyvista", "yaml", "cyclopts", "distributed", "sitecustomize", "usercustomize")
 
 
 @pytest.fixture
 def planted(tmp_path, monkeypatch):
-    """The current directory with a file for every module; the file that tells which was run."""
-    told = tmp_path / "told"
+    """The current directory with a file for every module; the file that records which was run."""
+    record = tmp_path / "told"
     folder = tmp_path / "planted"
     folder.mkdir()
     for name in (*sys.stdlib_module_names, *FURTHER):
-        (folder / f"{name}.py").write_text(f"open({str(told)!r}, 'a').write('{name} ')\nraise SystemExit('planted')\n")
+        (folder / f"{name}.py").write_text(f"open({str(record)!r}, 'a').write('{name} ')\nraise SystemExit('planted')\n")
     monkeypatch.chdir(folder)
-    return told
+    return record
 
 
-def found(told: Path) -> str:
-    return told.read_text() if told.exists() else ""
+def found(record: Path) -> str:
+    return record.read_text() if record.exists() else ""
 
 
 def test_a_planted_module_is_run_by_python(planted):
-    """What the other tests rely on."""
+    """The other tests rely on this."""
     done = subprocess.run([sys.executable, "-c", "import json"], capture_output=True, check=False)
     assert done.returncode != 0
     assert "json " in found(planted)
@@ -42,7 +42,7 @@ def test_a_planted_module_is_run_by_python(planted):
 
 @pytest.mark.parametrize("start", [[sys.executable, "-m", "hydro2d"], [str(Path(sys.executable).with_name("hydro2d"))]])
 def test_the_command(planted, start):
-    """With -m, Python itself looks for what it needs to find hydro2d before hydro2d can do anything about it."""
+    """With -m, Python itself looks for the modules that it needs to find hydro2d, before hydro2d can prevent it."""
     if "-m" in start:
         loaded = subprocess.run([sys.executable, "-P", "-c", "import runpy, sys; print(*sys.modules)"], capture_output=True,
                                 text=True, check=True, cwd="/").stdout.split()  # fmt: skip
@@ -61,7 +61,7 @@ def test_the_second_compiler(planted, monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
     second = Second(NoDeck())
     second.start(print)
-    assert second._process.wait(timeout=60) == 1  # it has come as far as the deck, which is wrong
+    assert second._process.wait(timeout=60) == 1  # it got as far as the deck, which is wrong
     assert found(planted) == ""
 
 
@@ -80,12 +80,12 @@ def test_workers(planted):
     assert os.environ.get(children.SAFE) == before
 
 
-def test_workers_of_slurm_are_told():
+def test_workers_of_slurm_get_the_setting():
     assert f"export {children.SAFE}=1" in cluster.Slurm(cores=1, memory="1 GB").arguments(1)["job_script_prologue"]
 
 
-def test_model_files_beside_a_deck_are_found_from_elsewhere(planted, tmp_path):
-    """What a deck names is run, and relative to the deck."""
+def test_model_files_next_to_a_deck_are_found_from_elsewhere(planted, tmp_path):
+    """Files named in a deck are run, relative to the deck."""
     (tmp_path / "shot").mkdir()
     (tmp_path / "shot" / "my_model.py").write_text(VOCE)
     (tmp_path / "shot" / "shot.toml").write_text(DECK)

@@ -1,4 +1,4 @@
-"""A run says that kernels are being compiled when they are, once, and not when they come from the cache."""
+"""A run reports the compilation of kernels when it happens, once, and not when they come from the cache."""
 
 import os
 import shutil
@@ -26,7 +26,7 @@ from tests.cli.test_main import DECK
 
 
 class Shown:
-    """A place that keeps what it is told."""
+    """A place that stores its lines."""
 
     def __init__(self):
         self.moved, self.rested = [], []
@@ -46,7 +46,7 @@ def place(monkeypatch):
 
 
 def first_call(name):
-    """What the first call of a kernel tells."""
+    """The report of the first call of a kernel."""
     return compilation.events.trigger_event(jit.FIRST_CALL, data={"kernel": name})
 
 
@@ -61,20 +61,20 @@ def test_one_line_moves_while_a_kernel_is_waited_for(place):
         assert place.rested == ["compiled kernels: 1 of 3, 0 s"]
         assert compiled.happened
         assert 0.3 < compiled.seconds < 3.0
-        time.sleep(0.2)  # cycles: the line stands still, and their time does not count
+        time.sleep(0.2)  # cycles: the line does not change, and their time does not count
         assert compiled.seconds < 0.2 + 0.3 + 0.1
         compiled.done("b")  # the second process has
         with first_call("b"):
             time.sleep(0.1)
         assert place.moved[-1] == ("compiling kernels: 2 of 3, 0 s", 2 / 3)
         assert compiled.settled() == [f"compiled 2 kernels in {duration(compiled.seconds, tenths=True)}"]
-        assert compiled.settled() == []  # it is said once
-    with first_call("c"):  # outside: nobody listens
+        assert compiled.settled() == []  # it is reported once
+    with first_call("c"):  # outside: no report
         time.sleep(0.1)
     assert len(place.rested) == 2
 
 
-def test_what_is_compiled_is_counted_though_nobody_expected_it(place):
+def test_unexpected_compilations_are_counted(place):
     inner = numba.njit(lambda x: x + 1)
     outer = numba.njit(lambda x: inner(x) * 2)
     with announced(place) as compiled:
@@ -137,7 +137,7 @@ def test_kernels_are_listed_until_the_cache_has_them(place, tmp_path, monkeypatc
         expect("key", calls)
         expect("key", calls)
     assert len(asked) == 3
-    assert not is_compiled("key")  # `once` compiles more than a first cycle
+    assert not is_compiled("key")  # `once` compiles more than a first cycle does
 
     def fails():
         raise ZeroDivisionError
@@ -169,7 +169,7 @@ def test_a_compilation_that_fails_is_tried_again(tmp_path, monkeypatch):
 
 
 def test_of_two_processes_one_compiles(tmp_path):
-    """The second waits for the first, and finds its work done."""
+    """The second waits for the first, and finds the work done."""
     code = (
         "import sys, time; from hydro2d import compilation\n"
         "def slow(): time.sleep(0.5); open(sys.argv[1], 'a').write('x')\n"
@@ -186,9 +186,9 @@ DECKS = ["cth_nose_shape/hemi_5083_1086_quick", "cth_nose_shape/hemi_5083_1086_l
 
 @pytest.mark.parametrize("name", DECKS)
 def test_the_second_process_knows_the_kernels_of_a_cycle(name):
-    """It computes nothing, and finds all the same what a simulation calls until its first cycle is over."""
+    """It computes nothing, and still finds everything that a simulation calls until its first cycle is over."""
     deck = decks.load(f"problems/{name}.toml")
-    found = {call.name for call in calls_of_a_cycle(lambda: Simulation(deck))}
+    names = {call.name for call in calls_of_a_cycle(lambda: Simulation(deck))}
     called = set()
 
     def look(frame, event, _):
@@ -205,11 +205,11 @@ def test_the_second_process_knows_the_kernels_of_a_cycle(name):
         sys.setprofile(None)
     assert {remap_step.carry_momentum.full_name, f"{sums.__name__}.body_totals"} < called
     assert (lagrangian_step.find_contact.full_name in called) == (deck.sliding.method == "contact")
-    assert called <= found
+    assert called <= names
 
 
 def test_the_decks_that_are_shipped_compiled_call_every_kernel_of_these():
-    """With the types that they call them with: a run from a wheel that has the code compiles nothing."""
+    """With the same types of arguments: a run from a wheel with the compiled code compiles nothing."""
     def calls(name):
         deck = decks.load(f"problems/{name}.toml")
         return {(call.name, call.types) for call in calls_of_a_cycle(lambda: Simulation(deck))}
@@ -232,7 +232,7 @@ def test_a_call_that_was_written_down_is_compiled_for_its_types():
 
 
 def test_a_second_process_that_fails_is_said_to(place, monkeypatch):
-    """Its deck is none; what goes on here is not disturbed."""
+    """It has no valid deck; this process is not disturbed."""
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1}, raising=False)
     with announced(place, SimpleNamespace(to_toml=lambda: "no deck at all")) as compiled:
         compiled.expect(["a", "b"])
@@ -254,29 +254,29 @@ def test_a_second_process_is_started_for_several_kernels_and_ended(place, monkey
 def test_the_second_process_tells_what_it_has_compiled(monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1}, raising=False)
     monkeypatch.setattr(compilation.children, "python", lambda module: [sys.executable, "-c", "print('a'); print('b')"])
-    found, second = [], Second(SimpleNamespace(to_toml=lambda: ""))
-    second.start(found.append)
+    lines, second = [], Second(SimpleNamespace(to_toml=lambda: ""))
+    second.start(lines.append)
     second._process.wait(60)
     for _ in range(100):
-        if len(found) == 2:
+        if len(lines) == 2:
             break
         time.sleep(0.05)
-    assert found == ["a", "b"]
+    assert lines == ["a", "b"]
     assert second.stop() is None
 
 
 def test_the_process_that_compiles_for_all_tells_the_others(place, tmp_path, monkeypatch):
-    """A sweep reads it; afterwards there is nothing to be read."""
+    """A sweep reads it; afterwards there is nothing to read."""
     monkeypatch.setattr(jit, "all_folder", lambda: str(tmp_path / "cache"))
-    told = []
+    lines = []
 
     def compiles():
         with first_call("a"):
             time.sleep(0.3)
-            told.append(told_of("key"))
+            lines.append(told_of("key"))
 
     once("key", compiles)
-    assert told == ["compiling kernels: 0 so far, 0 s"]
+    assert lines == ["compiling kernels: 0 so far, 0 s"]
     assert told_of("key") == ""
 
 

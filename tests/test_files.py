@@ -24,7 +24,7 @@ def test_a_lock_says_who_holds_it_and_goes(tmp_path):
     assert holder(lock) is None
 
 
-def test_what_a_dead_process_left_is_taken_over_even_if_its_number_lives(tmp_path):
+def test_a_lock_of_a_dead_process_is_taken_over_even_if_its_number_lives(tmp_path):
     lock = tmp_path / "a.lock"
     lock.write_text(f"{socket.gethostname()} 1")
     assert holder(lock) is None
@@ -59,15 +59,15 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
         pass
 
 
-def test_a_lock_that_goes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
-    """The holder before removes the file after it was opened here: a lock on what has no name any more keeps nobody out."""
-    lock, taken, calls = tmp_path / "a.lock", files._take_lock, []
+def test_a_lock_that_vanishes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
+    """The previous holder removes the file after it was opened here: a lock on a file without a name excludes nobody."""
+    lock, take, calls = tmp_path / "a.lock", files._take_lock, []
 
     def late(file):
         calls.append(file)
         if len(calls) == 1:
             lock.unlink()
-        return taken(file)
+        return take(file)
 
     monkeypatch.setattr(files, "_take_lock", late)
     with locked(lock):
@@ -91,7 +91,7 @@ def _race(lock, inside, most, rounds):
 
 
 def test_no_race_has_two_winners(tmp_path):
-    """Three processes take and leave one lock as fast as they can."""
+    """Three processes take and release one lock as fast as they can."""
     spawn = multiprocessing.get_context("spawn")
     lock, inside, most = tmp_path / "a.lock", spawn.Value("i", 0), spawn.Value("i", 0)
     racers = [spawn.Process(target=_race, args=(lock, inside, most, 200)) for _ in range(3)]

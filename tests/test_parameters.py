@@ -1,4 +1,4 @@
-"""Parameters of models: what is accepted, what is refused and what is said."""
+"""Parameters of models: what is accepted, what is refused, and the messages."""
 
 import math
 
@@ -37,7 +37,7 @@ def test_impossible_values_are_refused(values, message):
 
 
 def test_shared_names_are_those_of_the_equation_of_state():
-    """A parameter that comes from the equation of state exists there under its name, with its unit."""
+    """A parameter taken from the equation of state exists there under the same name, with the same unit."""
     known = {parameter.name: parameter for module in eos.MODELS.values() for parameter in module.PARAMETERS}
     shared = [
         parameter

@@ -1,4 +1,4 @@
-"""Python text is parsed by one thread at a time, and nowhere else."""
+"""Python text is parsed by one thread at a time, and only there."""
 
 import ast
 import re
@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_no_two_threads_parse_at_once(monkeypatch):
-    """What parses here takes its time, and would see another that has begun."""
+    """The parsing here is slow, and would notice another one that has begun."""
     inside, most = [0], [0]
 
     def slow(text, mode):
@@ -34,6 +34,6 @@ def test_no_two_threads_parse_at_once(monkeypatch):
 
 def test_nothing_else_parses():
     calls = re.compile(r"\bast\.(parse|literal_eval)\(|(?<![.\w])(?:eval|exec)\(")
-    found = [str(file.relative_to(ROOT)) for wing in ("hydro2d", "eos", "strength") for file in (ROOT / wing).rglob("*.py")
+    files = [str(file.relative_to(ROOT)) for wing in ("hydro2d", "eos", "strength") for file in (ROOT / wing).rglob("*.py")
              if calls.search(file.read_text(encoding="utf-8"))]
-    assert found == ["hydro2d/parsing.py"]
+    assert files == ["hydro2d/parsing.py"]

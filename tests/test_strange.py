@@ -1,4 +1,4 @@
-"""Run and study directories from someone else: nothing outside of them is read or written, and no command waits for ever."""
+"""Run and study directories from someone else: nothing outside them is read or written, and no command waits for ever."""
 
 import json
 import os
@@ -238,7 +238,7 @@ def test_a_restart_file_claims_no_more_than_it_holds(finished):
 
 
 def unsealed(file):
-    """The contents of a VTK file or a series without the comment that has its checksum, as someone else would write it."""
+    """The contents of a VTK file or a series without the comment with its checksum, as someone else would write it."""
     return re.sub(rb"<!-- sha256 [0-9a-f]{64} -->\n", b"", file.read_bytes())
 
 

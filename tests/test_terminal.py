@@ -1,4 +1,4 @@
-"""What is printed, logged and drawn: text from someone else's files steers no terminal, no table and no page."""
+"""Printed, logged and drawn output: text from someone else's files controls no terminal, no table and no page."""
 
 import ast
 import io
@@ -15,7 +15,7 @@ from hydro2d.terminal import duration, one_line, say, shown
 from tests import fake
 from tests.rules import source
 
-#: sets the title of a terminal, clears it, turns the direction of writing, and forges a line
+#: sets the title of a terminal, clears it, reverses the direction of writing, and forges a line
 NASTY = "a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r\nd"
 SPELLED = r"a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r"
 
@@ -29,7 +29,7 @@ def test_a_time_has_one_form(seconds, shown, measured):
     assert duration(seconds, tenths=True) == measured
 
 
-def test_what_steers_a_terminal_is_spelled():
+def test_terminal_control_characters_are_spelled():
     assert shown(NASTY) == SPELLED + "\nd"
     assert one_line(NASTY) == SPELLED + r"\nd"
     for text in ("µ × 10⁻³ Größe 鋼", "two\nlines\tand a tab", ""):
@@ -110,6 +110,6 @@ def test_names_in_charts_are_no_markup():
 
 def test_only_one_function_prints():
     """`say`."""
-    found = [name for name, file in source.modules().items() if name.startswith("hydro2d")
+    names = [name for name, file in source.modules().items() if name.startswith("hydro2d")
              for node in ast.walk(source.tree(file)) if isinstance(node, ast.Name) and node.id == "print"]  # fmt: skip
-    assert sorted(found) == ["hydro2d.terminal"]
+    assert sorted(names) == ["hydro2d.terminal"]

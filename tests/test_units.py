@@ -52,7 +52,7 @@ def test_to_si_gives_the_decimal_that_was_meant(value, unit, si):
         ("1e999 m", "m", "is not finite"),
     ],
 )
-def test_what_is_no_quantity_says_what_was_expected(value, unit, message):
+def test_the_message_on_a_wrong_quantity_names_the_expected_one(value, unit, message):
     with pytest.raises(ValueError, match="expected") as caught:
         units.to_si(value, unit)
     assert message in str(caught.value)
@@ -100,7 +100,7 @@ def test_an_argument_has_its_unit(text, unit, si):
         ("inf", "m/s", "inf is not finite; expected a velocity"),
     ],
 )
-def test_an_argument_without_its_unit_is_told_what_to_type(text, unit, said):
+def test_an_argument_without_its_unit_gets_a_suggestion(text, unit, said):
     with pytest.raises(ValueError, match="has no unit|not finite") as caught:
         units.of_argument(text, unit)
     assert str(caught.value).startswith(said)

@@ -1,4 +1,4 @@
-"""A program that uses all of the public interface, for the type checker: what it gets has the types that it says."""
+"""A program that uses all of the public interface, for the type checker: its results have the types that it states."""
 
 from __future__ import annotations
 

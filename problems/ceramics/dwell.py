@@ -1,4 +1,4 @@
-"""Prints what rods do on the face of a ceramic in runs of dwell.toml: `python -m problems.ceramics.dwell RUN [RUN ...]`.
+"""Prints how rods dwell on or enter a ceramic in runs of dwell.toml: `python -m problems.ceramics.dwell RUN [RUN ...]`.
 
 A row has the face, the velocity of impact, the pressure that Lundberg, Renstrom & Lundberg estimate at the interface, the
 depths below the face of the ceramic at AT and the largest one, and the velocities of the interface and of the rod's tail while
@@ -96,7 +96,7 @@ def members_table(rows: list[dict[str, str]]) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Prints the rows of the runs as CSV, and of a run in which the rod is hardly worn that it has none."""
+    """Prints the rows of the runs as CSV, and reports runs in which the rod is hardly worn."""
     results.show(COLUMNS, of_run, arguments)
     return 0
 

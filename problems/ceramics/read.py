@@ -1,4 +1,4 @@
-"""Prints what tiles save in runs of these decks: `python -m problems.ceramics.read RUN [RUN ...]`.
+"""Prints the depths behind tiles in runs of these decks: `python -m problems.ceramics.read RUN [RUN ...]`.
 
 A row has the cells across the radius of the rod, the ceramic and the thickness of its tile, the largest depth from the face of
 the tile and that in the steel behind it. The rows that the README shows are kept in results/ceramics.csv, one for each member
@@ -86,7 +86,7 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Prints the rows of the runs as CSV, and of a run that has not ended that it has none."""
+    """Prints the rows of the runs as CSV, and reports runs that have not ended."""
     results.show(COLUMNS, of_run, arguments)
     return 0
 

@@ -1,10 +1,10 @@
-"""The classic shots with every advection and every sliding: a table, and the results that are kept beside the studies.
+"""The classic shots with every advection and every sliding: a table, and the results that are kept next to the studies.
 
     python -m problems.classic.table RESULTS [RESULTS ...] [--keep FILE]
 
 RESULTS is the directory of a study, finished or not, or a file in `results`. A cell of the table has the number by which a shot
-is judged and, in per cent of the energy at the start, what the remap of velocities discarded or clipped. If a run became
-unphysical, it says when and by what. `--keep` writes all cases into a CSV file, in the order in which they were given.
+is judged and the energy that the remap of velocities discarded or clipped, in per cent of the energy at the start. If a run
+became unphysical, the cell says when and why. `--keep` writes all cases into a CSV file, in the order in which they were given.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ADVECTION = ("ke", "momentum", "both")
 
 @dataclass(frozen=True)
 class Measure:
-    """The number by which a shot is judged: what it is, its unit, its digits, what is expected, and how a run gives it."""
+    """The number by which a shot is judged: its name, unit, digits and expected value, and the function that reads it."""
 
     name: str
     unit: str
@@ -74,7 +74,7 @@ class Result:
     shot, sliding, advection : its labels
     status : "trusted", "not trusted" or "unphysical"
     value : of its measure, in the measure's unit; None for an unphysical run
-    discarded, clipped : what the remap of velocities discarded and `ke_bound` clipped, per cent of the energy at the start
+    discarded, clipped : energy that the remap of velocities discarded and `ke_bound` clipped, per cent of that at the start
     time, cycles : time of flight in us, number of cycles
     fault : the clip that the first fault names, or the kind of cell that it doubts, else its sentence; empty for a trusted run
     """
@@ -94,8 +94,8 @@ class Result:
         if self.status == "unphysical":
             return f"**unphysical after {self.time:.1f} us: {self.fault}**"
         measure = MEASURES[self.shot]
-        told = f"{self.value:.{measure.digits}f}, {abs(self.discarded + self.clipped):.1f} %"
-        return told if self.status == "trusted" else f"{told}, **not trusted: {self.fault}**"
+        text = f"{self.value:.{measure.digits}f}, {abs(self.discarded + self.clipped):.1f} %"
+        return text if self.status == "trusted" else f"{text}, **not trusted: {self.fault}**"
 
 
 COLUMNS = tuple(field.name for field in fields(Result))
@@ -114,23 +114,23 @@ def _kept(row: dict[str, str]) -> Result:
 
 
 def _of(case: layout.Case) -> Result:
-    told, shot = case.summary, case.values["shot"]
+    summary, shot = case.summary, case.values["shot"]
     ended = case.status == layout.DONE
-    sinks, start = told["conservation"]["sinks"], told["conservation"]["start_energy_J"]
+    sinks, start = summary["conservation"]["sinks"], summary["conservation"]["start_energy_J"]
     discarded, clipped = (round(100.0 * sinks[name]["energy_J"] / start, 2) for name in ("advection", "ke_bound"))
     value = MEASURES[shot].of(Results(case.directory)) if ended else None
-    status = ("trusted" if told["trustworthy"] else "not trusted") if ended else "unphysical"
+    status = ("trusted" if summary["trustworthy"] else "not trusted") if ended else "unphysical"
     return Result(shot, case.values.get("sliding", "none"), case.values["advection"], status,
-                  None if value is None else round(value, 3), discarded, clipped, round(1e6 * told["time_s"], 2),
-                  told["cycles"], _short(next(iter(told["faults"]), "")))  # fmt: skip
+                  None if value is None else round(value, 3), discarded, clipped, round(1e6 * summary["time_s"], 2),
+                  summary["cycles"], _short(next(iter(summary["faults"]), "")))  # fmt: skip
 
 
 def _short(fault: str) -> str:
     """The clip that a fault names; "a hot cell", "a cold cell", "energy discarded"; or the fault."""
     doubts = {f"a {what} cell": f'" is too {what} with ' for what in ("hot", "cold")}
     doubts["energy discarded"] = "velocities has discarded "
-    told = {**{name: f"{name} has removed " for name in CLIPS}, **doubts}
-    return next((name for name, part in told.items() if part in fault), fault)
+    phrases = {**{name: f"{name} has removed " for name in CLIPS}, **doubts}
+    return next((name for name, part in phrases.items() if part in fault), fault)
 
 
 def keep(results: list[Result], path: Path) -> None:
@@ -140,12 +140,12 @@ def keep(results: list[Result], path: Path) -> None:
 
 def table(results: list[Result]) -> list[str]:
     """Lines of Markdown: a row for each shot and sliding."""
-    found = {(result.shot, result.sliding, result.advection): result for result in results}
+    by_labels = {(result.shot, result.sliding, result.advection): result for result in results}
     lines = ["| shot | number | expected | sliding | " + " | ".join(f"`{name}`" for name in ADVECTION) + " |",
              "|---" * (4 + len(ADVECTION)) + "|"]  # fmt: skip
     for shot, sliding in dict.fromkeys((result.shot, result.sliding) for result in results):
         measure = MEASURES[shot]
-        cells = " | ".join(str(found.get((shot, sliding, name), "")) for name in ADVECTION)
+        cells = " | ".join(str(by_labels.get((shot, sliding, name), "")) for name in ADVECTION)
         lines.append(f"| {shot} | {measure.name}, {measure.unit} | {measure.expected} | {sliding} | {cells} |")
     return lines
 

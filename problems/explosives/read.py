@@ -1,7 +1,7 @@
-"""Prints what runs of these decks give, beside what is expected: `python -m problems.explosives.read RUN [RUN ...]`.
+"""Prints results of runs of these decks and the expected values: `python -m problems.explosives.read RUN [RUN ...]`.
 
-A row has the deck, the explosive, the quantity, what is expected, its source, and what was obtained. The rows that the README
-shows are kept in results/explosives.csv.
+A row has the deck, the explosive, the quantity, the expected value, its source, and the value obtained. The rows that the
+README shows are kept in results/explosives.csv.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ARRIVED = 7.8e-6
 GURNEY = {"TNT": 2.37, "comp_B": 2.70, "PBX9404": 2.90}
 HANDBOOK = "Dobratz & Crawford, UCRL-52997 (1985) [recalled]"
 FORMULA = "Gurney's formula, sqrt(2 E) of the same handbook [recalled]"
-#: pressure at a rigid wall that TNT's Chapman-Jouguet state meets, over P_CJ
+#: pressure over P_CJ at a rigid wall hit by TNT in its Chapman-Jouguet state
 REFLECTED = 2.266
 
 
@@ -66,12 +66,12 @@ def of_run(directory: Path) -> list[tuple]:
             for distance, expected in zip((6, 19), CYLINDER[explosive], strict=True):
                 rows.append((deck.name, explosive, f"wall velocity at {distance} mm", "km/s", expected, HANDBOOK,
                              round(float(np.interp(distance * 1e-3, moved, speed)), 3)))
-            form, found = "cylinder", float(speed.max())
+            form, final = "cylinder", float(speed.max())
         else:
-            found = float(file["body_plate_velocity_m_s"][-1]) * 1e-3
+            final = float(file["body_plate_velocity_m_s"][-1]) * 1e-3
             form = "sandwich" if deck.boundaries.z_min == "wall" else "open"
         expected = round(GURNEY[explosive] * gurney(form, ratio), 3)
-        rows.append((deck.name, explosive, "final velocity", "km/s", expected, FORMULA, round(found, 3)))
+        rows.append((deck.name, explosive, "final velocity", "km/s", expected, FORMULA, round(final, 3)))
     return rows
 
 

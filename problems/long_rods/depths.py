@@ -1,16 +1,16 @@
-"""Depths of tungsten rods in steel: what the runs gave, where it comes from, and figures beside Odermatt's fit and the models.
+"""Depths of tungsten rods in steel: the results of runs, how a depth builds up, and figures with Odermatt's fit and the models.
 
     python -m problems.long_rods.depths RESULTS [RESULTS ...] [--keep FILE] [--histories FILE] [--figure PATH]
     python -m problems.long_rods.depths HISTORIES --parts PATH --cases CASE [CASE ...]
 
-RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of a study that was
-run before. The table is in Markdown. `--keep` writes all cases into a CSV file and `--histories` (of directories alone) the
-velocities and depth of the rods against time. `--figure` draws depth over length against velocity, beside Odermatt's fit and
-the models of the catalogue, and `--parts` draws some cases of a file that --histories wrote.
+RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of an earlier study.
+The table is in Markdown. `--keep` writes all cases into a CSV file and `--histories` (of directories alone) the velocities and
+depth of the rods against time. `--figure` draws depth over length against velocity, with Odermatt's fit and the models of the
+catalogue, and `--parts` draws some cases of a file that --histories wrote.
 
-The depth is the largest of the run: the target springs back by up to 1 % while the run ends. The *slope* is the depth that a
-length of rod makes when it is worn away, taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last
-4 diameters of the rod add, in diameters.
+The depth is the largest of the run: the target springs back by up to 1 % while the run ends. The *slope* is the depth gained
+per length of rod worn away, taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last 4 diameters
+of the rod add, in diameters.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ from problems import kept
 
 HERE = Path(__file__).parent
 DECKS = {10: "rod_10.toml", 20: "rod_20.toml", 30: "rod_30.toml"}
-#: hardness at which Odermatt's fit stands beside armour steel, whose own is not known
+#: hardness for which Odermatt's fit is compared with armour steel, whose own is not known
 BRINELL = 270.0
 #: densities of rod and target in all decks, kg/m^3
 DENSITIES = (17600.0, 7850.0)
-#: wear of the rod between which the slope is taken, and the length that is left when the end begins, in diameters
+#: range of wear of the rod over which the slope is taken, and the length left when the end begins, in diameters
 STEADY, LAST = (2.0, 6.0), 4.0
 VELOCITIES = np.linspace(1000.0, 2000.0, 41)
 #: models of the catalogue, and how they are drawn
@@ -86,20 +86,20 @@ class Result:
 
     @property
     def others(self) -> str:
-        """What the case varies besides the velocity and the length."""
+        """The labels of the case other than the velocity and L/D."""
         return ", ".join(label for axis, label in self.labels.items() if axis not in ("velocity", "L/D"))
 
     @property
     def row(self) -> dict[str, str]:
-        told = {name: f"{round(self.numbers[name], digits):.12g}" for name, digits in NUMBERS.items()}
-        return {**self.labels, "slenderness": str(self.slenderness), **told, "case": self.name}
+        texts = {name: f"{round(self.numbers[name], digits):.12g}" for name, digits in NUMBERS.items()}
+        return {**self.labels, "slenderness": str(self.slenderness), **texts, "case": self.name}
 
 
 def measured(history: dict[str, np.ndarray], diameter: float) -> dict[str, float]:
     """Depth and its parts from the history of a run; lengths in m.
 
     ``slope`` is dP/d(wear), and ``u`` and ``v`` are the velocities of the interface and the tail, by straight lines through the
-    rows at which the wear is within ``STEADY``; NaN for a rod that was not worn so far, as is the end.
+    rows at which the wear is within ``STEADY``; NaN for a rod that was not worn that far, and so is ``end``.
     """
     time, depth, tail = history["time"], history["penetration_depth_m"], history["rod_tail_velocity_m_s"]
     wear = history["rod_length_m"][0] - history["rod_length_m"]
@@ -128,14 +128,14 @@ def _kept(row: dict[str, str]) -> Result:
 
 
 def _of(case: layout.Case) -> Result:
-    told = case.summary
-    diameter, length = 2.0 * told["rod_initial_radius_m"], told["rod_initial_length_m"]
-    if "velocity" not in case.values or not told.get("crater"):
+    summary = case.summary
+    diameter, length = 2.0 * summary["rod_initial_radius_m"], summary["rod_initial_length_m"]
+    if "velocity" not in case.values or not summary.get("crater"):
         raise StudyError(f"{case.name}: its study has no axis of the velocity, or it made no hole")
     velocity = units.to_si(case.values["velocity"], "m/s")
-    found = measured(Results(case.directory).history, diameter)
-    numbers = (velocity, found["depth"] / length, found["slope"], found["end"], found["u"], found["v"], found["left"] / length,
-               told["crater"]["mean_diameter_m"] / diameter, 1e6 * found["time"], told["wall_s"] / 60.0)
+    parts = measured(Results(case.directory).history, diameter)
+    numbers = (velocity, parts["depth"] / length, parts["slope"], parts["end"], parts["u"], parts["v"], parts["left"] / length,
+               summary["crater"]["mean_diameter_m"] / diameter, 1e6 * parts["time"], summary["wall_s"] / 60.0)
     return Result(case.name, case.values, round(length / diameter), dict(zip(NUMBERS, numbers, strict=True)))
 
 
@@ -166,8 +166,8 @@ def table(results: Sequence[Result]) -> list[str]:
         label = each.others or "armour steel"
         fit = odermatt(each.velocity, each.slenderness, brinell(each), *DENSITIES)
         lines.append(
-            f"| {label} | {each.slenderness} | {each.velocity:g} m/s | {each.ratio:.3f} | {_told(n['slope'], 2)} | "
-            f"{_told(n['end_over_diameter'], 1)} D | {_told(n['u_m_s'], 0)}, {_told(n['v_m_s'], 0)} m/s | "
+            f"| {label} | {each.slenderness} | {each.velocity:g} m/s | {each.ratio:.3f} | {_number(n['slope'], 2)} | "
+            f"{_number(n['end_over_diameter'], 1)} D | {_number(n['u_m_s'], 0)}, {_number(n['v_m_s'], 0)} m/s | "
             f"{n['left_over_length']:.0%} | {n['hole_over_diameter']:.1f} D | {fit:.2f} ({each.ratio / fit - 1.0:+.0%}) |")
     return lines
 
@@ -179,7 +179,7 @@ def brinell(result: Result) -> float:
     return known.get(label, float(label.removeprefix("BHN ")) if label.startswith("BHN ") else BRINELL)
 
 
-def _told(value: float, digits: int) -> str:
+def _number(value: float, digits: int) -> str:
     return "-" if math.isnan(value) else f"{value:.{digits}f}"
 
 

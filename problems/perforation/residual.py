@@ -46,17 +46,17 @@ def experiments() -> dict[tuple[str, float], float]:
 
 def runs(directories: list[Path]) -> list[Run]:
     """The finished cases, sorted by nose and velocity. Raises StudyError."""
-    found = []
+    cases = []
     for directory in directories:
         for case in layout.read(directory).cases:
             if case.status == layout.DONE and "nose" in case.values:
-                told, striking = case.summary, float(case.values["velocity"].split()[0])
+                summary, striking = case.summary, float(case.values["velocity"].split()[0])
                 through = Record(case).perforated
-                crater = told["crater"]
-                found.append(Run(case.values["nose"], striking, told["rod_residual_velocity_m_s"] if through else 0.0,
+                crater = summary["crater"]
+                cases.append(Run(case.values["nose"], striking, summary["rod_residual_velocity_m_s"] if through else 0.0,
                                  *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
                                    if through else ())))  # fmt: skip
-    return sorted(found, key=lambda run: (run.nose, -run.striking))
+    return sorted(cases, key=lambda run: (run.nose, -run.striking))
 
 
 def limit(pairs: list[tuple[float, float]]) -> str:
@@ -68,31 +68,31 @@ def limit(pairs: list[tuple[float, float]]) -> str:
     return f"{fit.limit_velocity:.1f} m/s (a = {fit.a:.2f}, p = {fit.p:.2f})"
 
 
-def table(found: list[Run]) -> list[str]:
+def table(cases: list[Run]) -> list[str]:
     """Lines of Markdown."""
     measured = experiments()
     lines = ["| nose | striking, m/s | residual: experiment | hydro2d | difference | plug and debris | hole at the rear |",
              "|---" * 7 + "|"]  # fmt: skip
-    for run in found:
+    for run in cases:
         there = measured.get((run.nose, run.striking))
         difference = "" if there is None else f"{round(run.residual - there):+d} m/s"
         plug = "" if not run.plug else f"{1e3 * run.plug:.0f} g at {run.plug_velocity:.0f} m/s"
         hole = "" if run.hole is None else f"{1e3 * run.hole:.1f} mm"
         shot = "" if there is None else f"{there:.1f}"
         lines.append(f"| {run.nose} | {run.striking:g} | {shot} | {run.residual:.1f} | {difference} | {plug} | {hole} |")
-    for nose in dict.fromkeys(run.nose for run in found):
+    for nose in dict.fromkeys(run.nose for run in cases):
         shots = [(striking, left) for (name, striking), left in measured.items() if name == nose]
         lines += ["", f"Ballistic limit, {nose}: {limit(shots)} by the shots, "
-                      f"{limit([(run.striking, run.residual) for run in found if run.nose == nose])} by the runs"]  # fmt: skip
+                      f"{limit([(run.striking, run.residual) for run in cases if run.nose == nose])} by the runs"]  # fmt: skip
     return lines
 
 
-def draw(found: list[Run]):
+def draw(cases: list[Run]):
     """A matplotlib Figure: filled markers for runs, open ones for experiments."""
     figure, ((axes,),) = figures.new_figure(6.0, 4.4, 1, 1)
     measured = experiments()
     for nose, colour in COLOURS.items():
-        mine = np.array([(run.striking, run.residual) for run in found if run.nose == nose]).reshape(-1, 2)
+        mine = np.array([(run.striking, run.residual) for run in cases if run.nose == nose]).reshape(-1, 2)
         shots = np.array([(striking, left) for (name, striking), left in measured.items() if name == nose])
         axes.plot(*shots.T, "o", markerfacecolor="none", color=colour, label=f"{nose}, experiment")
         axes.plot(*mine.T, ".-", color=colour, label=f"{nose}, hydro2d")
@@ -109,13 +109,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--figure", type=Path)
     given = parser.parse_args(arguments)
     try:
-        found = runs(given.studies)
+        cases = runs(given.studies)
     except StudyError as error:
         print(error, file=sys.stderr)
         return 2
-    print("\n".join(table(found)))
+    print("\n".join(table(cases)))
     if given.figure:
-        figures.save(draw(found), given.figure)
+        figures.save(draw(cases), given.figure)
     return 0
 
 

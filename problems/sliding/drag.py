@@ -39,16 +39,16 @@ class Window:
 
 
 def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float) -> list[Window]:
-    """Consecutive windows of ``width`` (s) from the first time on, without those of which the history covers less than half."""
-    found = []
+    """Consecutive windows of ``width`` (s) from the first time on, except those that the history covers by less than half."""
+    fitted = []
     for k in range(math.ceil((time[-1] - time[0]) / width * (1.0 - 1e-9))):
         here = (time >= time[0] + (k - 1e-9) * width) & (time <= time[0] + (k + 1 + 1e-9) * width)
         if np.count_nonzero(here) < ROWS or np.ptp(time[here]) < 0.5 * width:
             continue
         middle = float(0.5 * (time[here][0] + time[here][-1]))
         slope, level = np.polyfit(time[here] - middle, speed[here], 1)
-        found.append(Window(middle, float(np.interp(middle, time, depth)), float(level), -float(slope)))
-    return found
+        fitted.append(Window(middle, float(np.interp(middle, time, depth)), float(level), -float(slope)))
+    return fitted
 
 
 def measure(directory: Path | str, width: float = 10e-6) -> dict:
@@ -82,22 +82,22 @@ def measure(directory: Path | str, width: float = 10e-6) -> dict:
     }  # fmt: skip
 
 
-def table(found: dict) -> str:
+def table(result: dict) -> str:
     """The measurements as Markdown."""
-    lines = [f"**{found['run']}**, {found['velocity']:.0f} m/s{'' if found['ended'] else ', not ended'}", "",
+    lines = [f"**{result['run']}**, {result['velocity']:.0f} m/s{'' if result['ended'] else ', not ended'}", "",
              "| time, us | depth, cm | speed, m/s | force, GPa | cavity expansion, GPa | ratio |",
              "|---|---|---|---|---|---|"]  # fmt: skip
-    for row in found["rows"]:
+    for row in result["rows"]:
         lines.append(
             f"| {row['time'] * 1e6:.0f} | {row['depth'] * 1e2:.2f} | {row['speed']:.1f} | {row['force'] * 1e-9:.2f} "
             f"| {row['cavity'] * 1e-9:.2f} | {row['force'] / row['cavity']:.2f} |"
         )
-    mean = "" if found["mean"] is None else f", mean resistance {found['mean'] * 1e-9:.2f} GPa"
-    lines += ["", f"* run: {found['depth'] * 1e2:.1f} cm with {found['speed']:.0f} m/s left{mean}",
-              f"* cavity expansion: {found['cavity_depth'] * 1e2:.1f} cm"]  # fmt: skip
-    if found["measured_depth"]:
-        lines.append(f"* experiment: {found['measured_depth'] * 1e2:.1f} cm; from a rigid rod a mean resistance of "
-                     f"{found['measured_mean'] * 1e-9:.2f} GPa")  # fmt: skip
+    mean = "" if result["mean"] is None else f", mean resistance {result['mean'] * 1e-9:.2f} GPa"
+    lines += ["", f"* run: {result['depth'] * 1e2:.1f} cm with {result['speed']:.0f} m/s left{mean}",
+              f"* cavity expansion: {result['cavity_depth'] * 1e2:.1f} cm"]  # fmt: skip
+    if result["measured_depth"]:
+        lines.append(f"* experiment: {result['measured_depth'] * 1e2:.1f} cm; from a rigid rod a mean resistance of "
+                     f"{result['measured_mean'] * 1e-9:.2f} GPa")  # fmt: skip
     return "\n".join(lines)
 
 
@@ -109,11 +109,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="print JSON, SI units")
     given = parser.parse_args(arguments)
     try:
-        found = [measure(directory, given.window * 1e-6) for directory in given.run]
+        results = [measure(directory, given.window * 1e-6) for directory in given.run]
     except (reading.ResultsError, HistoryError, DeckError) as error:
         print(error, file=sys.stderr)
         return 2
-    print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))
+    print(json.dumps(results, indent=2) if given.json else "\n\n".join(map(table, results)))
     return 0
 
 

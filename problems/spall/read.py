@@ -17,7 +17,7 @@ from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "spall.csv"
 COLUMNS = ("shot", "failure", "cells", "top_m_s", "lowest_m_s", "pull_back_m_s", "rebound_m_s")
-#: what velocities have to rise by after the lowest one for it to be that, m/s: less is a ripple
+#: rise of the velocity that a lowest one must be followed by, m/s: less is a ripple
 RISE = 20.0
 #: thickness of the target, m
 THICKNESS = 4e-3
@@ -26,7 +26,7 @@ THICKNESS = 4e-3
 def pull_back(velocity: np.ndarray) -> tuple[float, float, float]:
     """(highest, lowest after it, highest after that) velocity of a free surface, m/s.
 
-    The lowest is the first from which the velocity rises by RISE. Raises ValueError where there is none: nothing has parted.
+    The lowest is the first from which the velocity rises by RISE. Raises ValueError if there is none: nothing has spalled.
 
     velocity : float64[n], m/s, over time
     """
@@ -56,7 +56,7 @@ def kept() -> list[dict[str, str]]:
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:
-    """The rows of the kept file as lines of the README's table: each beside that of the finest mesh."""
+    """The rows of the kept file as lines of the README's table, each compared with that of the finest mesh."""
     lines = ["| deck | failure | cells | highest | lowest | pull-back | against 400 cells | rebound |",
              "|---|---|---|---|---|---|---|---|"]
     finest = {(row["shot"], row["failure"]): float(row["pull_back_m_s"]) for row in rows if row["cells"] == "400"}
@@ -68,7 +68,7 @@ def table(rows: list[dict[str, str]]) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Prints the rows of the runs as CSV, and of a run in which nothing has spalled that it has none."""
+    """Prints the rows of the runs as CSV, and reports runs in which nothing has spalled."""
     results.show(COLUMNS, of_run, arguments)
     return 0
 

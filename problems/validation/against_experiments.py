@@ -1,10 +1,10 @@
-"""Every experiment that kept runs are compared with, as the tables of docs/explanation/validation.md.
+"""Comparison of kept runs with every experiment, as the tables of docs/explanation/validation.md.
 
     python -m problems.validation.against_experiments
 
-Prints three tables in Markdown: the sets, with their sources, what was chosen and how to repeat them; the shots of which
-nothing was chosen by looking at results; and those where something was. All numbers come from the files in `results` beside
-the studies.
+Prints three tables in Markdown: the sets, with their sources, the choices made and how to repeat them; the shots for which
+nothing was chosen by looking at results; and those for which something was. All numbers come from the files in `results` next
+to the studies.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ PROBLEMS = HERE.parent
 
 @dataclass(frozen=True)
 class Set:
-    """Experiments of one kind: what it is called, its source, what was chosen, the command, and whether nothing was chosen."""
+    """Experiments of one kind: name, source, the choices made, the command, and whether nothing was chosen."""
 
     name: str
     source: str
@@ -61,13 +61,13 @@ SETS = (
         "nothing", "run problems/explosives/sandwich.toml"),
 )  # fmt: skip
 
-#: what an explosive drives, by the deck of problems/explosives
+#: metal that an explosive drives, by the deck of problems/explosives
 DRIVEN = {"cylinder": "tube", "plate_push": "plate on a charge", "sandwich": "two plates around a charge"}
 
 
 @dataclass(frozen=True)
 class Row:
-    """A shot: its set, what was shot, the quantity measured and computed, with its unit, and the runs' values."""
+    """A shot: its set, its name, the measured value and its unit, and the values of the runs."""
 
     name: str
     shot: str
@@ -82,22 +82,22 @@ class Row:
         middle = f"{median(self.computed):.{self.digits}f} {self.unit}" if self.computed else ""
         spread = f" ({values[0]} to {values[1]}, {len(self.computed)} runs)" if len(self.computed) > 1 else ""
         given = "perforated" if self.measured is None else f"{self.measured:.{self.digits}f} {self.unit}"
-        apart = ""
+        difference = ""
         if self.measured is not None and self.computed and not self.said:
-            apart = f"{round(100.0 * (median(self.computed) / self.measured - 1.0)):+d} %"
-        return f"| {self.name} | {self.shot} | {given} | {self.said or middle + spread} | {apart} |"
+            difference = f"{round(100.0 * (median(self.computed) / self.measured - 1.0)):+d} %"
+        return f"| {self.name} | {self.shot} | {given} | {self.said or middle + spread} | {difference} |"
 
 
 def twelve(name: str, law: str) -> list[Row]:
     """The twelve shots with one law."""
     file = PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"
     measured, rows = rigid_rod.experiments(), []
-    found = members.grouped(rigid_rod.read(file, heads.CELLS)).get(law, {})
-    for shot, runs in sorted(found.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)):
-        told = measured[shot]
+    by_shot = members.grouped(rigid_rod.read(file, heads.CELLS)).get(law, {})
+    for shot, runs in sorted(by_shot.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)):
+        experiment = measured[shot]
         through = sum(run.depth is None for run in runs)
         said = f"perforated in {through} of {len(runs)} runs" if through else ""
-        depth = None if told.kind == "at least" else 1e2 * told.depth
+        depth = None if experiment.kind == "at least" else 1e2 * experiment.depth
         rows.append(Row(name, str(shot), depth, "cm", tuple(run.reach for run in runs), said))
     return rows
 
@@ -111,8 +111,8 @@ def eroding(name: str) -> list[Row]:
 
 def steel(name: str, file: str, **labels: str) -> list[Row]:
     """Forrestal and Piekutowski's rods, of the runs with these labels."""
-    measured = {round(found.velocity): 1e2 * found.penetration for path in sorted(HERE.glob("rigid_6061_*.toml"))
-                if (found := decks.load(path).experiment)}  # fmt: skip
+    measured = {round(experiment.velocity): 1e2 * experiment.penetration for path in sorted(HERE.glob("rigid_6061_*.toml"))
+                if (experiment := decks.load(path).experiment)}  # fmt: skip
     runs = [run for run in rigid_rod.read(HERE / "results" / file)
             if all(run.labels.get(axis) == label for axis, label in labels.items())]
     return [Row(name, f"{run.labels['shot']} m/s", measured[int(run.labels["shot"])], "cm", (run.depth,))
@@ -121,7 +121,7 @@ def steel(name: str, file: str, **labels: str) -> list[Row]:
 
 
 def armour(name: str) -> list[Row]:
-    """Long rods, depth over length, beside the fit."""
+    """Long rods, depth over length, against the fit."""
     rows = []
     kept = depths.read(PROBLEMS / "long_rods/results/velocities.csv")
     for run in sorted(kept, key=lambda run: (int(run.labels["L/D"]), run.velocity)):
@@ -143,7 +143,7 @@ def gurney(name: str) -> list[Row]:
 
 
 def _of_explosive(row: dict[str, str]) -> tuple[float, str, tuple[float]]:
-    """What is expected, its unit, and what the run gave."""
+    """The expected value, its unit, and the value of the run."""
     return float(row["expected"]), row["unit"], (float(row["obtained"]),)
 
 
@@ -152,15 +152,15 @@ def rows() -> dict[str, list[Row]]:
     names = [each.name for each in SETS]
     laws = "Steinberg-Guinan", "Johnson-Cook, sintered", "Johnson-Cook, 90W", "Johnson-Cook, Y925"
     others = names[len(laws):]
-    found = (*map(twelve, names, laws), eroding(others[0]),
-             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
-             steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
-             gurney(others[5]))  # fmt: skip
-    return dict(zip(names, found, strict=True))
+    sets = (*map(twelve, names, laws), eroding(others[0]),
+            steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
+            steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
+            gurney(others[5]))  # fmt: skip
+    return dict(zip(names, sets, strict=True))
 
 
 def tables() -> list[str]:
-    """Lines of Markdown: the sets; what is predicted; where something was chosen."""
+    """Lines of Markdown: the sets; the shots predicted; those for which something was chosen."""
     lines = ["| set | source | chosen | repeat with `hydro2d` |", "|---|---|---|---|"]
     lines += [f"| {each.name} | {each.source} | {each.chosen} | `{each.command}` |" for each in SETS]
     found = rows()

@@ -20,7 +20,7 @@ from hydro2d.mesh import quantities
 from hydro2d.output import vtk
 from hydro2d.results import reading
 
-#: volume fraction from which on a cell belongs to the bar
+#: smallest volume fraction at which a cell belongs to the bar
 HALF = 0.5
 
 
@@ -113,12 +113,12 @@ def at(bars: list[Bar], time: float) -> Bar:
     return Bar(time, *map(float, values))
 
 
-def table(found: dict) -> str:
+def table(run: dict) -> str:
     """The measurements as Markdown, at the times of the reference, or for every dump if there is no reference."""
-    lines = [f"**{found['run']}**, {found['body']} at {found['velocity']:.0f} m/s{'' if found['ended'] else ', not ended'}", "",
+    lines = [f"**{run['run']}**, {run['body']} at {run['velocity']:.0f} m/s{'' if run['ended'] else ', not ended'}", "",
              "| time, us | length, mm | reference | error | foot, mm | reference | error | plastic strain | reference |",
              "|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
-    pairs = [(pair["found"], pair["reference"]) for pair in found["compared"]] or [(bar, None) for bar in found["bars"]]
+    pairs = [(pair["found"], pair["reference"]) for pair in run["compared"]] or [(bar, None) for bar in run["bars"]]
     for bar, known in pairs:
         cells = [f"{bar['time'] * 1e6:.1f}"]
         for key in ("length", "foot"):
@@ -137,11 +137,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="print JSON with every dump, SI units")
     given = parser.parse_args(arguments)
     try:
-        found = [measure(directory, given.body) for directory in given.run]
+        results = [measure(directory, given.body) for directory in given.run]
     except (reading.ResultsError, vtk.VtkError) as error:
         print(error, file=sys.stderr)
         return 2
-    print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))
+    print(json.dumps(results, indent=2) if given.json else "\n\n".join(map(table, results)))
     return 0
 
 

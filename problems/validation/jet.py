@@ -27,7 +27,7 @@ from hydro2d.mesh import quantities
 from hydro2d.output import vtk
 from hydro2d.results import reading
 
-#: volume fraction from which on a cell counts as one material
+#: smallest volume fraction at which a cell counts as one material
 PURE = 1.0 - 1e-4
 #: distance from the interface within which pressures are used: in radii of the jet, but at least this many cells
 REACH, CELLS = 0.6, 4
@@ -124,7 +124,7 @@ def read(run: reading.Results, jet: str, target: str, reach: float) -> list[Poin
             raise reading.ResultsError(f'{file} lacks one of {", ".join(names)}: add "body_pressure" to output.fields')
         columns = [dump.fields[name][:, 0].astype(float) for name in names]
         points.append(point(dump.z_edges, *columns[:2], tuple(columns[2:]), reach, dump.time))
-    return [found for found in points if found is not None]
+    return [each for each in points if each is not None]
 
 
 def mean(points: list[Point], low: float, high: float) -> dict | None:
@@ -158,9 +158,9 @@ def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> di
     surface = decks.surface(deck)
     deepest = int((points[-1].position - surface) / diameter)
     rows = [
-        {"depth": k + 0.5, **found}
+        {"depth": k + 0.5, **window}
         for k in range(deepest + 1)
-        if (found := mean(points, surface + k * diameter, surface + (k + 1) * diameter))
+        if (window := mean(points, surface + k * diameter, surface + (k + 1) * diameter))
     ]
     return {
         "run": run.label, "ended": bool(run.summary), "velocity": velocity, "diameter": diameter,
@@ -170,26 +170,26 @@ def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> di
     }  # fmt: skip
 
 
-def _cells(found: dict, exact: dict) -> str:
+def _cells(window: dict, exact: dict) -> str:
     """Three columns of the table: velocity and both pressures, each with its error."""
-    cells = [f"{found['velocity']:.1f} ({100 * (found['velocity'] / exact['velocity'] - 1):+.2f} %)"]
+    cells = [f"{window['velocity']:.1f} ({100 * (window['velocity'] / exact['velocity'] - 1):+.2f} %)"]
     for side in ("jet", "target"):
-        error, scatter = (100 * x / exact["pressure"] for x in (found[side] - exact["pressure"], found[f"{side}_scatter"]))
-        cells.append(f"{found[side] * 1e-9:.3f} ({error:+.1f} %, scatter {scatter:.1f} %)")
+        error, scatter = (100 * x / exact["pressure"] for x in (window[side] - exact["pressure"], window[f"{side}_scatter"]))
+        cells.append(f"{window[side] * 1e-9:.3f} ({error:+.1f} %, scatter {scatter:.1f} %)")
     return " | ".join(cells)
 
 
-def table(found: dict) -> str:
+def table(result: dict) -> str:
     """The measurements as Markdown."""
-    exact = found["exact"]
-    ended = "" if found["ended"] else ", not ended"
-    lines = [f"**{found['run']}**, {found['velocity']:.0f} m/s, `{found['advection']}`{ended}; compressible Bernoulli: "
+    exact = result["exact"]
+    ended = "" if result["ended"] else ", not ended"
+    lines = [f"**{result['run']}**, {result['velocity']:.0f} m/s, `{result['advection']}`{ended}; compressible Bernoulli: "
              f"{exact['velocity']:.2f} m/s, {exact['pressure'] * 1e-9:.3f} GPa", "",
              "| depth, diameters | velocity, m/s | pressure in the jet, GPa | pressure in the target, GPa |",
              "|---|---|---|---|"]  # fmt: skip
-    lines += [f"| {row['depth']:.1f} | {_cells(row, exact)} |" for row in found["rows"]]
-    if found["steady"]:
-        lines.append(f"| {found['first']:g} to {found['last']:g} | {_cells(found['steady'], exact)} |")
+    lines += [f"| {row['depth']:.1f} | {_cells(row, exact)} |" for row in result["rows"]]
+    if result["steady"]:
+        lines.append(f"| {result['first']:g} to {result['last']:g} | {_cells(result['steady'], exact)} |")
     return "\n".join(lines)
 
 
@@ -202,11 +202,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="print JSON, SI units")
     given = parser.parse_args(arguments)
     try:
-        found = [measure(directory, given.first, given.last) for directory in given.run]
+        results = [measure(directory, given.first, given.last) for directory in given.run]
     except (reading.ResultsError, vtk.VtkError, DeckError) as error:
         print(error, file=sys.stderr)
         return 2
-    print(json.dumps(found, indent=2) if given.json else "\n\n".join(map(table, found)))
+    print(json.dumps(results, indent=2) if given.json else "\n\n".join(map(table, results)))
     return 0
 
 

@@ -1,7 +1,7 @@
-"""Problems with exact solutions: how each is run on three meshes, what is measured, and the curve that is drawn.
+"""Problems with exact solutions: how each is run on three meshes, the quantities measured, and the curve that is drawn.
 
 `table.py` runs them and prints the tables, `figures.py` draws them. A measure takes the results of a run that has ended and
-gives quantities; the exact values are those of the modules in `exact`.
+returns quantities; the exact values are those of the modules in `exact`.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ Curve = tuple[np.ndarray, np.ndarray]
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of a run and its exact value; the error is told in per cent of `of`, or of the exact value where `of` is 0."""
+    """A number of a run and its exact value; the error is given in per cent of `of`, or of the exact value where `of` is 0."""
 
     name: str
     unit: str
@@ -58,9 +58,9 @@ class Problem:
 
     cells : number of cells of each mesh, in the sense of `resolution`
     refine : cells -> overrides of the deck
-    variants : overrides by the name of what is compared, the first of them drawn
+    variants : overrides by the name of the variant, the first of them drawn
     measure : a run that has ended, its number of cells -> quantities
-    curve : a run that has ended -> what is drawn; exact : x of the curve -> y, and labels of both axes
+    curve : a run that has ended -> the curve drawn; exact : x of the curve -> y, and labels of both axes
     columns : further columns of the history
     """
 
@@ -88,43 +88,43 @@ def cells_of(run: Results) -> Cells:
 
 
 def advection(*choices: str) -> dict[str, tuple[str, ...]]:
-    """Variants by advection; a run by `momentum` goes on whatever it discards, to see what comes of it."""
+    """Variants by advection; a run by `momentum` goes on however much energy it discards, to see what comes of it."""
     goes_on = {"momentum": ("numerics.clip_limit=1.0",)}
     return {choice: (f'numerics.advection="{choice}"', *goes_on.get(choice, ())) for choice in choices or ADVECTION}
 
 
 def square(to: float, cells: int, z_start: float = 0.0) -> list[str]:
-    """A mesh of so many cells in both directions."""
+    """A mesh of ``cells`` cells in each direction."""
     return [f"mesh.r=[{{to={to}, cells={cells}}}]", f"mesh.z=[{{to={to}, cells={cells}}}]", f"mesh.z_start={z_start}"]
 
 
 def column(to: float, cells: int, start: float = 0.0) -> list[str]:
-    """Four columns of so many cells along z."""
+    """Four columns of ``cells`` cells along z."""
     size = (to - start) / cells
     return [f"mesh.r=[{{to={4 * size}, cells=4}}]", f"mesh.z=[{{to={to}, cells={cells}}}]", f"mesh.z_start={start}"]
 
 
-def difference(found: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> float:
+def difference(computed: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> float:
     """L1 of the difference over L1 of the exact values, in per cent."""
-    return float(100.0 * np.sum(weight * np.abs(found - exact)) / np.sum(weight * np.abs(exact)))
+    return float(100.0 * np.sum(weight * np.abs(computed - exact)) / np.sum(weight * np.abs(exact)))
 
 
-def profile(name: str, found: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> Quantity:
+def profile(name: str, computed: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> Quantity:
     """The L1 error of a profile."""
-    return Quantity(f"L1 error of {name}", "%", 0.0, difference(found, exact, weight), 100.0)
+    return Quantity(f"L1 error of {name}", "%", 0.0, difference(computed, exact, weight), 100.0)
 
 
 def lost(run: Results) -> Quantity:
-    """What the advection of velocities discarded or clipped, of the energy at the start."""
-    told = run.summary["conservation"]
-    taken = sum(told["sinks"][name]["energy_J"] for name in ("advection", "ke_bound"))
-    return Quantity("energy discarded", "%", 0.0, 100.0 * taken / told["start_energy_J"], 100.0)
+    """Energy that the advection of velocities discarded or clipped, of the energy at the start."""
+    conservation = run.summary["conservation"]
+    discarded = sum(conservation["sinks"][name]["energy_J"] for name in ("advection", "ke_bound"))
+    return Quantity("energy discarded", "%", 0.0, 100.0 * discarded / conservation["start_energy_J"], 100.0)
 
 
 def front_of(cells: Cells, values: np.ndarray, angle: float) -> float:
-    """Where the front of a blast is on a ray: the values fall through half of the largest on that ray."""
-    distance, found = cells.ray(values, angle)
-    return crossing(distance, found, 0.5 * found.max())
+    """Distance of a blast front on a ray: there the values fall through half of the largest on that ray."""
+    distance, profile_along = cells.ray(values, angle)
+    return crossing(distance, profile_along, 0.5 * profile_along.max())
 
 
 # Sedov
@@ -139,22 +139,22 @@ def _sedov_refine(j: int, cells: int) -> list[str]:
 
 
 def _sedov(j: int, run: Results, cells: int) -> list[Quantity]:
-    exact, found, time = SEDOV[j], cells_of(run), run.summary["time_s"]
+    exact, state, time = SEDOV[j], cells_of(run), run.summary["time_s"]
     radius = exact.radius(time)
-    fronts = np.array([front_of(found, found.mean_pressure, angle) for angle in RAYS])
-    centre = found.distance < 0.25 * radius
-    rho, _, p = exact.sample(found.distance, time)
-    inside = found.distance < 1.15 * radius
+    fronts = np.array([front_of(state, state.mean_pressure, angle) for angle in RAYS])
+    centre = state.distance < 0.25 * radius
+    rho, _, p = exact.sample(state.distance, time)
+    inside = state.distance < 1.15 * radius
     return [
         Quantity("radius of the front", "m", radius, float(fronts.mean())),
         Quantity("radius at the axis", "m", radius, float(fronts[0])),
         Quantity("radius at 45 degrees", "m", radius, float(fronts[3])),
         Quantity("spread over seven rays", "m", 0.0, float(np.ptp(fronts)), radius),
-        Quantity("largest density", "kg/m3", exact.behind(time)[0], float(found.density.max())),
+        Quantity("largest density", "kg/m3", exact.behind(time)[0], float(state.density.max())),
         Quantity("pressure within R/4", "MPa", 1e-6 * exact.central_pressure(time),
-                 1e-6 * float(np.average(found.mean_pressure[centre], weights=found.volume[centre]))),
-        profile("density", found.density[inside], rho[inside], found.volume[inside]),
-        profile("pressure", found.mean_pressure[inside], p[inside], found.volume[inside]),
+                 1e-6 * float(np.average(state.mean_pressure[centre], weights=state.volume[centre]))),
+        profile("density", state.density[inside], rho[inside], state.volume[inside]),
+        profile("pressure", state.mean_pressure[inside], p[inside], state.volume[inside]),
         lost(run),
     ]  # fmt: skip
 
@@ -177,24 +177,24 @@ NOH_PLATEAU = (0.08, 0.17)  # between the heated core and the smeared shock at 0
 
 
 def _noh(j: int, run: Results, cells: int) -> list[Quantity]:
-    exact, found, time = Noh(j, speed=1000.0), cells_of(run), run.summary["time_s"]
-    place = found.distance if j == 3 else found.r
+    exact, state, time = Noh(j, speed=1000.0), cells_of(run), run.summary["time_s"]
+    place = state.distance if j == 3 else state.r
     here = (place > NOH_PLATEAU[0]) & (place < NOH_PLATEAU[1])
     rho, middle = exact.rho, 0.5 * (exact.rho + 4.0 ** (j - 1))
-    density = found.density
+    density = state.density
     if j == 3:
-        fronts = np.array([crossing(*found.ray(density, angle), middle) for angle in RAYS])
+        fronts = np.array([crossing(*state.ray(density, angle), middle) for angle in RAYS])
     else:
-        fronts = np.array([crossing(*found.along(density, "r"), middle)])
+        fronts = np.array([crossing(*state.along(density, "r"), middle)])
     quantities = [
-        Quantity("density behind the shock", "kg/m3", rho, float(np.average(density[here], weights=found.volume[here]))),
+        Quantity("density behind the shock", "kg/m3", rho, float(np.average(density[here], weights=state.volume[here]))),
         Quantity("place of the shock", "m", exact.shock_speed * time, float(fronts.mean())),
     ]
     if j == 3:
         quantities.append(Quantity("spread over seven rays", "m", 0.0, float(np.ptp(fronts)), exact.shock_speed * time))
     inside = place < 0.35
     exact_density = exact.sample(place, time)[0]
-    return [*quantities, profile("density", density[inside], exact_density[inside], found.volume[inside]), lost(run)]
+    return [*quantities, profile("density", density[inside], exact_density[inside], state.volume[inside]), lost(run)]
 
 
 def _noh_curve(j: int, run: Results) -> Curve:
@@ -221,22 +221,22 @@ COLLAPSE = Collapse(e0=5e4, end=1e-3)
 
 
 def _collapse(run: Results, cells: int) -> list[Quantity]:
-    found, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary["time_s"]
     rho, p, e = COLLAPSE.at(time)
-    here = found.distance < 0.8 * COLLAPSE.untouched(1.0, time)
-    core = found.distance < 0.1
-    weights = found.volume[here]
+    here = state.distance < 0.8 * COLLAPSE.untouched(1.0, time)
+    core = state.distance < 0.1
+    weights = state.volume[here]
 
     def mean(values: np.ndarray, where: np.ndarray) -> float:
-        return float(np.average(values[where], weights=found.volume[where]))
+        return float(np.average(values[where], weights=state.volume[where]))
 
     return [
-        Quantity("mean density", "kg/m3", rho, mean(found.density, here)),
-        Quantity("density within 0.1 m", "kg/m3", rho, mean(found.density, core)),
-        Quantity("mean pressure", "MPa", 1e-6 * p, 1e-6 * mean(found.mean_pressure, here)),
-        Quantity("pressure within 0.1 m", "MPa", 1e-6 * p, 1e-6 * mean(found.mean_pressure, core)),
-        profile("density", found.density[here], np.full(weights.shape, rho), weights),
-        profile("velocity", found.outward[here], COLLAPSE.velocity(found.distance[here], time), weights),
+        Quantity("mean density", "kg/m3", rho, mean(state.density, here)),
+        Quantity("density within 0.1 m", "kg/m3", rho, mean(state.density, core)),
+        Quantity("mean pressure", "MPa", 1e-6 * p, 1e-6 * mean(state.mean_pressure, here)),
+        Quantity("pressure within 0.1 m", "MPa", 1e-6 * p, 1e-6 * mean(state.mean_pressure, core)),
+        profile("density", state.density[here], np.full(weights.shape, rho), weights),
+        profile("velocity", state.outward[here], COLLAPSE.velocity(state.distance[here], time), weights),
         lost(run),
     ]
 
@@ -293,7 +293,7 @@ def _guderley(run: Results, cells: int) -> list[Quantity]:
 
 
 def _guderley_curve(run: Results) -> Curve:
-    """Mean radius over the time that is left to the collapse of the power law, which is 1 at 0.25 m."""
+    """Mean radius against the time left to the collapse of the power law, in units of that at 0.25 m."""
     time = run.history["time"]
     mean = np.mean([run.history[f"front_{name}_m"] for name, _ in IMPLOSION], axis=0)
     scale, end, exponent = implosion_fit(time, mean)
@@ -307,20 +307,20 @@ CAVITY = blake.Cavity()
 
 
 def _moved(run: Results) -> tuple[np.ndarray, np.ndarray]:
-    """Places of the tracers at the start, (r, z), and their displacement away from the axis or the origin."""
+    """Positions of the tracers at the start, (r, z), and their displacements."""
     simulation = run.simulation()
     start = np.array([(each.r, each.z) for each in simulation.deck.tracer])
     return start, simulation.stations.tracers[: len(start)] - start
 
 
 def _blake(run: Results, cells: int) -> list[Quantity]:
-    time, found = run.summary["time_s"], cells_of(run)
+    time, state = run.summary["time_s"], cells_of(run)
     start, moved = _moved(run)
     distance = np.hypot(*start.T)
     moved = np.sum(moved * start, axis=1) / distance
-    gas = float(np.sum(found.vof[0] * found.volume))
+    gas = float(np.sum(state.vof[0] * state.volume))
     grown = (3.0 * gas) ** (1.0 / 3.0) - CAVITY.radius
-    here = (found.distance > 1.2 * CAVITY.radius) & (found.distance < CAVITY.radius + CAVITY.longitudinal * time)
+    here = (state.distance > 1.2 * CAVITY.radius) & (state.distance < CAVITY.radius + CAVITY.longitudinal * time)
     exact = CAVITY.displacement(distance, time)
     wall = 1e9 * float(CAVITY.displacement(CAVITY.radius, time))
     quantities = [Quantity("displacement of the wall", "nm", wall, 1e9 * grown)]
@@ -330,11 +330,11 @@ def _blake(run: Results, cells: int) -> list[Quantity]:
                                    1e9 * float(moved[near].mean())))  # fmt: skip
         quantities.append(Quantity(f"spread of three rays at {radii:g} radii", "nm", 0.0, 1e9 * float(np.ptp(moved[near])),
                                    1e9 * float(exact[near].mean())))  # fmt: skip
-    weight = found.volume[here] / found.distance[here] ** 2
+    weight = state.volume[here] / state.distance[here] ** 2
     return [
         *quantities,
-        profile("radial velocity", found.outward[here], CAVITY.velocity(found.distance[here], time), weight),
-        profile("mean pressure", found.mean_pressure[here], CAVITY.mean_pressure(found.distance[here], time), weight),
+        profile("radial velocity", state.outward[here], CAVITY.velocity(state.distance[here], time), weight),
+        profile("mean pressure", state.mean_pressure[here], CAVITY.mean_pressure(state.distance[here], time), weight),
     ]
 
 
@@ -347,8 +347,8 @@ def _blake_curve(run: Results) -> Curve:
 def _cylinder(run: Results, cells: int) -> list[Quantity]:
     start, moved = _moved(run)
     exact = blake.cylindrical(CAVITY, start[:, 0], run.summary["time_s"])
-    return [Quantity(f"displacement at {r / CAVITY.radius:g} radii", "nm", 1e9 * right, 1e9 * found)
-            for r, right, found in zip(start[:, 0], exact, moved[:, 0], strict=True)]  # fmt: skip
+    return [Quantity(f"displacement at {r / CAVITY.radius:g} radii", "nm", 1e9 * right, 1e9 * computed)
+            for r, right, computed in zip(start[:, 0], exact, moved[:, 0], strict=True)]  # fmt: skip
 
 
 def _cylinder_curve(run: Results) -> Curve:
@@ -362,10 +362,10 @@ METAL = elastic_plastic.ALUMINIUM_EXACTPACK
 
 
 def _elastic_piston(run: Results, cells: int) -> list[Quantity]:
-    found, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary["time_s"]
     wave = elastic_plastic.elastic(METAL[0], METAL[1], 20.0)
-    x, stress = found.along(found.axial_stress, "z")
-    front, velocity = crossing(x, stress, 0.5 * wave.sigma), found.along(found.v, "z")[1]
+    x, stress = state.along(state.axial_stress, "z")
+    front, velocity = crossing(x, stress, 0.5 * wave.sigma), state.along(state.v, "z")[1]
     flat = (x > 0.2 * front) & (x < 0.8 * front)
     return [
         Quantity("speed of the wave", "m/s", wave.speed, front / time),
@@ -377,11 +377,11 @@ def _elastic_piston(run: Results, cells: int) -> list[Quantity]:
 
 
 def _elastic_plastic_piston(run: Results, cells: int) -> list[Quantity]:
-    found, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary["time_s"]
     exact = elastic_plastic.piston(*METAL, 100.0)
     first, second = exact.elastic, exact.plastic
-    x, stress = found.along(found.axial_stress, "z")
-    pressure = found.along(found.mean_pressure, "z")[1]
+    x, stress = state.along(state.axial_stress, "z")
+    pressure = state.along(state.mean_pressure, "z")[1]
     ends = second.speed * time, first.speed * time
     shelf = (x > 0.6 * ends[0] + 0.4 * ends[1]) & (x < 0.2 * ends[0] + 0.8 * ends[1])
     flat = (x > 0.2 * second.speed * time) & (x < 0.8 * second.speed * time)
@@ -414,7 +414,7 @@ SPHERE, SPHERE_RADIUS = vibration.Elastic(2785.0, 5328.0, 27.6e9), 0.01
 
 
 def _breathes(simulation: Simulation) -> float:
-    """The velocity of the surface in the gravest mode, by the projection of the radial velocity on its shape, m/s."""
+    """The velocity of the surface in the lowest mode, by projecting the radial velocity on its shape, m/s."""
     cells = Cells(simulation)
     shape = vibration.shape(vibration.sphere(SPHERE), cells.distance / SPHERE_RADIUS)
     mass = cells.volume * cells.density
@@ -424,11 +424,11 @@ def _breathes(simulation: Simulation) -> float:
 def extrema(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Times and values of the extrema inside a record, by the parabola through three points."""
     turns = np.nonzero((np.diff(values)[1:] * np.diff(values)[:-1]) < 0.0)[0] + 1
-    found = []
+    points = []
     for k in turns:
         a, b, _ = np.polyfit(time[k - 1 : k + 2] - time[k], values[k - 1 : k + 2], 2)
-        found.append((time[k] - 0.5 * b / a, np.polyval((a, b, values[k]), -0.5 * b / a)))
-    return tuple(np.array(found).T)
+        points.append((time[k] - 0.5 * b / a, np.polyval((a, b, values[k]), -0.5 * b / a)))
+    return tuple(np.array(points).T)
 
 
 def _sphere(run: Results, cells: int) -> list[Quantity]:
@@ -447,12 +447,12 @@ def _sphere_curve(run: Results) -> Curve:
 
 
 def _sphere_exact(x: np.ndarray) -> np.ndarray:
-    """The velocity of the mode that a velocity of 2 m/s times the share of the radius has."""
-    gravest = vibration.sphere(SPHERE)
+    """The velocity of the mode, started by a velocity of 2 m/s times the share of the radius."""
+    lowest = vibration.sphere(SPHERE)
     share = np.linspace(0.0, 1.0, 2001)
-    shape = vibration.shape(gravest, share)
+    shape = vibration.shape(lowest, share)
     start = 2.0 * np.trapezoid(share**3 * shape, share) / np.trapezoid(share**2 * shape**2, share)
-    return start * np.cos(2e-6 * math.pi * x / vibration.period(SPHERE, SPHERE_RADIUS, gravest))
+    return start * np.cos(2e-6 * math.pi * x / vibration.period(SPHERE, SPHERE_RADIUS, lowest))
 
 
 # Shells
@@ -484,11 +484,11 @@ def _shell(j: int, run: Results, cells: int) -> list[Quantity]:
     stop, time = exact.stop(speed), run.history["time"]
     radius = run.history["cavity_m"]
     last = int(np.argmin(radius))
-    told = run.summary["conservation"]
+    conservation = run.summary["conservation"]
     quantities = [
         Quantity("inner radius at the stop", "mm", 1e3 * stop, 1e3 * float(radius[last])),
         Quantity("kinetic energy that the remap discarded", "%", 0.0,
-                 100.0 * told["sinks"]["advection"]["energy_J"] / told["start_energy_J"], 100.0),
+                 100.0 * conservation["sinks"]["advection"]["energy_J"] / conservation["start_energy_J"], 100.0),
     ]  # fmt: skip
     if j == 3:
         axis, equator = (run.history[f"cavity_{name}_m"][last] for name in ("axis", "equator"))
@@ -513,9 +513,9 @@ DRIVEN = riemann_jwl.drive(riemann_jwl.burnt(*riemann_jwl.PBX9404), AL_5083)
 
 
 def _riemann(run: Results, cells: int) -> list[Quantity]:
-    found, time = cells_of(run), run.summary["time_s"]
-    x, pressure = found.along(found.mean_pressure, "z")
-    velocity, density = found.along(found.v, "z")[1], found.along(found.density, "z")[1]
+    state, time = cells_of(run), run.summary["time_s"]
+    x, pressure = state.along(state.mean_pressure, "z")
+    velocity, density = state.along(state.v, "z")[1], state.along(state.density, "z")[1]
     rho, u, p = DRIVEN.sample(x / time)
     contact, shock = DRIVEN.u * time, DRIVEN.shocked.speed * time
     left = (x > 0.5 * (contact - 5e-3)) & (x < contact - 1e-3)
@@ -550,7 +550,7 @@ def _detonation_refine(cells: int) -> list[str]:
 
 
 def _lit(simulation: Simulation) -> float:
-    """Where half of the charge has burnt, m."""
+    """Position at which half of the charge has burnt, m."""
     cells = Cells(simulation)
     return crossing(*cells.along(cells.internal(jwl.BURNT), "z"), 0.5)
 
@@ -571,10 +571,10 @@ def _products(deck: Deck) -> tuple[np.ndarray, Taylor]:
 def _detonation(run: Results, cells: int) -> list[Quantity]:
     row, flow = _products(run.deck)
     speed, cj, _ = jwl.cj_state(row)
-    found, time, history = cells_of(run), run.summary["time_s"], run.history
-    x, pressure = found.along(found.mean_pressure, "z")
-    velocity = found.along(found.v, "z")[1]
-    late = history["time"] > 0.5 * time
+    state, time, history = cells_of(run), run.summary["time_s"], run.history
+    x, pressure = state.along(state.mean_pressure, "z")
+    velocity = state.along(state.v, "z")[1]
+    half = history["time"] > 0.5 * time
     end, size = speed * time, x[1] - x[0]
     behind = (x < end - 6.0 * size) & (x > 0.88 * end - 6.0 * size)
     burnt = x < end - 3.0 * size
@@ -585,7 +585,7 @@ def _detonation(run: Results, cells: int) -> list[Quantity]:
         return float(np.polyfit(x[behind] - end, values[behind], 2)[2])
 
     return [
-        Quantity("speed of the front", "m/s", speed, float(np.polyfit(history["time"][late], history["front_m"][late], 1)[0])),
+        Quantity("speed of the front", "m/s", speed, float(np.polyfit(history["time"][half], history["front_m"][half], 1)[0])),
         Quantity("front behind D t", "cells", 0.0, float((end - history["front_m"][-1]) / size), end / size),
         Quantity("pressure of Chapman and Jouguet", "GPa", 1e-9 * cj, 1e-9 * at_front(pressure)),
         Quantity("velocity of Chapman and Jouguet", "m/s", u_cj, at_front(velocity)),

@@ -1,4 +1,4 @@
-"""What problems with exact solutions are read by: the cells of a simulation, and rays from the origin through them."""
+"""The cells of a simulation, and rays from the origin through them, to compare results with exact solutions."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ class Cells:
         return (self.u * self.r + self.v * self.z) / self.distance
 
     def internal(self, place: int, body: int = 0) -> np.ndarray:
-        """An internal variable of a body by its place."""
+        """An internal variable of a body by its index."""
         return self.simulation.grid.interior(self.simulation.state.q[INTERNAL + place, body])
 
     def ray(self, values: np.ndarray, angle: float) -> tuple[np.ndarray, np.ndarray]:
         """Distances from the origin, a quarter of a cell apart, and values there along a ray.
 
-        angle : from the axis, degrees. Values are interpolated between centres, and hold beyond the outermost.
+        angle : from the axis, degrees. Values are interpolated between centres, and constant beyond the outermost.
         """
         across, up = np.sin(np.radians(angle)), np.cos(np.radians(angle))
         reach = min(self.columns[-1] / max(across, 1e-9), self.rows[-1] / max(up, 1e-9))

@@ -1,4 +1,4 @@
-"""Draws problems with exact solutions: the meshes of `results/accuracy_curves.csv` beside the exact curve.
+"""Draws problems with exact solutions: the meshes of `results/accuracy_curves.csv` with the exact curve.
 
     python -m problems.verification.figures FOLDER [PROBLEM ...]
 """

@@ -1,10 +1,10 @@
-"""Temperatures along the Hugoniots of metals of the library, their melting lines, and published values beside them.
+"""Temperatures along the Hugoniots of metals of the library, their melting lines, and published values.
 
     python -m problems.verification.hugoniot [--keep]
 
-prints both tables: temperature and melting temperature at given pressures, then what has been published beside what the
-equation of state and the melting line give. `--keep` writes them into `results` as well. Nothing is run: a state follows from
-the jump conditions and the equation of state alone, without strength.
+prints both tables: temperature and melting temperature at given pressures, then published values and those that the equation
+of state and the melting line give. `--keep` writes them into `results` as well. Nothing is run: a state follows from the jump
+conditions and the equation of state alone, without strength.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ METALS = ("Al6061_T6", "Al2024_T4", "Al7075_T6", "copper_OFHC", "iron_Armco", "t
 PRESSURES = (20, 50, 100, 150, 200, 250, 300)
 #: particle velocities between which a state is sought, m/s
 SLOWEST, FASTEST = 1.0, 9e3
-#: energy up to which a metal at zero pressure is sought to melt, J/kg
+#: energy up to which melting at zero pressure is sought, J/kg
 HOTTEST = 2e6
-#: what is compared: the words of the table, and its columns in the list of published values
+#: quantities compared: the words of the table, and the columns in the list of published values
 QUANTITIES = {
     "temperature": ("temperature, K", "temperature_K", "temperature_error_K"),
     "melting": ("melting pressure, GPa", "pressure_GPa", "pressure_error_GPa"),
@@ -105,24 +105,24 @@ def beside() -> list[dict[str, object]]:
         words, value, error = QUANTITIES[quantity]
         at = row["pressure_GPa"] if quantity == "temperature" else ""
         if quantity == "melting":
-            found = 1e-9 * metal.melts_at()
+            ours = 1e-9 * metal.melts_at()
         else:
-            found = metal.state(1e9 * float(at))[1] if at else metal.melts_without_pressure()
+            ours = metal.state(1e9 * float(at))[1] if at else metal.melts_without_pressure()
         rows.append(dict(zip(BESIDE, (
-            metal.name, words, row[value], row[error], f"{row['source']} ({row['how']})", row["confidence"], at, f"{found:.0f}",
-            f"{100 * (found / float(row[value]) - 1):+.0f}"), strict=True)))
+            metal.name, words, row[value], row[error], f"{row['source']} ({row['how']})", row["confidence"], at, f"{ours:.0f}",
+            f"{100 * (ours / float(row[value]) - 1):+.0f}"), strict=True)))
     return rows
 
 
 def curve_table(rows: Sequence[dict]) -> list[str]:
     """The lines of the first table: a line for each metal, temperature over melting temperature at each pressure."""
-    found: dict[str, list[str]] = {}
+    cells_of: dict[str, list[str]] = {}
     for row in rows:
         molten = float(row["temperature_K"]) >= float(row["melting_temperature_K"])
         cell = f"{row['temperature_K']} / {row['melting_temperature_K']}"
-        found.setdefault(str(row["material"]), []).append(f"**{cell}**" if molten else cell)
+        cells_of.setdefault(str(row["material"]), []).append(f"**{cell}**" if molten else cell)
     lines = [f"| T / Tm, K | {' | '.join(f'{p} GPa' for p in PRESSURES)} |", "|---" * (len(PRESSURES) + 1) + "|"]
-    return [*lines, *(f"| `{name}` | {' | '.join(cells)} |" for name, cells in found.items())]
+    return [*lines, *(f"| `{name}` | {' | '.join(cells)} |" for name, cells in cells_of.items())]
 
 
 def beside_table(rows: Sequence[dict]) -> list[str]:

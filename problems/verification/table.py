@@ -1,9 +1,9 @@
-"""Errors of problems with exact solutions on three meshes: runs what has not been run, and prints a table for each.
+"""Errors of problems with exact solutions on three meshes: runs those not yet run, and prints a table for each.
 
     python -m problems.verification.table RUNS [PROBLEM ...] [--keep]
 
-RUNS is the folder of the runs. `--keep` writes numbers and curves into `results`; without RUNS the tables are those of the
-numbers that are kept there. Costs are seconds of one core.
+RUNS is the folder of the runs. `--keep` writes numbers and curves into `results`; without RUNS the tables show the numbers kept
+there. Costs are seconds of one core.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ NUMBERS, CURVES = RESULTS / "accuracy.csv", RESULTS / "accuracy_curves.csv"
 COLUMNS = ("problem", "variant", "cells", "quantity", "unit", "exact", "found", "error_percent", "status", "time_s", "seconds",
            "cycles")
 CURVE_COLUMNS = ("problem", "cells", "x", "y")
-#: the file in the directory of a run that has the seconds of its core
+#: the file in the directory of a run that records its seconds on one core
 COST = "cost.json"
-#: the most points that are kept of a curve
+#: the most points kept of a curve
 MOST = 120
-#: errors that are all smaller than this, per cent, have no order
+#: no order is given if all errors are smaller than this, per cent
 LEAST = 0.5
 
 
@@ -41,7 +41,7 @@ def directory(runs: Path, problem: Problem, variant: str, cells: int) -> Path:
 
 
 def run(runs: Path, problem: Problem, variant: str, cells: int) -> None:
-    """Runs what has not been run, on one core, with everything compiled before the clock starts."""
+    """Runs a case unless it has been run, on one core, with everything compiled before the clock starts."""
     place = directory(runs, problem, variant, cells)
     if (place / COST).exists():
         return
@@ -59,11 +59,11 @@ def rows_of(runs: Path, problem: Problem, variant: str, cells: int) -> list[dict
     """The rows of a run: one for each quantity that it has, or one without a quantity if it became unphysical."""
     place = directory(runs, problem, variant, cells)
     results = hydro2d.open_run(place)
-    told = results.summary
-    status = told["status"] if told["status"] != "done" else "trusted" if told["trustworthy"] else "not trusted"
-    common = {"problem": problem.name, "variant": variant, "cells": cells, "status": status, "time_s": f"{told['time_s']:.6g}",
-              "seconds": json.loads((place / COST).read_text())["seconds"], "cycles": told["cycles"]}
-    if told["status"] != "done":
+    facts = results.summary
+    status = facts["status"] if facts["status"] != "done" else "trusted" if facts["trustworthy"] else "not trusted"
+    common = {"problem": problem.name, "variant": variant, "cells": cells, "status": status, "time_s": f"{facts['time_s']:.6g}",
+              "seconds": json.loads((place / COST).read_text())["seconds"], "cycles": facts["cycles"]}
+    if facts["status"] != "done":
         return [common]
     return [common | {"quantity": each.name, "unit": each.unit, "exact": f"{each.exact:.7g}", "found": f"{each.found:.7g}",
                       "error_percent": f"{each.error:.4g}"} for each in problem.measure(results, cells)
@@ -79,7 +79,7 @@ def curve_of(runs: Path, problem: Problem, cells: int) -> list[dict[str, object]
 
 
 def order(cells: list[int], errors: list[float]) -> str:
-    """Observed order from the coarsest to the finest mesh; empty where the errors say nothing of it."""
+    """Observed order from the coarsest to the finest mesh; empty where the errors do not define one."""
     small = min(map(abs, errors), default=0.0) < 0.01 or max(map(abs, errors)) < LEAST
     if len(cells) < 2 or small or errors[0] * errors[-1] < 0.0:
         return ""
@@ -104,15 +104,15 @@ def table(problem: Problem, rows: list[dict[str, str]]) -> list[str]:
         mine = [row for row in rows if row["problem"] == problem.name and row["variant"] == variant]
         label = f" `{variant}` |" if several else ""
         by_mesh = {cells: [row for row in mine if row["cells"] == cells] for cells in meshes}
-        ended = {cells: found[0]["status"] for cells, found in by_mesh.items() if found}
+        ended = {cells: by_cells[0]["status"] for cells, by_cells in by_mesh.items() if by_cells}
         for name in dict.fromkeys(row["quantity"] for row in mine if row["quantity"]):
-            found = {row["cells"]: row for row in mine if row["quantity"] == name}
-            first = next(iter(found.values()))
+            by_cells = {row["cells"]: row for row in mine if row["quantity"] == name}
+            first = next(iter(by_cells.values()))
             unit = f" {first['unit']}" if first["unit"] else ""
             exact = "0" if float(first["exact"]) == 0.0 else f"{float(first['exact']):.5g}{unit}"
-            cells = " | ".join(f"{shown(found[each]['error_percent'])} %" if each in found else "" for each in meshes)
-            there = [each for each in meshes if each in found]
-            rate = order([int(each) for each in there], [float(found[each]["error_percent"]) for each in there])
+            cells = " | ".join(f"{shown(by_cells[each]['error_percent'])} %" if each in by_cells else "" for each in meshes)
+            there = [each for each in meshes if each in by_cells]
+            rate = order([int(each) for each in there], [float(by_cells[each]["error_percent"]) for each in there])
             lines.append(f"| {name} |{label} {exact} | {cells} | {rate} |")
         cost = " | ".join(f"{float(by_mesh[each][0]['seconds']):.3g} s" + _verdict(by_mesh[each][0]) if each in ended else ""
                           for each in meshes)  # fmt: skip

@@ -1,10 +1,10 @@
-"""Whether the walls of runs of these decks hold, beside the shots and a ballistic limit equation.
+"""Whether the walls hold in runs of these decks, compared with the shots and with a ballistic limit equation.
 
     python -m problems.whipple.read RUN [RUN ...]     a row for each run, as CSV
-    python -m problems.whipple.read [--figure PATH]   the tables of the README, from what is kept in results
+    python -m problems.whipple.read [--figure PATH]   the tables of the README, from the rows kept in results
 
 A row has the set-up of a run, the cells across the radius of the ball, whether the wall has a hole at the end, and the mass
-that has left its rear. The wall has a hole where cells that it fills by less than half lead from its front to its rear.
+that has left its rear. The wall has a hole if cells that it fills by less than half lead from its front to its rear.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ CHOICES = HERE / "results" / "choices.csv"
 COLUMNS = ("case", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "cells", "hole", "behind_mg")
 #: columns of shots.csv
 TOLD = ("shot", "report", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "perforated", "half")
-#: shots by which the set-up was chosen, and those that were run after that
+#: shots by which the set-up was chosen, and those run after that
 HALVES = {"A": "chosen by", "B": "not looked at before"}
 #: diameter in cm and density in g/cm^3 of the ball, density of the bumper in g/cm^3, yield stress of the wall in ksi
 BALL, BALL_DENSITY, BUMPER_DENSITY, YIELD = 0.318, 2.8, 2.7, 40.0
@@ -60,7 +60,7 @@ def needed(gap: float) -> float:
 
 
 def predicted(row: dict[str, str]) -> bool:
-    """Whether the equation has the wall of a row defeated; a row has the columns of shots.csv."""
+    """Whether the wall of a row is defeated by the equation; a row has the columns of shots.csv."""
     bumper, gap, wall = (0.1 * float(row[name]) for name in ("bumper_mm", "gap_mm", "wall_mm"))
     return limit(float(row["velocity_km_s"]), bumper, gap, wall) < BALL
 
@@ -68,7 +68,7 @@ def predicted(row: dict[str, str]) -> bool:
 def open_through(wall: np.ndarray) -> bool:
     """Whether a wall has a hole: cells filled by less than half lead from its front to its rear, over faces of cells.
 
-    wall : volume fraction of the wall, float64[j, i], from the front on; the outermost column has the wall whole
+    wall : volume fraction of the wall, float64[j, i], from the front on; the wall is whole in the outermost column
     """
     from scipy import ndimage
 
@@ -77,7 +77,7 @@ def open_through(wall: np.ndarray) -> bool:
 
 
 def of_run(directory: Path) -> tuple:
-    """The row of a run, in the order of COLUMNS. Raises ValueError if the run has not got to its end."""
+    """The row of a run, in the order of COLUMNS. Raises ValueError if the run has not ended."""
     run = hydro2d.open_run(directory)
     if run.summary.get("stop_reason") != "end time":
         raise ValueError("the run has not ended")
@@ -97,7 +97,7 @@ def defeated(row: dict[str, str]) -> bool:
 
 
 def shots() -> list[dict[str, str]]:
-    """The rows of shots.csv, each with `computed`, its row of what is kept, by number of cells: the coarsest first."""
+    """The rows of shots.csv, each with `computed`, its kept rows by number of cells: the coarsest first."""
     runs: dict[str, list[dict[str, str]]] = {}
     for row in sorted(results.rows(KEPT, COLUMNS), key=lambda row: int(row["cells"])):
         runs.setdefault(row["case"].split("-")[-1], []).append(row)
@@ -109,16 +109,16 @@ def measured(shot: dict) -> bool:
     return shot["perforated"] == "yes"
 
 
-def right(found: list[dict], verdict) -> str:
-    """How many shots end as `verdict`, a function of a shot, has it; of how many."""
-    return f"{sum(verdict(shot) == measured(shot) for shot in found)} of {len(found)}"
+def right(cases: list[dict], verdict) -> str:
+    """Number of shots that end as `verdict`, a function of a shot, predicts; of how many."""
+    return f"{sum(verdict(shot) == measured(shot) for shot in cases)} of {len(cases)}"
 
 
-def ends(found: list[dict], verdict) -> str:
+def ends(cases: list[dict], verdict) -> str:
     """The thickest wall that is defeated and the thinnest that holds, mm."""
-    lost = [float(shot["wall_mm"]) for shot in found if verdict(shot)]
-    held = [float(shot["wall_mm"]) for shot in found if not verdict(shot)]
-    return ", ".join("none" if not each else f"{pick(each):g}" for each, pick in ((lost, max), (held, min)))
+    lost = [float(shot["wall_mm"]) for shot in cases if verdict(shot)]
+    intact = [float(shot["wall_mm"]) for shot in cases if not verdict(shot)]
+    return ", ".join("none" if not each else f"{pick(each):g}" for each, pick in ((lost, max), (intact, min)))
 
 
 def computed(shot: dict) -> bool:
@@ -136,7 +136,7 @@ def lost_a_crumb(shot: dict) -> bool:
     return has_hole(shot) or float(shot["computed"][0]["behind_mg"]) > 0.01 * BALL_MASS
 
 
-#: what may say that a wall is defeated
+#: criteria for a wall being defeated
 VERDICTS = {
     "more than the mass of the ball has left its rear, which was chosen": computed,
     "it has a hole": has_hole,
@@ -146,9 +146,9 @@ VERDICTS = {
 }
 
 
-def score(found: list[dict]) -> list[str]:
+def score(cases: list[dict]) -> list[str]:
     """Lines of Markdown: how often each of VERDICTS is right, by half."""
-    halves = [[shot for shot in found if shot["half"] == half] for half in HALVES] + [found]
+    halves = [[shot for shot in cases if shot["half"] == half] for half in HALVES] + [cases]
     heads = " | ".join(f"{half}, {words}" for half, words in HALVES.items())
     lines = [f"| a wall is defeated if | {heads} | all |", "|---|---|---|---|"]
     for words, verdict in VERDICTS.items():
@@ -156,21 +156,21 @@ def score(found: list[dict]) -> list[str]:
     return lines
 
 
-def by_gap(found: list[dict]) -> list[str]:
+def by_gap(cases: list[dict]) -> list[str]:
     """Lines of Markdown: the thickest wall that fails and the thinnest that holds, by gap, and how often runs are right."""
     lines = ["| gap | shots | experiments | runs | equation, 7 km/s | runs right | equation right |", "|---" * 7 + "|"]
-    for gap in dict.fromkeys(shot["gap_mm"] for shot in found):
-        here = [shot for shot in found if shot["gap_mm"] == gap]
+    for gap in dict.fromkeys(shot["gap_mm"] for shot in cases):
+        here = [shot for shot in cases if shot["gap_mm"] == gap]
         walls = " | ".join(f"{ends(here, verdict)} mm" for verdict in (measured, computed))
         least = f"{needed(float(gap)):.2g} mm"
         lines.append(f"| {gap} mm | {len(here)} | {walls} | {least} | {right(here, computed)} | {right(here, predicted)} |")
     return lines
 
 
-def finer(found: list[dict]) -> list[str]:
-    """Lines of Markdown: what has left the rear of walls that were computed on two meshes."""
+def finer(cases: list[dict]) -> list[str]:
+    """Lines of Markdown: the mass that has left the rear of walls computed on two meshes."""
     lines = ["| shot | gap | wall | the shot | left its rear, 8 cells | 16 cells |", "|---|---|---|---|---|---|"]
-    for shot in found:
+    for shot in cases:
         if len(shot["computed"]) > 1:
             ended = "defeated" if measured(shot) else "held"
             masses = " | ".join(f"{float(row['behind_mg']):.0f} mg" for row in shot["computed"])
@@ -185,13 +185,13 @@ def by_velocity(rows: list[dict[str, str]]) -> list[str]:
     for wall in dict.fromkeys(row["wall_mm"] for row in rows):
         here = {float(row["velocity_km_s"]): row for row in rows if row["wall_mm"] == wall}
         for words, verdict in (("run", defeated), ("equation", predicted)):
-            told = ["" if speed not in here else "fails" if verdict(here[speed]) else "holds" for speed in speeds]
-            lines.append(f"| {wall} mm | {words} | " + " | ".join(told) + " |")
+            outcomes = ["" if speed not in here else "fails" if verdict(here[speed]) else "holds" for speed in speeds]
+            lines.append(f"| {wall} mm | {words} | " + " | ".join(outcomes) + " |")
     return lines
 
 
 def chosen() -> list[str]:
-    """Lines of Markdown: what left the rear of the wall of one shot by what was chosen in its runs, by members."""
+    """Lines of Markdown: the mass that left the rear of the wall of one shot, for each choice in its runs, over members."""
     lines = ["| choice | runs | with a hole | left the rear, mg |", "|---|---|---|---|"]
     rows = [{**row, "case": row["case"].split("_m")[0]} for row in results.rows(CHOICES, COLUMNS)]
     for (choice,), members in results.grouped(rows, ["case"]).items():
@@ -200,13 +200,13 @@ def chosen() -> list[str]:
     return lines
 
 
-def draw(found: list[dict]):
+def draw(cases: list[dict]):
     """A matplotlib Figure: walls by gap, with the outcomes of the shots, of their runs, and the limit by the equation."""
     figure, ((axes,),) = figures.new_figure(6.4, 4.6, 1, 1)
     marks = {(False, measured): ("o", "none", "wall held"), (True, measured): ("o", "black", "wall defeated"),
              (False, computed): ("_", "#1f77b4", "run: held"), (True, computed): ("x", "#d62728", "run: defeated")}  # fmt: skip
     for (failed, verdict), (marker, colour, label) in marks.items():
-        here = [shot for shot in found if verdict(shot) == failed]
+        here = [shot for shot in cases if verdict(shot) == failed]
         gaps = [(1.0 if verdict is measured else 1.12) * float(shot["gap_mm"]) for shot in here]
         axes.plot(gaps, [float(shot["wall_mm"]) for shot in here], marker, color="black" if verdict is measured else colour,
                   markerfacecolor=colour, markersize=6, label=label)  # fmt: skip
@@ -219,7 +219,7 @@ def draw(found: list[dict]):
 
 
 def main(arguments: list[str]) -> int:
-    """Prints the rows of runs as CSV, and of a run that has not ended that it has none; without runs, the tables."""
+    """Prints the rows of runs as CSV, and reports runs that have not ended; without runs, the tables."""
     parser = argparse.ArgumentParser(prog="read", description=__doc__.splitlines()[0])
     parser.add_argument("runs", nargs="*", metavar="RUN", help="directory of a run")
     parser.add_argument("--figure", type=Path, metavar="PATH", help="also draws walls by gap, with their outcomes")
@@ -227,11 +227,11 @@ def main(arguments: list[str]) -> int:
     if given.runs:
         results.show(COLUMNS, of_run, given.runs)
         return 0
-    found = shots()
-    tables = score(found), by_gap(found), finer(found), by_velocity(results.rows(VELOCITIES, COLUMNS)), chosen()
+    cases = shots()
+    tables = score(cases), by_gap(cases), finer(cases), by_velocity(results.rows(VELOCITIES, COLUMNS)), chosen()
     print("\n\n".join("\n".join(each) for each in tables))
     if given.figure:
-        figures.save(draw(found), given.figure)
+        figures.save(draw(cases), given.figure)
     return 0
 
 

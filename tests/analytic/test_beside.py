@@ -1,4 +1,4 @@
-"""What analytic models say beside the depth of a run."""
+"""Depths by analytic models, printed with the depth of a run."""
 
 import pytest
 
@@ -25,7 +25,7 @@ def test_behind_a_target_nothing_is_said():
 
 
 @pytest.mark.parametrize("name", ["templates/jacketed", "ceramics/tile", "perforation/sphere", "templates/taylor"])
-def test_other_shots_than_a_rod_into_one_target_have_none(name):
+def test_only_a_rod_into_one_target_has_analytic_depths(name):
     assert beside.depths(decks.load(f"problems/{name}.toml")) == {}
 
 

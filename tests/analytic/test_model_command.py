@@ -1,4 +1,4 @@
-"""`hydro2d model`: inputs and where they come from, tables, files, and one message for what is wrong."""
+"""`hydro2d model`: inputs and where they come from, tables, files, and one message for each mistake."""
 
 import csv
 import json
@@ -39,30 +39,30 @@ def toy(*extra: Input, values=None) -> Model:
 
 def test_numbers_of_a_steinberg_guinan_material():
     """K = rho0 c0^2 and G give E and nu; the ultimate strength is Y0 (1 + beta)^n, below the cap."""
-    found = {name: given.value for name, given in model_materials.quantities(library.load("W_alloy")).items()}
+    quantities = {name: given.value for name, given in model_materials.quantities(library.load("W_alloy")).items()}
     K, G = 18160.0 * 4030.0**2, 145e9
-    assert found["density"] == 18160.0
-    assert found["sound_speed"] == 4030.0
-    assert found["hugoniot_slope"] == 1.237
-    assert found["strength"] == pytest.approx(1.87e9, rel=1e-12)
-    assert found["ultimate_strength"] == pytest.approx(1.87e9 * 8.7**0.13, rel=1e-12)
-    assert found["shear_modulus"] == pytest.approx(G, rel=1e-12)
-    assert found["youngs_modulus"] == pytest.approx(2.0 * G * (1.0 + found["poisson_ratio"]), rel=1e-12)
-    assert found["youngs_modulus"] == pytest.approx(3.0 * K * (1.0 - 2.0 * found["poisson_ratio"]), rel=1e-12)
-    assert found["hardening_exponent"] == 0.0
+    assert quantities["density"] == 18160.0
+    assert quantities["sound_speed"] == 4030.0
+    assert quantities["hugoniot_slope"] == 1.237
+    assert quantities["strength"] == pytest.approx(1.87e9, rel=1e-12)
+    assert quantities["ultimate_strength"] == pytest.approx(1.87e9 * 8.7**0.13, rel=1e-12)
+    assert quantities["shear_modulus"] == pytest.approx(G, rel=1e-12)
+    assert quantities["youngs_modulus"] == pytest.approx(2.0 * G * (1.0 + quantities["poisson_ratio"]), rel=1e-12)
+    assert quantities["youngs_modulus"] == pytest.approx(3.0 * K * (1.0 - 2.0 * quantities["poisson_ratio"]), rel=1e-12)
+    assert quantities["hardening_exponent"] == 0.0
 
 
 def test_numbers_of_a_power_law():
-    """E, nu and n are the law's own; at a strain the strength is hardened and n is not applied again."""
+    """E, nu and n are the law's own; the strength at a strain is already hardened, and n is not applied again."""
     material = library.load("Al5083")
-    found = model_materials.quantities(material)
-    assert (found["strength"].value, found["hardening_exponent"].value) == (276e6, 0.084)
-    assert (found["youngs_modulus"].value, found["poisson_ratio"].value) == (70.3e9, 0.33333)
+    quantities = model_materials.quantities(material)
+    assert (quantities["strength"].value, quantities["hardening_exponent"].value) == (276e6, 0.084)
+    assert (quantities["youngs_modulus"].value, quantities["poisson_ratio"].value) == (70.3e9, 0.33333)
     hard = model_materials.quantities(material, strain=0.3)
     Y = hard["strength"].value
     assert Y == pytest.approx(276e6 * (70.3e9 / 276e6 * 0.3 + Y / 276e6) ** 0.084, rel=1e-12)
     assert hard["hardening_exponent"].value == 0.0
-    assert hard["ultimate_strength"] == found["ultimate_strength"]
+    assert hard["ultimate_strength"] == quantities["ultimate_strength"]
 
 
 def test_johnson_cook_at_a_strain_and_a_variant():
@@ -79,12 +79,12 @@ def test_an_impossible_strain_is_refused(strain):
 
 @pytest.mark.parametrize("name", library.names())
 def test_every_material_of_the_library_is_read(name):
-    """What a material gives is finite; a gas has no strength and says so."""
+    """The numbers of every material are finite; a gas has no strength, and the message says so."""
     material = library.load(name)
-    found = model_materials.quantities(material)
-    assert set(found) <= set(inputs.FROM_LIBRARY)
-    assert all(math.isfinite(given.value) and given.source.startswith(name) for given in found.values())
-    assert (found["strength"].value > 0.0) == material.has_strength
+    quantities = model_materials.quantities(material)
+    assert set(quantities) <= set(inputs.FROM_LIBRARY)
+    assert all(math.isfinite(given.value) and given.source.startswith(name) for given in quantities.values())
+    assert (quantities["strength"].value > 0.0) == material.has_strength
 
 
 # --------------------------------------------------------------------------------------------- where inputs come from
@@ -93,28 +93,28 @@ def test_every_material_of_the_library_is_read(name):
 def test_the_order_of_sources():
     W, Al = library.load("W_alloy"), library.load("Al5083")
     request = models.Request(rod=W, target=Al, settings={"rod.strength": 2e9, "rod.diameter": 0.02})
-    found = models.resolve(toy(), request).inputs
-    assert found["rod.strength"] == Given(2e9, "given")
-    assert found["rod.density"].source.startswith("W_alloy")
-    assert found["rod.diameter"] == Given(0.02, "given")
-    assert found["rod.length"] == Given(0.1, models.EXAMPLE)
-    assert found["rod.mass"].value == pytest.approx(18160.0 * math.pi / 4.0 * 0.02**2 * 0.1, rel=1e-14)
-    assert found["nose.shape"] == Given("hemispherical", "default")
+    inputs = models.resolve(toy(), request).inputs
+    assert inputs["rod.strength"] == Given(2e9, "given")
+    assert inputs["rod.density"].source.startswith("W_alloy")
+    assert inputs["rod.diameter"] == Given(0.02, "given")
+    assert inputs["rod.length"] == Given(0.1, models.EXAMPLE)
+    assert inputs["rod.mass"].value == pytest.approx(18160.0 * math.pi / 4.0 * 0.02**2 * 0.1, rel=1e-14)
+    assert inputs["nose.shape"] == Given("hemispherical", "default")
 
 
-def test_the_example_is_taken_whole_where_nothing_is_chosen():
+def test_without_choices_the_whole_example_is_used():
     values = {"rod.diameter": 0.01, "rod.mass": 0.5, "rod.strength": 1e9, "nose.shape": "ogival"}
-    found = models.example(toy(values=values)).inputs
-    assert found["nose.shape"] == Given("ogival", models.EXAMPLE)
-    assert found["rod.strength"] == Given(1e9, models.EXAMPLE)
-    assert found["rod.density"].source.endswith(models.EXAMPLE)
-    assert found["rod.length"].value == pytest.approx(0.5 / (18160.0 * math.pi / 4.0 * 0.01**2), rel=1e-14)
+    inputs = models.example(toy(values=values)).inputs
+    assert inputs["nose.shape"] == Given("ogival", models.EXAMPLE)
+    assert inputs["rod.strength"] == Given(1e9, models.EXAMPLE)
+    assert inputs["rod.density"].source.endswith(models.EXAMPLE)
+    assert inputs["rod.length"].value == pytest.approx(0.5 / (18160.0 * math.pi / 4.0 * 0.01**2), rel=1e-14)
 
 
 def test_a_material_that_is_chosen_outranks_the_example():
     model = toy(values={"rod.diameter": 0.01, "rod.length": 0.1, "rod.strength": 1e9})
-    found = models.resolve(model, models.Request(rod=library.load("W_alloy"))).inputs
-    assert found["rod.strength"].value == pytest.approx(1.87e9)
+    inputs = models.resolve(model, models.Request(rod=library.load("W_alloy"))).inputs
+    assert inputs["rod.strength"].value == pytest.approx(1.87e9)
 
 
 @pytest.mark.parametrize("missing", models.CYLINDER)
@@ -122,8 +122,8 @@ def test_the_third_of_diameter_length_and_mass(missing):
     """Two of them and the density give the third, whatever the example has."""
     whole = {"rod.diameter": 0.008, "rod.length": 0.05, "rod.mass": 18160.0 * math.pi / 4.0 * 0.008**2 * 0.05}
     request = models.Request(rod=library.load("W_alloy"), settings={k: v for k, v in whole.items() if k != missing})
-    found = models.resolve(toy(), request).values
-    assert {name: found[name] for name in whole} == pytest.approx(whole, rel=1e-14)
+    resolved = models.resolve(toy(), request).values
+    assert {name: resolved[name] for name in whole} == pytest.approx(whole, rel=1e-14)
 
 
 def test_an_input_that_nothing_gives_is_named():
@@ -152,9 +152,9 @@ def test_a_nose_of_a_deck(nose, key, value):
 
     given = f"crh={value}" if nose == "ogive" else f"half_angle={value} rad"
     loaded = deck.load(HEMI, [f"body.rod.nose={nose}", f"body.rod.{given}"])
-    found = model_deck.shot(loaded).values
-    assert found[key].value == pytest.approx(value, rel=1e-12)
-    assert found["nose.shape"].value == ("ogival" if nose == "ogive" else nose)
+    inputs = model_deck.shot(loaded).values
+    assert inputs[key].value == pytest.approx(value, rel=1e-12)
+    assert inputs["nose.shape"].value == ("ogival" if nose == "ogive" else nose)
 
 
 def test_settings_are_checked():
@@ -199,7 +199,7 @@ def test_the_page_of_a_model(name, capsys):
 
 @pytest.mark.parametrize("name", catalogue.MODELS)
 def test_the_example_that_is_shown_runs(name, capsys):
-    """The command of the page gives what the model's example gives."""
+    """The command of the page gives the result of the model's example."""
     model = catalogue.MODELS[name]
     program, *arguments = shlex.split(model_text.example_command(model))
     assert program == "hydro2d"
@@ -210,7 +210,7 @@ def test_the_example_that_is_shown_runs(name, capsys):
     assert {key: shown[key] for key in numbers} == pytest.approx(numbers, rel=1e-3, abs=1e-12)
 
 
-def test_every_input_is_told_with_its_source(capsys):
+def test_every_input_is_printed_with_its_source(capsys):
     assert call(["model", "tate", *W_INTO_5083, "--velocity", "1086m/s", "--set", "rod.diameter=6.7568mm"]) == 0
     shown = capsys.readouterr().out
     for entry in catalogue.MODELS["tate"].inputs:
@@ -237,7 +237,7 @@ def test_table_files_and_json(capsys, tmp_path):
     assert [row["velocity"] for row in data["results"]] == [float(row["velocity [m/s]"]) for row in rows]
 
 
-def test_a_deck_stands_for_materials_geometry_and_velocity(capsys):
+def test_a_deck_gives_materials_geometry_and_velocity(capsys):
     assert call(["model", "tate", "--deck", HEMI, "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
     assert data["results"][0]["velocity"] == 1086.0
@@ -277,18 +277,18 @@ def test_a_deck_stands_for_materials_geometry_and_velocity(capsys):
 )
 def test_wrong_input_is_one_message_and_status_2(arguments, message, capsys):
     assert call(["model", *arguments]) == 2
-    found = capsys.readouterr()
-    assert found.out == ""
-    assert message in found.err
-    assert found.err.startswith("hydro2d: ")
-    assert found.err.count("\n") == 1
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert message in printed.err
+    assert printed.err.startswith("hydro2d: ")
+    assert printed.err.count("\n") == 1
 
 
 # ---------------------------------------------------------------------------------------------------- the transition
 
 
 def test_the_experiments_are_those_of_the_study():
-    """Twelve shots, six on each alloy; rigid by the rule are those that the study's drop in depth leaves above it."""
+    """Twelve shots, six on each alloy; rigid by the rule are those above the study's drop in depth."""
     shots = model_transition.experiments()
     assert len(shots) == 12
     assert sorted(shot.number for shot in shots) == [str(number) for number in range(4338, 4350)]
@@ -309,9 +309,9 @@ def test_brackets_follow_from_the_shots(target, nose, low, high):
 
 
 def test_predictions_of_the_study():
-    found = {entry.name: (entry.low, entry.high) for entry in model_transition.brackets("W_alloy", "Al7039", "ogival")}
-    assert found["the CTH study"] == (1800.0, 1900.0)
-    assert found["tests at thinner plates"] == (1700.0, None)
+    predicted = {entry.name: (entry.low, entry.high) for entry in model_transition.brackets("W_alloy", "Al7039", "ogival")}
+    assert predicted["the CTH study"] == (1800.0, 1900.0)
+    assert predicted["tests at thinner plates"] == (1700.0, None)
     assert model_transition.brackets("W_alloy", "steel_4340", "ogival") == []
 
 
@@ -331,7 +331,7 @@ def test_a_rod_weaker_than_its_target_has_no_transition(capsys):
 
 
 def run_directory(folder, velocity, regime, overrides=()):
-    """A directory as a run leaves it, as far as the comparison reads it."""
+    """A directory as a run leaves it, with the files that the comparison reads."""
     from hydro2d.deck import deck
 
     folder.mkdir()
@@ -345,8 +345,8 @@ def test_runs_make_a_bracket(tmp_path):
                                                                        (1300, "eroding"))]  # fmt: skip
     runs.append(run_directory(tmp_path / "out", 800, "left the mesh"))
     runs.append(run_directory(tmp_path / "ogive", 1800, "rigid", ("body.rod.nose=ogive", "body.rod.crh=2.5")))
-    found, lines = model_transition.of_runs(runs, "hemispherical")
-    assert (found.low, found.high) == (1000.0, 1250.0)
+    bracket, lines = model_transition.of_runs(runs, "hemispherical")
+    assert (bracket.low, bracket.high) == (1000.0, 1250.0)
     assert [line[-1] != "" for line in lines] == [False, False, False, False, True, True]
     assert [line[-1] for line in lines[4:]] == ["not followed to its end, not counted", "other nose, not counted"]
     with pytest.raises(ResultsError, match="has not ended"):

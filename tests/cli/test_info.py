@@ -30,7 +30,7 @@ def test_a_word_says_what_it_is_called_here(word, capsys):
 
 
 @pytest.mark.parametrize("word", words.WORDS)
-def test_what_a_word_leads_to_exists(word):
+def test_targets_of_words_exist(word):
     entry = words.WORDS[word]
     for name in entry.names:
         assert "(a word)" not in (text := info.page(name)) or "\n\n" in text
@@ -56,16 +56,16 @@ def test_a_word_that_is_also_a_key_says_both(capsys):
     assert info.page("cavity").startswith("cavity")
 
 
-@pytest.mark.parametrize(("name", "told"), [
+@pytest.mark.parametrize(("name", "nearest"), [
     ("presure", 'did you mean "pressure", '), ("reference_densty", 'did you mean "reference_density"'),
     ("spal", 'did you mean "spall"'), ("W_aloy", 'did you mean "W_alloy"? '),
 ])  # fmt: skip
-def test_an_unknown_name_is_told_the_few_near_it(name, told):
+def test_an_unknown_name_gets_the_nearest_ones(name, nearest):
     with pytest.raises(DeckError) as caught:
         info.page(name)
     said = str(caught.value)
     assert said.startswith(f'unknown name "{name}"; ')
-    assert told in said
+    assert nearest in said
     assert said.endswith("`hydro2d info` lists all names")
     assert said.count(",") <= info.MOST_NEAR
 

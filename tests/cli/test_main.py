@@ -1,4 +1,4 @@
-"""The command line: one message and status 2 for what the user has to mend; no traceback."""
+"""The command line: one message and status 2 for a user's mistake; no traceback."""
 
 import importlib
 import json
@@ -82,14 +82,14 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
 
 
 def test_kernels_are_compiled_before_they_are_needed(simulation, deck, monkeypatch, capsys):
-    """Nothing is left of the runs that compile them; without a deck, shipped ones are run."""
+    """The runs that compile leave nothing behind; without a deck, shipped ones are run."""
     from hydro2d.running import compile_all
 
     monkeypatch.chdir(Path(deck).parent)
     before = set(Path().iterdir())
     assert call(["compile", deck]) == 0
-    told, kept = capsys.readouterr().out.splitlines()
-    assert told == "shot.toml: was compiled already"  # a fake simulation has no kernels
+    first, kept = capsys.readouterr().out.splitlines()
+    assert first == "shot.toml: was compiled already"  # a fake simulation has no kernels
     assert kept.startswith("compiled for ")
     assert set(Path().iterdir()) == before
     assert call(["compile", "none.toml", deck]) == 2
@@ -135,7 +135,7 @@ def test_a_quiet_run_says_in_one_line_that_it_ended_unphysical(simulation, deck,
     printed = capsys.readouterr()
     reason = json.loads((out / "summary.json").read_text())["stop_reason"]
     assert (printed.out, printed.err) == ("", f"hydro2d: {out}: unphysical: {reason}\n")
-    assert "unphysical" not in reason  # the word stands before it
+    assert "unphysical" not in reason  # the word comes before it
     simulation.fail_at = None
     assert call(["run", str(deck), "--out", str(out), "--quiet", "--overwrite"]) == 0
     assert capsys.readouterr() == ("", "")
@@ -230,7 +230,7 @@ def test_every_command_has_an_example():
 
 
 @pytest.mark.parametrize("command", ["run", "plot", "movie", "view", "export", "report", "sweep", "transition"])
-def test_what_a_command_makes_has_one_name(command, capsys):
+def test_the_output_option_has_one_name(command, capsys):
     assert call([command, "--help"]) == 0
     said = capsys.readouterr().out
     assert "--out" in said
@@ -240,7 +240,7 @@ def test_what_a_command_makes_has_one_name(command, capsys):
 
 
 def test_help_is_light():
-    """Nothing heavy is imported to say what the commands are."""
+    """Printing the commands imports nothing heavy."""
     code = """
         import sys
         from hydro2d.cli.main import call
@@ -282,7 +282,7 @@ def test_signals_write_a_restart_file(deck, tmp_path, number, status):
 
 
 def test_kill_leaves_whole_files(deck, tmp_path):
-    """kill -9 in the middle of constant writing: what is there can be read."""
+    """kill -9 in the middle of constant writing: all files that exist can be read."""
     code = """
         import sys, types
         from tests import fake
@@ -323,15 +323,15 @@ def test_errors_of_users_are_where_the_command_looks(module, name):
 
 def test_the_options_of_workers_are_the_same_in_all_commands_that_run_many_cases():
     """They are options of the command itself, in one order and with the same words."""
-    found = [
+    shown = [
         [(entry.names[0], entry.parameter.help, entry.field_info.default) for entry in arguments
          if entry.names[0][2:] in ("workers", "threads", "scheduler", "slurm", "resume", "overwrite")]
         for arguments in (app[name].assemble_argument_collection(parse_docstring=True)
                           for name in ("sweep", "transition", "converge"))
     ]  # fmt: skip
-    assert found[0] == found[1] == found[2]
-    assert [name for name, _, _ in found[0]] == ["--workers", "--threads", "--scheduler", "--slurm", "--resume", "--overwrite"]
-    assert all(words for _, words, _ in found[0])
+    assert shown[0] == shown[1] == shown[2]
+    assert [name for name, _, _ in shown[0]] == ["--workers", "--threads", "--scheduler", "--slurm", "--resume", "--overwrite"]
+    assert all(words for _, words, _ in shown[0])
 
 
 @pytest.mark.parametrize("command", ["sweep", "transition", "converge"])

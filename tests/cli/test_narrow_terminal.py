@@ -1,4 +1,4 @@
-"""What is printed of decks and studies fits a terminal of 80 columns, and breaks nowhere where there is no terminal."""
+"""Output on decks and studies fits a terminal of 80 columns, and is not broken where there is no terminal."""
 
 import pytest
 
@@ -26,7 +26,7 @@ def printed(capsys, *arguments):
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_a_deck_is_told_in_so_many_columns(name, capsys, monkeypatch):
+def test_a_deck_is_printed_in_so_many_columns(name, capsys, monkeypatch):
     """Lines break at words, under their text, and nothing is lost."""
     monkeypatch.delenv("COLUMNS", raising=False)
     whole = printed(capsys, "check", shipped(name), "--threads", "2")
@@ -42,7 +42,7 @@ def test_a_deck_is_told_in_so_many_columns(name, capsys, monkeypatch):
 @pytest.mark.parametrize("command", [["new", "--list"], ["info"], ["info", "W_alloy"], ["info", "johnson-cook"], ["model"],
                                      ["info", "numerics.advection"]])
 def test_explanations_go_on_below_their_column(command, capsys, monkeypatch):
-    """Nothing is lost; a text that begins far to the right goes on below the beginning of its line."""
+    """Nothing is lost; a text that begins far to the right continues below the beginning of its line."""
     monkeypatch.delenv("COLUMNS", raising=False)
     whole = printed(capsys, *command)
     assert max(map(len, whole)) > COLUMNS
@@ -58,29 +58,29 @@ def test_explanations_go_on_below_their_column(command, capsys, monkeypatch):
 @pytest.mark.parametrize(("command", "name"), STUDIES)
 def test_every_case_of_a_study_has_one_line(command, name, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(COLUMNS))
-    told = printed(capsys, command, shipped(name), "--check", "--workers", "2")
-    assert max(map(len, told)) <= COLUMNS
-    begin, end = told.index("") + 1, len(told) - told[::-1].index("") - 1
-    heads, *rows = told[begin:end]
+    output = printed(capsys, command, shipped(name), "--check", "--workers", "2")
+    assert max(map(len, output)) <= COLUMNS
+    begin, end = output.index("") + 1, len(output) - output[::-1].index("") - 1
+    heads, *rows = output[begin:end]
     place = heads.index("cells")
     assert rows
     assert all(row[:place].endswith("  ") and row[place].isdigit() and row.endswith(" s") for row in rows)
 
 
-def test_the_deck_of_all_cases_is_told_once(capsys, monkeypatch):
+def test_the_deck_of_all_cases_is_printed_once(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
-    told = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), "--check")
-    assert [line for line in told if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]
-    told = printed(capsys, "sweep", shipped("validation/eroding_rods"), "--check")
-    assert told[2].split() == ["case", "deck", "cells", "cycles", "time"]
+    output = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), "--check")
+    assert [line for line in output if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]
+    output = printed(capsys, "sweep", shipped("validation/eroding_rods"), "--check")
+    assert output[2].split() == ["case", "deck", "cells", "cycles", "time"]
 
 
 def test_the_status_of_a_study_fits(capsys, monkeypatch, tmp_path):
     study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(1086)}, title="A title that goes on " * 6)
     monkeypatch.setenv("COLUMNS", str(COLUMNS))
-    told = printed(capsys, "sweep", str(study), "--status")
-    assert max(map(len, told)) <= COLUMNS
-    assert "1 of 1 done" in told
+    output = printed(capsys, "sweep", str(study), "--status")
+    assert max(map(len, output)) <= COLUMNS
+    assert "1 of 1 done" in output
 
 
 def test_a_name_that_is_too_long_has_a_line_of_its_own(monkeypatch):
@@ -110,6 +110,6 @@ def test_a_table_that_is_too_wide_without_its_names_has_a_line_for_each_cell(mon
 
 
 def test_the_terminal_says_how_wide_it_is():
-    told = recorded(f"from hydro2d.cli.main import main; main(['check', {shipped(DECKS[0])!r}])", COLUMNS)
-    assert any(line.startswith("cost ") for line in told)
-    assert max(map(len, told)) <= COLUMNS
+    output = recorded(f"from hydro2d.cli.main import main; main(['check', {shipped(DECKS[0])!r}])", COLUMNS)
+    assert any(line.startswith("cost ") for line in output)
+    assert max(map(len, output)) <= COLUMNS

@@ -1,4 +1,4 @@
-"""The templates of `hydro2d new`, the command, and what `hydro2d check` says and draws of a deck."""
+"""The templates of `hydro2d new`, the command, and the output and pictures of `hydro2d check`."""
 
 import re
 
@@ -17,7 +17,7 @@ def test_there_are_templates():
 
 @pytest.mark.parametrize("kind", templates.kinds())
 def test_a_template_is_written_checked_and_runs(kind, tmp_path, monkeypatch, capsys):
-    """Without a warning; the mesh is described in two words; the commands that are printed are those for the file."""
+    """Without a warning; two keys describe the mesh; the commands that are printed are those for the file."""
     monkeypatch.chdir(tmp_path)
     assert call(["new", kind]) == 0
     commands = re.findall(r"^ +hydro2d (\w+) (\S+)", capsys.readouterr().out, re.M)
@@ -54,7 +54,7 @@ def test_the_list_has_a_line_for_each_kind(capsys):
         (["rod", "--out", "there.toml"], "there.toml exists; give another name"),
     ],
 )
-def test_what_is_wrong_is_told(arguments, said, tmp_path, monkeypatch, capsys):
+def test_mistakes_are_reported(arguments, said, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "there.toml").write_text("mine")
     assert call(["new", *arguments]) == 2
@@ -84,11 +84,11 @@ def test_the_picture_has_mesh_tracers_and_gauges():
         'gauge=[{ name = "probe", r = "6 mm", z = "1 mm" }, '
         '{ name = "line", r = "7 mm", z = "1 mm", z_end = "9 mm", points = 3 }]'
     ])
-    found = check(deck)
-    figure = start_figure.draw(found.dump, found.deck)
+    checked = check(deck)
+    figure = start_figure.draw(checked.dump, checked.deck)
     axes = figure.axes[0]
     lines = next(each for each in axes.collections if each.get_alpha() == 0.6).get_segments()
-    assert len(lines) == found.grid.nr + 1 + found.grid.nz + 1
+    assert len(lines) == checked.grid.nr + 1 + checked.grid.nz + 1
     assert max(line[:, 1].max() for line in lines) == 0.0
     assert [text.get_text() for text in axes.texts] == ["tail", "probe", "line_1", "line_2", "line_3"]
     marks = [(line.get_marker(), *line.get_xydata()[0]) for line in axes.lines if line.get_marker() in ("o", "x")]

@@ -1,4 +1,4 @@
-"""However a command ends, it ends in one line, with a documented status, and with its state saved where there is any."""
+"""However a command ends, it ends in one line, with a documented status, and with its state saved if there is one."""
 
 import errno
 import json
@@ -45,7 +45,7 @@ def child(deck, out, **options):
 
 
 def heard():
-    """In a child: SIGHUP ends it again, also where the tests were started with nohup."""
+    """In a child: SIGHUP ends the process again, even if the tests were started with nohup."""
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
@@ -85,12 +85,12 @@ def test_no_interrupt_is_swallowed_while_a_run_starts(deck, tmp_path, seconds):
     process = child(deck, tmp_path / "out", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(seconds)
     process.send_signal(signal.SIGINT)
-    assert process.wait(30) in (130, -signal.SIGINT)  # the latter before anything of hydro2d runs
+    assert process.wait(30) in (130, -signal.SIGINT)  # the latter before hydro2d runs
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_waits_for_the_end_of_an_import(tmp_path, number):
-    """A module that is half imported is a crash with VTK, and another exception with pydantic."""
+    """A half-imported module makes VTK crash and pydantic raise another exception."""
     slow = "import time\nprint('begun', flush=True)\ntime.sleep(1)\nprint('whole', flush=True)\n"
     (tmp_path / "slow_module.py").write_text(slow)
     script = """
@@ -136,7 +136,7 @@ except KeyboardInterrupt:
 
 
 def test_the_status_of_a_command_is_that_of_its_signal(deck):
-    """The library behind the command line has a status of its own for KeyboardInterrupt."""
+    """The library behind the command line has its own status for KeyboardInterrupt."""
     script = "from hydro2d.cli import main; import time; main._load = lambda *_: time.sleep(60); print(flush=True); main.main()"
     command = [sys.executable, "-c", script, "check", deck]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heard)
@@ -223,7 +223,7 @@ def test_paths_that_cannot_be_are_one_line(simulation, deck, capsys, out, status
 
 
 def test_a_terminal_without_unicode(deck):
-    """The title of a deck may hold anything; where the terminal cannot show it, question marks stand."""
+    """The title of a deck may contain anything; question marks replace what the terminal cannot show."""
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0", "LC_ALL": "C"}
     command = [sys.executable, "-m", "hydro2d", "check", deck, "--set", 'title="Größe Ω"']
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True)

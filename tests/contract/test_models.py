@@ -1,4 +1,4 @@
-"""What every registered equation of state, strength model and damage model must keep."""
+"""Rules that every registered equation of state, strength model and damage model must keep."""
 
 import types
 
@@ -50,7 +50,7 @@ def tabulated():
 
 
 TABLE = tabulated()
-#: what a row is made from beside the parameters: the solid that a model stands over, a table
+#: needed for a row in addition to the parameters: the solid that a model builds on, a table
 BASES = {"p-alpha": (eos.MODELS["mie-grueneisen"],), "tabular": (TABLE,)}
 #: the parameters of a porous material whose solid is in the table
 PORES = {name: value for name, value in POROUS.items() if name not in SOLID or name == "reference_density"}
@@ -101,7 +101,7 @@ STRENGTH_CASES = {
     },
 }  # fmt: skip
 
-#: the same constant yield stress in every model that has one, some of the special terms switched off by their values
+#: one constant yield stress for every model that has one, some of the special terms switched off by their values
 CONSTANT_YIELD = {
     "elastic-plastic": {"shear_modulus": G, "yield_stress": Y, "max_yield_stress": Y},
     "johnson-cook": {"shear_modulus": G, "yield_stress": Y, "hardening_exponent": 0.41, "thermal_exponent": 1.3},
@@ -176,7 +176,7 @@ def test_constant_yield_has_the_same_numbers_in_every_model():
 
 
 def spoilt(part, name, **functions):
-    """A case of a model some of whose functions or constants are others."""
+    """A case of a model with some functions or constants replaced."""
     case = next(case for case in cases_of(part) if case.module.NAME == name)
     module = types.SimpleNamespace(**{**vars(case.module), **functions})
     return contract.Case(case.kind, module, case.values, case.densities, case.energies, case.constant, case.base)
@@ -187,8 +187,8 @@ def gas(rho=0.0, e=0.0, p=0.0, slope=1.0, T=1.0):
     own = eos.MODELS["ideal-gas"].evaluate
 
     def evaluate(density, energy, par):
-        found = own(density + rho, energy + e, par)
-        return found[0] + p, found[1] * slope, found[2], found[3] * T ** (density / 1.2)
+        state = own(density + rho, energy + e, par)
+        return state[0] + p, state[1] * slope, state[2], state[3] * T ** (density / 1.2)
 
     return spoilt("eos", "ideal-gas", evaluate=evaluate)
 
@@ -206,7 +206,7 @@ def layered(**functions):
 
 
 def crushed_to(value):
-    """An update that gives the distention this value as soon as the density changes."""
+    """An update that sets the distention to this value as soon as the density changes."""
     return lambda rho0, rho, *rest: rest[-1].fill(value) if rho != rho0 else None
 
 
@@ -254,12 +254,12 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.cracks, spoilt("damage", "cochran-banner", full_opening=lambda par: 0.0), "full_opening is 0 m"),
     ],
 )  # fmt: skip
-def test_a_model_that_does_not_keep_it_is_found(check, case, words):
+def test_a_model_that_breaks_the_contract_is_found(check, case, words):
     with pytest.raises(contract.Broken, match=words):
         check(case)
 
 
-# what a model says of itself
+# what a model says about itself
 
 
 @pytest.mark.parametrize(

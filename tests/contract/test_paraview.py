@@ -1,4 +1,4 @@
-"""What docs/how-to/paraview.md tells to do, done with VTK's own classes to the files of a short shot with contact."""
+"""The steps of docs/how-to/paraview.md, carried out with VTK's own classes on the files of a short shot with contact."""
 
 import re
 from xml.etree import ElementTree
@@ -89,9 +89,9 @@ def parts(read, cap=True):
     extract.SetGenerateTriangles(False)
     extract.SetCapping(cap)
     extract.Update()
-    found = extract.GetOutput()
-    names = [found.GetMetaData(k).Get(vtkCompositeDataSet.NAME()) for k in range(found.GetNumberOfBlocks())]
-    return extract, {name: found.GetBlock(k) for k, name in enumerate(names)}
+    surfaces = extract.GetOutput()
+    names = [surfaces.GetMetaData(k).Get(vtkCompositeDataSet.NAME()) for k in range(surfaces.GetNumberOfBlocks())]
+    return extract, {name: surfaces.GetBlock(k) for k, name in enumerate(names)}
 
 
 def volume_of_rod(dump):
@@ -102,7 +102,7 @@ def volume_of_rod(dump):
 
 @pytest.mark.parametrize("name", SERIES)
 def test_series(shot, name):
-    """Times rise, every file is there and says the same time, and all series have the same."""
+    """Times rise, every file exists and has its time, and all series have the same times."""
     entries = collection(shot, name)
     times = [time for time, _ in entries]
     assert times == [time for time, _ in shot.dumps]
@@ -141,7 +141,7 @@ def test_the_grid_of_the_series_moves(shot):
 
 
 def test_the_page_names_what_the_files_have(shot):
-    """Every array and every series that the page names, in backquotes, is there, and the columns of the history."""
+    """Every array and every series that the page names, in backquotes, exists, and so do the columns of the history."""
     read, tracers = reader(shot, 0), reader(shot, 0, "tracers.pvd").GetOutput().GetPointData()
     part = parts(read)[1]["Volume Fraction for rod"].GetPointData()
     have = {*arrays(read.GetOutput().GetCellData()), *arrays(tracers), *arrays(part)}
@@ -157,20 +157,20 @@ def test_the_page_names_what_the_files_have(shot):
 @pytest.mark.parametrize("number", range(5))
 def test_part_surfaces_are_the_bodies(shot, number):
     """Radius, ends and volume of the rod, the faces of the plate; blocks in alphabetical order, as the page says."""
-    _, found = parts(reader(shot, number))
-    assert list(found) == ["Volume Fraction for plate", "Volume Fraction for rod"]
+    _, surfaces = parts(reader(shot, number))
+    assert list(surfaces) == ["Volume Fraction for plate", "Volume Fraction for rod"]
     time, dump = shot.dumps[number][0], shot.dump(shot.dumps[number][0])
     depth, length, radius = (
         np.interp(time, shot.history["time"], shot.history[name])
         for name in ("penetration_depth_m", "rod_length_m", "rod_max_radius_m")
     )
-    low_r, high_r, low_z, high_z, *_ = found["Volume Fraction for rod"].GetBounds()
+    low_r, high_r, low_z, high_z, *_ = surfaces["Volume Fraction for rod"].GetBounds()
     assert low_r == pytest.approx(0.0, abs=1e-9)
     assert high_r == pytest.approx(radius, abs=CELL)
     assert (low_z, high_z) == pytest.approx((depth - length, depth), abs=CELL)
-    middles, areas = faces(found["Volume Fraction for rod"])
+    middles, areas = faces(surfaces["Volume Fraction for rod"])
     assert 2 * np.pi * np.sum(middles[:, 0] * areas) == pytest.approx(volume_of_rod(dump), rel=0.01)
-    low_r, high_r, low_z, high_z, *_ = found["Volume Fraction for plate"].GetBounds()
+    low_r, high_r, low_z, high_z, *_ = surfaces["Volume Fraction for plate"].GetBounds()
     assert (low_r, high_r, high_z) == pytest.approx((0.0, dump.r_edges[-1], THICKNESS), abs=CELL)
     assert low_z < CELL
 
@@ -206,9 +206,9 @@ def turned(extract, angle):
 
 @pytest.mark.parametrize("number", [0, 4])
 def test_the_turned_part_is_the_solid(shot, number):
-    """Its volume is the rod's mass by its density if the outlines alone are turned; with caps each surface is there twice."""
-    extract, found = parts(reader(shot, number), cap=False)
-    assert found["Volume Fraction for rod"].GetNumberOfPolys() == 0
+    """Its volume is the rod's mass over its density if only the outlines are turned; with caps every surface appears twice."""
+    extract, surfaces = parts(reader(shot, number), cap=False)
+    assert surfaces["Volume Fraction for rod"].GetNumberOfPolys() == 0
     triangles = vtkTriangleFilter()
     triangles.SetInputData(turned(extract, 360.0))
     triangles.Update()
@@ -223,8 +223,8 @@ def test_the_turned_part_is_the_solid(shot, number):
 
 def test_a_cut_away_ends_where_the_turned_section_is(shot):
     """The page's Rotate 0 270 0 brings the section to the last line of an extrusion by 270 degrees."""
-    extract, found = parts(reader(shot, 2), cap=False)
-    lines = vtk_to_numpy(found["Volume Fraction for rod"].GetPoints().GetData())
+    extract, surfaces = parts(reader(shot, 2), cap=False)
+    lines = vtk_to_numpy(surfaces["Volume Fraction for rod"].GetPoints().GetData())
     ends = vtk_to_numpy(turned(extract, 270.0).GetPoints().GetData())[-len(lines) :]
     turn = vtkTransform()
     turn.RotateY(270.0)
@@ -258,11 +258,11 @@ def test_the_newer_filter_mirrors_alike(shot):
     reflect.SetInputConnection(read.GetOutputPort())
     reflect.SetPlaneModeToXMin()
     reflect.Update()
-    found, each = [], reflect.GetOutputDataObject(0).NewIterator()
+    grids, each = [], reflect.GetOutputDataObject(0).NewIterator()
     while not each.IsDoneWithTraversal():
-        found.append(arrays(each.GetCurrentDataObject().GetCellData())["Velocity [m/s]"])
+        grids.append(arrays(each.GetCurrentDataObject().GetCellData())["Velocity [m/s]"])
         each.GoToNextItem()
-    assert sorted(values[:, 0].max() for values in found) == sorted([velocity[:, 0].max(), -velocity[:, 0].min()])
+    assert sorted(values[:, 0].max() for values in grids) == sorted([velocity[:, 0].max(), -velocity[:, 0].min()])
 
 
 def test_outlines_are_lines_round_the_bodies(shot):
@@ -305,12 +305,12 @@ def test_tracers_are_points_where_the_deck_puts_them_and_go_with_the_material(sh
     assert not points[:, 2].any()
     time = shot.dumps[1][0]
     moved = vtk_to_numpy(reader(shot, 1, "tracers.pvd").GetOutput().GetPoints().GetData())
-    assert moved[0, :2] == pytest.approx([0.0, TRACERS[0][1] + SPEED * time], abs=1e-5)  # no wave has come there yet
+    assert moved[0, :2] == pytest.approx([0.0, TRACERS[0][1] + SPEED * time], abs=1e-5)  # no wave has arrived yet
     assert moved[2, :2] == pytest.approx(TRACERS[2], abs=1e-6)
 
 
 def test_paths_of_tracers(shot):
-    """One line for each with a point for each dump in which it moved, once the mask lets all pass."""
+    """One line for each tracer, with a point for each dump in which it moved, once the mask lets all pass."""
     tracers = Tracers(shot)
     paths = vtkTemporalPathLineFilter()
     paths.SetInputConnection(tracers.GetOutputPort())
@@ -329,7 +329,7 @@ def test_paths_of_tracers(shot):
 @pytest.mark.parametrize(("name", "lowest", "highest"), [("Velocity of Hard Bodies [m/s]", 0.5, 1.0),
                                                          ("Velocity of Soft Bodies [m/s]", 0.0, 0.5)])  # fmt: skip
 def test_glyphs_of_both_velocities(shot, name, lowest, highest):
-    """One arrow in every cell of its side of the interface; on the other side the velocity is zero."""
+    """One arrow in every cell on its side of the interface; on the other side the velocity is zero."""
     read = reader(shot, 4)
     side = vtkThreshold()
     side.SetInputConnection(read.GetOutputPort())

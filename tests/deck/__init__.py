@@ -1,1 +1,1 @@
-"""hydro2d/deck: what decks may say, and what is said of them."""
+"""hydro2d/deck: the contents of decks, and messages about them."""

@@ -1,4 +1,4 @@
-"""Numbers without a unit: refused with what was probably meant, unless the deck says that they are in SI units."""
+"""Numbers without a unit: refused with a suggestion, unless the deck says that they are in SI units."""
 
 import pytest
 
@@ -70,10 +70,10 @@ def test_a_number_on_the_command_line_is_refused_unless_the_deck_or_the_line_say
 
 
 def test_numbers_that_need_no_unit():
-    found = deck.loads(TEXT, ["mesh.z_start=0", "body.flyer.velocity=[0, 0.0]", "numerics.courant=0.3", "mesh.r.0.cells=5",
-                              "materials.alloy.eos.grueneisen=1.9", "stop.cycles=7"])  # fmt: skip
-    assert (found.numerics.courant, found.stop.cycles, found.mesh.r[0].cells) == (0.3, 7, 5)
-    assert [type(value) for value in (found.numerics.courant, found.stop.cycles, found.mesh.r[0].cells)] == [float, int, int]
+    loaded = deck.loads(TEXT, ["mesh.z_start=0", "body.flyer.velocity=[0, 0.0]", "numerics.courant=0.3", "mesh.r.0.cells=5",
+                               "materials.alloy.eos.grueneisen=1.9", "stop.cycles=7"])  # fmt: skip
+    assert (loaded.numerics.courant, loaded.stop.cycles, loaded.mesh.r[0].cells) == (0.3, 7, 5)
+    assert [type(value) for value in (loaded.numerics.courant, loaded.stop.cycles, loaded.mesh.r[0].cells)] == [float, int, int]
 
 
 def test_each_file_says_so_for_itself(tmp_path):
@@ -94,22 +94,22 @@ def test_another_system_of_units_is_none():
 
 
 def test_a_resolved_deck_says_so_and_is_read_again(tmp_path):
-    found = deck.loads(TEXT)
-    assert found.numbers == "SI"
-    assert 'numbers = "SI"\n' in found.to_toml()
-    assert deck.loads(found.to_toml()).to_toml() == found.to_toml()
-    old = found.to_toml().replace('numbers = "SI"\n', "")  # as earlier versions wrote it
+    loaded = deck.loads(TEXT)
+    assert loaded.numbers == "SI"
+    assert 'numbers = "SI"\n' in loaded.to_toml()
+    assert deck.loads(loaded.to_toml()).to_toml() == loaded.to_toml()
+    old = loaded.to_toml().replace('numbers = "SI"\n', "")  # as earlier versions wrote it
     assert "has no unit" in message(old)
-    assert deck.loads(f"# sha256 {'0' * 64}\n{old}").to_toml() == found.to_toml()
+    assert deck.loads(f"# sha256 {'0' * 64}\n{old}").to_toml() == loaded.to_toml()
 
 
 def test_segments_of_a_mesh_in_two_words_are_written_with_their_unit():
     """To the last bit, so that an override gives the same mesh."""
     segments = 'r = [{ to = "2 mm", cells = 4 }]\nz = [{ to = "4 mm", cells = 8 }]'
     words = TEXT.replace(segments, 'cells_across = 7\nreach = "3 mm"')
-    found = deck.loads(words)
-    again = deck.loads(words, deck.written_segments(found))
-    assert again.mesh.model_dump() == found.mesh.model_dump()
+    loaded = deck.loads(words)
+    again = deck.loads(words, deck.written_segments(loaded))
+    assert again.mesh.model_dump() == loaded.mesh.model_dump()
     assert units.to_si(units.exact(0.1 + 0.2, "m"), "m") == 0.1 + 0.2
 
 

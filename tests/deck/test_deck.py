@@ -1,4 +1,4 @@
-"""Decks: what they accept, what they refuse and how they say it."""
+"""Decks: what they accept and refuse, and the messages."""
 
 import copy
 import json
@@ -141,17 +141,17 @@ def test_a_deck_does_not_change():
     ],
 )
 def test_mistakes_are_named_with_their_line(old, new, line, fragments):
-    found = message(changed(old, new))
-    assert any(entry.startswith(f"deck.toml:{line}: ") for entry in found.splitlines()), found
+    error = message(changed(old, new))
+    assert any(entry.startswith(f"deck.toml:{line}: ") for entry in error.splitlines()), error
     for fragment in fragments:
-        assert fragment in found
+        assert fragment in error
 
 
 def test_text_that_is_no_toml_names_the_line():
     assert message(changed("tip = 0.0", "tip = ")).startswith("deck.toml:16: not valid TOML: invalid value")
 
 
-def test_all_mistakes_are_told_at_once():
+def test_all_mistakes_are_reported_at_once():
     text = changed('thickness = "30 mm"', 'thickness = "-30 mm"').replace('"10 us"', '"10 m"')
     assert [line.split(": ")[1] for line in message(text).splitlines()] == ["body[1].thickness", "stop.time"]
 
@@ -159,8 +159,8 @@ def test_all_mistakes_are_told_at_once():
 def test_a_hard_body_needs_strength():
     fluid = '[materials.fluid]\nbased_on = "W_alloy"\nstrength.model = "hydrodynamic"\n'
     text = TEXT.replace("W_alloy", "fluid") + fluid
-    found = message(text)
-    assert found == (
+    error = message(text)
+    assert error == (
         'deck.toml:26: sliding.hard[0]: "rod" is made of fluid, which has no strength; a hard body needs strength'
     )
 
@@ -197,9 +197,9 @@ def test_a_contact_asks_for_no_strength_and_no_factor():
 )
 def test_mistakes_in_a_contact_are_named_with_their_line(old, new, line, complaint):
     assert CONTACT.count(old) == 1
-    found = message(CONTACT.replace(old, new))
-    assert found.startswith(f"deck.toml:{line}: sliding.")
-    assert complaint in found
+    error = message(CONTACT.replace(old, new))
+    assert error.startswith(f"deck.toml:{line}: sliding.")
+    assert complaint in error
 
 
 def test_keys_of_the_slip_layer_at_their_defaults_are_no_mistake_in_a_contact():
@@ -272,9 +272,9 @@ def test_mistakes_are_traced_through_includes(tmp_path):
     write(tmp_path, shot='include = "base.toml"\n\n[[body]]\nname = "plate"\nz_frnt = 0.0\n')
     with pytest.raises(deck.DeckError) as caught:
         deck.load(tmp_path / "shot.toml")
-    found = sorted(caught.value.args[0].splitlines())
-    assert found[0].startswith(f"{tmp_path}/base.toml:23: body[1].thickness: must be positive")
-    assert found[1].startswith(f"{tmp_path}/shot.toml:5: body[1].z_frnt: unknown key")
+    errors = sorted(caught.value.args[0].splitlines())
+    assert errors[0].startswith(f"{tmp_path}/base.toml:23: body[1].thickness: must be positive")
+    assert errors[1].startswith(f"{tmp_path}/shot.toml:5: body[1].z_frnt: unknown key")
 
 
 def test_include_cycles_are_found(tmp_path):
@@ -411,20 +411,20 @@ def test_a_sphere_that_flies_is_a_penetrator(speed, surface):
     assert deck.surface(d) == surface
 
 
-def test_all_that_is_wrong_is_told_at_once():
+def test_mistakes_of_every_kind_are_reported_at_once():
     """Values, names, materials and fields, each with its line."""
     wrong = changed('"W_alloy"', '"W_aloy"').replace('"4 mm"', '"4 kg"') + '[output]\nfields = ["strain_rate"]\n'
-    told = message(wrong).splitlines()
-    assert len(told) == 3
-    assert [line.split(": ")[0] for line in told] == ["deck.toml:14", "deck.toml:31", "deck.toml:11"]
-    assert "radius" in told[0]
-    assert 'unknown field "strain_rate"' in told[1]
-    assert 'did you mean "W_alloy"' in told[2]
+    error = message(wrong).splitlines()
+    assert len(error) == 3
+    assert [line.split(": ")[0] for line in error] == ["deck.toml:14", "deck.toml:31", "deck.toml:11"]
+    assert "radius" in error[0]
+    assert 'unknown field "strain_rate"' in error[1]
+    assert 'did you mean "W_alloy"' in error[2]
 
 
 @pytest.mark.parametrize("density", ["1.2 kg/m^3", "1000 kg/m^3"])
-def test_gas_beside_solids_is_warned_of(density):
-    """With contact and without; a gas without solids is no matter."""
+def test_gas_next_to_solids_gives_a_warning(density):
+    """With contact and without; a gas without solids gives no warning."""
     options = [f'materials.air.eos.reference_density="{density}"']
     warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
     assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml", options))
@@ -435,7 +435,7 @@ def test_gas_beside_solids_is_warned_of(density):
 
 
 def test_an_override_removes_a_key():
-    """It then has its default; one that is not there stays away, and one that no deck has is told."""
+    """The key then has its default; removing an absent key changes nothing, and an unknown key is reported."""
     file = "problems/cth_nose_shape/ogive_7039_1291.toml"
     flat = [["body.rod.nose=flat", "body.rod.crh="], {"body.rod.nose": "flat", "body.rod.crh": None}]
     for overrides in (*flat, [*flat[0], "body.rod.half_angle="]):
@@ -477,7 +477,7 @@ def test_failure_that_is_left_out_is_warned_of(text, warned):
     assert deck.warnings(deck.loads(text)) == ([warned] if warned else [])
 
 
-def test_what_has_no_strength_is_told_only_that_it_bears_tension():
+def test_fluids_are_only_reported_to_bear_tension():
     fluid = """\
 [failure]
 tensile = "material"
@@ -489,9 +489,9 @@ strength = { model = "hydrodynamic" }
 """
     text = CONTACT.replace("W_alloy", "alloy").replace("Al5083", "alloy") + fluid
     for each in (*(text.replace("DAMAGE", damage) for damage in ("none", "material")), text.replace('damage = "DAMAGE"\n', "")):
-        found = deck.warnings(deck.loads(each))
-        assert len(found) == len(deck.loads(each).body)
-        assert all("bears any tension" in warning for warning in found)
+        notes = deck.warnings(deck.loads(each))
+        assert len(notes) == len(deck.loads(each).body)
+        assert all("bears any tension" in warning for warning in notes)
 
 
 def test_bodies_that_join_are_warned_of_once():

@@ -1,4 +1,4 @@
-"""Formulas of a deck: what they may have, their units, and what is refused."""
+"""Formulas of a deck: their terms, their units, and what is refused."""
 
 import math
 
@@ -28,9 +28,9 @@ NUMBERS = dict(zip(KNOWN, (0.03, 0.06, 800.0, 4.0, 2.0, 0.5, 3.0), strict=True))
     ],
 )
 def test_values_and_units(text, unit, value):
-    found = parse(text, KNOWN)
-    assert in_words(found.dimension) == unit
-    assert found.evaluate(NUMBERS) == pytest.approx(value, rel=1e-14)
+    formula = parse(text, KNOWN)
+    assert in_words(formula.dimension) == unit
+    assert formula.evaluate(NUMBERS) == pytest.approx(value, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def test_values_and_units(text, unit, value):
         ("0" * 20 + "1", "is not a formula"),
     ],
 )
-def test_what_is_refused(text, said):
+def test_refused_formulas(text, said):
     with pytest.raises(ExpressionError, match=None) as refused:
         parse(text, KNOWN)
     assert said in str(refused.value)
@@ -69,17 +69,17 @@ def test_what_is_refused(text, said):
 
 @pytest.mark.parametrize("text", ["depth / (ratio - 3)", "log(ratio - 3)", "sqrt(ratio - 4)", "9 ** 9 ** 9",
                                   "exp(ratio * 1000)", "1e999", "1e308 * 10", "(ratio - 4) ** 0.5"])  # fmt: skip
-def test_what_has_no_value(text):
+def test_formulas_without_a_value(text):
     assert parse(text, KNOWN).evaluate(NUMBERS) is None
 
 
-def test_what_is_not_known_yet():
+def test_names_not_known_yet():
     assert parse("depth / length0", KNOWN).evaluate({**NUMBERS, "length0": None}) is None
     assert parse("depth / length0", KNOWN).evaluate({"depth": 1.0}) is None
 
 
 def test_every_unit_has_its_dimension():
-    """A number in each unit is one of the same dimension as a name in it."""
+    """A number in each unit has the same dimension as a name in it."""
     for (name, dimension), spelled in zip(DIMENSIONS.items(), SPELLED, strict=True):
         assert to_si(f"1 {spelled}" if spelled != "1" else 1.0, spelled) == 1.0
         if name not in ("1", "rad"):

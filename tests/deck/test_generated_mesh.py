@@ -40,8 +40,8 @@ WORDS = 'cells_across = 8\nreach = "10 radii"'
 
 @pytest.mark.parametrize("follow", ["", 'follow = "rod"'])
 @pytest.mark.parametrize("body", BODIES)
-def test_cells_across_and_reach_are_what_the_deck_asks_for(body, follow):
-    """8 cells across 4 mm; 10 radii ahead of the body and beside it; no jumps; an edge between cells at the leading end."""
+def test_cells_across_and_reach_are_those_of_the_deck(body, follow):
+    """8 cells across 4 mm; 10 radii ahead of the body and to its side; no jumps; an edge between cells at the leading end."""
     deck = load(f"{WORDS}\n{follow}", body)
     r, z = decks.edges(deck)
     reach = 10 * (9e-3 if body == "disc" else 4e-3)
@@ -69,7 +69,7 @@ def test_the_resolved_deck_has_segments_and_is_read_to_the_same_bits():
 
 
 def test_the_mesh_begins_where_the_deck_says():
-    """At a wall, and above it the same fine cells."""
+    """The mesh begins at a wall, with the same fine cells above it."""
     deck = load('z_start = "-45 mm"\n' + WORDS)
     z = decks.edges(deck)[1]
     assert z[0] == -45e-3
@@ -99,7 +99,7 @@ def test_a_body_may_be_named_and_a_reach_may_be_a_length():
         ('cells_across = 8\nreach = "900 km"', "mesh.reach: would need"),
     ],
 )
-def test_what_is_wrong_is_told(mesh, said):
+def test_mistakes_are_reported(mesh, said):
     with pytest.raises(decks.DeckError, match=r"deck\.toml:\d+: ") as caught:
         load(mesh)
     assert said in str(caught.value)
@@ -113,7 +113,7 @@ def test_an_override_changes_the_cells_and_none_gives_way_to_segments():
 
 
 def test_members_and_finer_meshes_of_such_a_deck():
-    """A shift by 0.3 of a cell, a flank a tenth of a cell farther in, and 4 cells in place of 8."""
+    """A shift by 0.3 of a cell, a flank a tenth of a cell farther in, and 4 cells instead of 8."""
     deck = load(f'{WORDS}\nfollow = "rod"')
     given = members.overrides(deck, {"mesh offset": 0.3, "flank offset": 0.1})
     changed = load(f'{WORDS}\nfollow = "rod"', overrides=given)

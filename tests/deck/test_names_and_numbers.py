@@ -1,4 +1,4 @@
-"""Names and numbers that a deck cannot have are refused with their key; nothing that a deck says is a traceback."""
+"""Names and numbers that a deck cannot have are refused with their key; no deck causes a traceback."""
 
 import contextlib
 import tomllib
@@ -75,7 +75,7 @@ ABSURD = ["1e308", "-1e308", "1e30", "1e-300", "-1e-300", "0", "nan", "inf", "-i
 
 @pytest.mark.parametrize("key", KEYS)
 def test_an_absurd_number_is_refused_or_harmless(key):
-    """Every number of a resolved deck, replaced by every absurdity: a message that names the key, or a deck."""
+    """Every number of a resolved deck, replaced by every absurdity: the result is a message that names the key, or a deck."""
     text = deck.loads(TRACED).to_toml()
     for value in ABSURD:
         with contextlib.suppress(DeckError):  # any other error is a traceback for the user
@@ -110,7 +110,7 @@ def test_a_byte_order_mark_is_no_statement(tmp_path):
     assert definition.read(tmp_path / "study.toml", [])[0].axis[0].name == "v"
 
 
-def test_decks_and_studies_are_told_apart(tmp_path, capsys):
+def test_decks_and_studies_are_distinguished(tmp_path, capsys):
     (tmp_path / "shot.toml").write_text(TEXT)
     (tmp_path / "study.toml").write_text(STUDY)
     assert call(["sweep", str(tmp_path / "shot.toml")]) == 2
@@ -128,8 +128,8 @@ def test_a_deck_of_the_user_is_not_overwritten(tmp_path, capsys):
     assert run.run(deck.loads(TEXT, ["stop.cycles=1"]), tmp_path / "out", overwrite=True, quiet=True)["cycles"] == 1
 
 
-def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
-    """As 13.291833 mm where 13.2918335 mm was meant."""
+def test_an_end_that_nearly_fits_whole_cells_is_met_and_reported():
+    """For example 13.291833 mm where 13.2918335 mm was meant."""
     meant = deck.loads(TEXT, ['mesh.z=[{to="20 mm", size="0.5 mm"}]'])
     assert [text for text in deck.warnings(meant) if text.startswith("mesh")] == []
     snapped = deck.loads(TEXT, ['mesh.z=[{to="20.00004 mm", size="0.5 mm"}]'])
@@ -142,7 +142,7 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
 
 
 @pytest.mark.parametrize(
-    ("segment", "told"),
+    ("segment", "said"),
     [
         ('{to="2.3 cm", size="0.3 mm"}', "0.3 mm do not divide 2.3 cm; to = 2.28 cm or 2.31 cm would fit, or cells = "
          "76 (of 0.3026 mm) or 77 (of 0.2987 mm)"),
@@ -151,10 +151,10 @@ def test_an_end_that_misses_whole_cells_by_a_trifle_is_met_and_told():
         ('{to="1 mm", size="3 cm"}', "3 cm do not divide 1 mm; to = 30 mm would fit, or cells = 1 (of 0.1 cm)"),
     ],
 )  # fmt: skip
-def test_a_size_that_does_not_divide_is_told_in_the_units_of_the_deck(segment, told):
+def test_a_size_that_does_not_divide_is_reported_in_the_units_of_the_deck(segment, said):
     with pytest.raises(DeckError, match=r"mesh\.z\[0\]") as error:
         deck.loads(TEXT, [f"mesh.z=[{segment}]"])
-    assert told in str(error.value)
+    assert said in str(error.value)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What a deck says before it runs: order of targets, starts, overlaps, numbers without units, what holds in tension."""
+"""Messages on a deck before it runs: order of targets, starts, overlaps, numbers without units, what bears tension."""
 
 import math
 from pathlib import Path
@@ -27,14 +27,14 @@ def box_of(name, r, z, material="Al5083", **keys):
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_resolved_deck_is_a_fixed_point(name):
-    found = deck.load(ROOT / name)
-    text = found.to_toml()
-    assert deck.loads(text, name=found.name).to_toml() == text
+    loaded = deck.load(ROOT / name)
+    text = loaded.to_toml()
+    assert deck.loads(text, name=loaded.name).to_toml() == text
 
 
 @pytest.mark.parametrize("seed", range(30))
 def test_resolved_decks_of_random_boxes_are_fixed_points(seed):
-    """Nested, side by side, behind one another, in any order, before and behind the rod."""
+    """Nested, side by side, behind one another, in any order, ahead of and behind the rod."""
     rng = np.random.default_rng(seed)
     bodies = [ROD]
     for number in range(int(rng.integers(1, 6))):
@@ -46,9 +46,9 @@ def test_resolved_decks_of_random_boxes_are_fixed_points(seed):
 
 
 def test_an_insert_is_reached_after_the_block_around_it():
-    found = deck.loads(MESH + ROD + box_of("insert", (0, 8), (5, 8)) + plate("20 mm", name="block"))
-    assert found.penetration.targets == ("block", "insert")
-    assert found.penetration.surface == 0.0
+    loaded = deck.loads(MESH + ROD + box_of("insert", (0, 8), (5, 8)) + plate("20 mm", name="block"))
+    assert loaded.penetration.targets == ("block", "insert")
+    assert loaded.penetration.surface == 0.0
 
 
 COPPER = table("materials.copper", based_on="copper_OFHC", variant="johnson-cook")
@@ -56,9 +56,9 @@ COPPER = table("materials.copper", based_on="copper_OFHC", variant="johnson-cook
 
 def state(**keys):
     """Density, pressure and temperature of copper."""
-    found = deck.loads(MESH + COPPER + box_of("bar", (0, 3), (0, 10), material="copper", **keys))
-    slots = library.resolve(found)
-    rho, e = insertion.body_state(found.body[0], slots, 0)
+    loaded = deck.loads(MESH + COPPER + box_of("bar", (0, 3), (0, 10), material="copper", **keys))
+    slots = library.resolve(loaded)
+    rho, e = insertion.body_state(loaded.body[0], slots, 0)
     return rho, *(slots.evaluate(0, rho, e)[n] for n in (0, 3))
 
 
@@ -78,7 +78,7 @@ def test_two_of_density_pressure_and_temperature_give_the_third():
         state(temperature="718 K", pressure="1 GPa", density="8960 kg/m^3")
 
 
-def test_a_temperature_that_no_density_has_without_pressure_is_told():
+def test_a_temperature_that_no_density_has_without_pressure_is_reported():
     with pytest.raises(deck.DeckError, match='body "bar": at no density has copper a pressure of -1e.11 Pa at 718 K'):
         state(temperature="718 K", pressure="-100 GPa")
 
@@ -86,8 +86,8 @@ def test_a_temperature_that_no_density_has_without_pressure_is_told():
 def test_a_gas_has_its_own_density():
     text = MESH + box_of("air", (0, 3), (0, 10), material="air", temperature="400 K") + (
         '[materials.air.eos]\nmodel = "ideal-gas"\nreference_density = 1.2\nadiabatic_index = 1.4\n')
-    found = deck.loads(text)
-    assert insertion.body_state(found.body[0], library.resolve(found), 0)[0] == 1.2
+    loaded = deck.loads(text)
+    assert insertion.body_state(loaded.body[0], library.resolve(loaded), 0)[0] == 1.2
 
 
 def test_a_hot_bar_at_rest_stays_at_rest():
@@ -96,24 +96,24 @@ def test_a_hot_bar_at_rest_stays_at_rest():
     assert np.abs(sim.state.v).max() < 1e-3
 
 
-@pytest.mark.parametrize(("first", "second", "told"), [
+@pytest.mark.parametrize(("first", "second", "said"), [
     (box_of("plate", (0, 20), (0, 10)), box_of("rod", (0, 3), (-10, 3)), 'bodies "plate" and "rod" overlap by 84.8 mm^3'),
-    (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # in it altogether, and meant
+    (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # all of it inside, and intended
     (box_of("a", (0, 3), (0, 3)), box_of("b", (3, 6), (0, 3)), ""),
     (box_of("a", (0, 3), (0, 3)), box_of("b", (0, 3), (2, 5), join="a"), ""),
 ])  # fmt: skip
-def test_overlaps_are_told_with_their_volume(first, second, told):
-    found = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
-    assert [text.startswith(told) and "the earlier one" in text for text in found] == [True] * bool(told)
+def test_overlaps_are_reported_with_their_volume(first, second, said):
+    texts = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
+    assert [text.startswith(said) and "the earlier one" in text for text in texts] == [True] * bool(said)
 
 
 def test_the_volume_that_two_bodies_share():
-    """A ball and a box that cuts its upper half off; planar, a disc."""
+    """A ball and a box that cuts off its upper half; planar, a disc."""
     ball, upper = sphere(0.0, 0.0, 2.0), box((0.0, 5.0), (0.0, 5.0))
-    found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
-    assert found == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
-    found = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), True)
-    assert found == pytest.approx((math.pi, 2.0 * math.pi), rel=1e-3)
+    volume = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
+    assert volume == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
+    volume = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), True)
+    assert volume == pytest.approx((math.pi, 2.0 * math.pi), rel=1e-3)
     assert shared_volume(ball, upper, (0.0, 5.0), (-5.0, 0.0), False)[0] == 0.0
 
 
@@ -121,7 +121,7 @@ def lines(text):
     return "\n".join(check.check(deck.loads(text)).lines(1))
 
 
-def test_ties_are_told():
+def test_ties_are_reported():
     pair = box_of("flyer", (0, 3), (-2, 0), velocity="100 m/s") + box_of("target", (0, 3), (0, 10), material="W_alloy")
     said = "flyer is tied to target where they touch, until one of them fractures, at "
     assert said in lines(MESH + pair)
@@ -131,13 +131,13 @@ def test_ties_are_told():
     assert "where they touch, always" in lines(MESH + pair + table("failure", tensile="none"))
 
 
-def test_walls_that_hold_are_told():
+def test_walls_that_bear_tension_are_reported():
     alone = box_of("bar", (0, 3), (-14, 0), velocity="-20 m/s")
     assert "a wall (z_min) also resists tension: it holds" in lines(MESH + alone + table("boundaries", z_min="wall"))
     assert "resists tension" not in lines(MESH + alone)
 
 
-def test_liquids_that_bear_any_tension_are_told():
+def test_liquids_that_bear_any_tension_are_reported():
     def told(material, **failure):
         text = MESH + box_of("a", (0, 3), (0, 3), material=material) + (table("failure", **failure) if failure else "")
         return [text for text in warnings(deck.loads(text)) if "bears any tension" in text]
@@ -149,7 +149,7 @@ def test_liquids_that_bear_any_tension_are_told():
 
 
 def test_water_cavitates():
-    """Two slabs at 400 m/s: no more tension than a step adds to that at which water cavitates, -20 MPa; -108 MPa were borne."""
+    """Two slabs at 400 m/s: a step adds little to the tension at which water cavitates, -20 MPa; it used to bear -108 MPa."""
     water = entry("body", name="flyer", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"], z=["-2 mm", "0 mm"],
                   velocity="400 m/s") + entry("body", name="target", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"],
                                               z=["0 mm", "4 mm"])  # fmt: skip

@@ -1,4 +1,4 @@
-"""Warnings of what is thinner than a few cells: bodies, coats, layers and gaps, where they are and where they will fly."""
+"""Warnings about features thinner than a few cells: bodies, coats, layers and gaps, where they are and where they fly to."""
 
 import re
 
@@ -31,8 +31,8 @@ def ball(name, z, radius, velocity=0, more=""):
 
 
 def told(mesh, *bodies):
-    found = deck.warnings(deck.loads(mesh + "".join(bodies) + REST))
-    return [text for text in found if "cells across" in text or "gap" in text]
+    texts = deck.warnings(deck.loads(mesh + "".join(bodies) + REST))
+    return [text for text in texts if "cells across" in text or "gap" in text]
 
 
 @pytest.mark.parametrize(
@@ -84,7 +84,7 @@ def test_the_wall_of_a_shell_counts_and_not_its_diameter():
     ],
 )  # fmt: skip
 def test_gaps_and_slits(bodies, warned):
-    """Gaps that their bodies close by themselves are none, nor are wedges beside a point of contact."""
+    """Gaps that their bodies close by themselves do not count, nor do wedges next to a point of contact."""
     assert told(MESH, *bodies) == warned
 
 
@@ -98,13 +98,13 @@ def test_the_wall_of_a_jacket_needs_three_cells(core, warned):
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_cells_are_counted_where_a_body_flies(sign):
-    """The witness is met at 40 mm; what lies beyond it does not count."""
+    """The witness is hit at 40 mm; cells beyond it do not count."""
     plug, witness = sorted((sign * 1.25, sign * 2.75)), sorted((sign * 40, sign * 60))
     mesh = GRADED if sign > 0 else BACKWARDS
     (text,) = told(mesh, box("plug", plug, 1000 * sign), box("witness", witness))
     flown = 'body "plug": 3.0 cells across it along z and (.*) at z = (.*) mm, which it reaches after (.*) us'
-    found = re.fullmatch(flown + ALWAYS, text)
-    cells, place, time = (float(number) for number in found.groups())
+    match = re.fullmatch(flown + ALWAYS, text)
+    cells, place, time = (float(number) for number in match.groups())
     assert 34 < time <= 36
     assert place == pytest.approx(sign * (2 + time), abs=0.06)
     z = deck.edges(deck.loads(mesh + box("plug", plug) + REST))[1]
@@ -120,12 +120,12 @@ def test_a_gap_may_fly_into_larger_cells():
 
 
 def test_a_flight_ends_at_what_the_first_body_of_the_same_velocity_meets():
-    """A body behind another one goes no further than that one does."""
+    """A body behind another one goes no further than that one."""
     assert told(GRADED, box("rear", (0, 2), 1000), box("front", (2, 4.4), 1000), box("witness", (4.5, 60))) == []
 
 
 def test_a_mesh_that_follows_a_body():
-    """What moves with it does not change its cells; what lies ahead counts where the body reaches it."""
+    """A body that moves with the mesh keeps its cells; a body ahead counts where the first one reaches it."""
     rod = box("rod", (-2, -0.5), 1000, r=("0 mm", "1 mm"))
     assert told(FOLLOWING, rod) == []
     for z in ((1, 1.03), (9, 9.03), (25, 25.03)):

@@ -1,4 +1,4 @@
-"""Cracked material: the pressure of its solid, cracks that open and close, and what a deck must say."""
+"""Cracked material: the pressure of its solid, cracks that open and close, and what its deck needs."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ SOLID = mie_grueneisen.row({"reference_density": RHO0, "sound_speed": 5350.0, "h
                             "specific_heat": 890.0})
 ROW = cracked.row(mie_grueneisen.ID, SOLID)
 
-#: the models that cracked material may stand over must be known before its compiled functions are loaded
+#: the models that cracked material may build on must be known before its compiled functions are loaded
 assert dispatch.WITH_MEMORY
 
 
@@ -39,7 +39,7 @@ def test_without_cracks_it_is_its_solid(rho):
 
 @pytest.mark.parametrize("cracks", [1e-6, 4e-5, 1.5e-4])
 def test_the_pressure_is_that_of_the_solid_and_follows_from_the_energy(cracks):
-    """p = p_s; its slope is that of differences; at given cracks the volume of the solid is all that changes."""
+    """p = p_s; its slope agrees with differences; at constant crack volume only the volume of the solid changes."""
     rho, e, small = 1.0 / (1.0 / 2650.0 + cracks), 2e5, 1e-3
     p, dpdrho, dpde, T = state(rho, e, cracks)
     assert (p, T) == pytest.approx(mie_grueneisen.evaluate(2650.0, e, SOLID)[::3], rel=1e-10)
@@ -90,9 +90,9 @@ def table_of(text):
 
 def test_a_body_of_it_has_the_crack_volume_and_no_other_fracture_pressure():
     metal = material("metal", "Al6061_T6", fracture_pressure=TENSION, damage=CRACKS)
-    found = table_of(metal + table("failure", damage="material"))
-    assert [field.name for field in found.internal[0]] == ["crack_volume", "crack_growth"]
-    assert (found.cracking.tolist(), found.fracture_pressure.tolist()) == ([TENSION], [np.inf])
+    cracking = table_of(metal + table("failure", damage="material"))
+    assert [field.name for field in cracking.internal[0]] == ["crack_volume", "crack_growth"]
+    assert (cracking.cracking.tolist(), cracking.fracture_pressure.tolist()) == ([TENSION], [np.inf])
     plain = table_of(metal + table("failure", damage="none"))
     assert (plain.internal, plain.cracking.tolist(), plain.fracture_pressure.tolist()) == (((),), [0.0], [TENSION])
 
@@ -103,6 +103,6 @@ def test_a_body_of_it_has_the_crack_volume_and_no_other_fracture_pressure():
     ("Al_porous", {"fracture_pressure": TENSION}, {}, "without internal variables, and p-alpha has some"),
     ("alumina_995", {"fracture_pressure": TENSION}, {}, "the strength model johnson-holmquist falls with a damage of its own"),
 ])  # fmt: skip
-def test_what_does_not_go_with_cracks_is_refused(based_on, keys, failure, message):
+def test_models_that_do_not_go_with_cracks_are_refused(based_on, keys, failure, message):
     with pytest.raises(DeckError, match=message):
         table_of(material("metal", based_on, damage=CRACKS, **keys) + table("failure", damage="material", **failure))

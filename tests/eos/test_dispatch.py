@@ -1,4 +1,4 @@
-"""What is derived from an equation of state: sound speed and the density without pressure."""
+"""Quantities derived from an equation of state: sound speed, and the density at zero pressure."""
 
 import math
 
@@ -49,13 +49,13 @@ def test_density_without_pressure_of_a_liquid():
 @settings(max_examples=300, deadline=None)
 @given(ratio=st.floats(0.2, 2.0), e=st.floats(-2e6, 8e6))
 def test_density_without_pressure(ratio, e):
-    """In tension it is above the density, in compression below, and a little off it the pressure changes its sign."""
+    """In tension it is above the density, in compression below, and close to it the pressure changes sign."""
     rho = ratio * RHO0
     p = evaluate(mie_grueneisen.ID, rho, e, NO_MEMORY, ALUMINIUM)[0]
-    found = zero_pressure_density(mie_grueneisen.ID, rho, e, NO_MEMORY, ALUMINIUM)
-    assert found >= rho if p < 0.0 else found <= rho
-    assert evaluate(mie_grueneisen.ID, found * (1 - 1e-11), e, NO_MEMORY, ALUMINIUM)[0] <= 0.0
-    assert evaluate(mie_grueneisen.ID, found * (1 + 1e-11), e, NO_MEMORY, ALUMINIUM)[0] >= 0.0
+    at_rest = zero_pressure_density(mie_grueneisen.ID, rho, e, NO_MEMORY, ALUMINIUM)
+    assert at_rest >= rho if p < 0.0 else at_rest <= rho
+    assert evaluate(mie_grueneisen.ID, at_rest * (1 - 1e-11), e, NO_MEMORY, ALUMINIUM)[0] <= 0.0
+    assert evaluate(mie_grueneisen.ID, at_rest * (1 + 1e-11), e, NO_MEMORY, ALUMINIUM)[0] >= 0.0
 
 
 def test_unloaded_material_stays():

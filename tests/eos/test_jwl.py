@@ -1,4 +1,4 @@
-"""Explosives: the Chapman-Jouguet state of every set, the products between the unreacted solid and burnt, what burns when."""
+"""Explosives: the Chapman-Jouguet state of every set, the mixture of unreacted solid and products, what burns when."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ EXPLOSIVES = [(name, variant) for name in library.names() if library.load(name).
 
 
 def pressure(volume, energy):
-    """JWL as it is printed, with V = rho0/rho and E per initial volume; TNT."""
+    """JWL in its printed form, with V = rho0/rho and E per initial volume; TNT."""
     first, second = (amplitude * (1.0 - 0.3 / (rate * volume)) * np.exp(-rate * volume)
                      for amplitude, rate in ((371.2e9, 4.15), (3.231e9, 0.95)))
     return first + second + 0.3 * energy / volume
@@ -32,9 +32,9 @@ def test_the_library_has_explosives():
 @pytest.mark.parametrize(("name", "variant"), EXPLOSIVES)
 def test_every_set_has_the_detonation_velocity_and_pressure_that_it_states(name, variant):
     values = library.load(name, variant).eos.values
-    speed, found, _ = jwl.cj_state(jwl.row(values))
+    speed, pressure_cj, _ = jwl.cj_state(jwl.row(values))
     assert speed == pytest.approx(values["detonation_velocity"], rel=3.1e-3)  # nitromethane: 6261, not 6280 m/s
-    assert found == pytest.approx(values["cj_pressure"], rel=1.1e-3)
+    assert pressure_cj == pytest.approx(values["cj_pressure"], rel=1.1e-3)
 
 
 def test_the_state_is_that_of_the_least_speed_on_the_hugoniot():
@@ -45,15 +45,15 @@ def test_the_state_is_that_of_the_least_speed_on_the_hugoniot():
 
     volumes = np.linspace(0.70, 0.76, 601)
     squares = np.array([hugoniot(volume) / (1.0 - volume) for volume in volumes]) / 1630.0
-    speed, found, volume = jwl.cj_state(ROW)
+    speed, pressure_cj, volume = jwl.cj_state(ROW)
     assert speed == pytest.approx(np.sqrt(squares.min()), rel=1e-8)
     assert volume == pytest.approx(volumes[squares.argmin()], abs=1e-4)
-    assert found == pytest.approx(1630.0 * speed**2 * (1.0 - volume), rel=1e-12)
+    assert pressure_cj == pytest.approx(1630.0 * speed**2 * (1.0 - volume), rel=1e-12)
     # and the flow there is sonic: u + c = D
     rho = 1630.0 / volume
-    p, dpdrho, dpde, _ = jwl.evaluate(rho, (7e9 + 0.5 * found * (1.0 - volume)) / 1630.0, BURNT, ROW)
-    assert p == pytest.approx(found, rel=1e-12)
-    assert found / (1630.0 * speed) + np.sqrt(dpdrho + p * dpde / rho**2) == pytest.approx(speed, rel=1e-12)
+    p, dpdrho, dpde, _ = jwl.evaluate(rho, (7e9 + 0.5 * pressure_cj * (1.0 - volume)) / 1630.0, BURNT, ROW)
+    assert p == pytest.approx(pressure_cj, rel=1e-12)
+    assert pressure_cj / (1630.0 * speed) + np.sqrt(dpdrho + p * dpde / rho**2) == pytest.approx(speed, rel=1e-12)
 
 
 @pytest.mark.parametrize("change", [
@@ -93,9 +93,9 @@ def test_the_unreacted_solid():
 @pytest.mark.parametrize("burnt", [0.0, 0.25, 1.0])
 def test_partly_burnt_material_has_a_share_of_both_pressures(burnt):
     for volume, energy in ((0.73, 9.8e9), (1.0, 7e9), (7.0, 0.9e9)):
-        found = jwl.evaluate(1630.0 / volume, energy / 1630.0, np.array([burnt, 0.0, 1.0]), ROW)[0]
+        result = jwl.evaluate(1630.0 / volume, energy / 1630.0, np.array([burnt, 0.0, 1.0]), ROW)[0]
         solid = 1630.0 * 2500.0**2 * (1.0 / volume - 1.0)
-        assert found == pytest.approx((1.0 - burnt) * solid + burnt * pressure(volume, energy), rel=1e-12)
+        assert result == pytest.approx((1.0 - burnt) * solid + burnt * pressure(volume, energy), rel=1e-12)
 
 
 @pytest.mark.parametrize("burnt", [0.3, 1.0])
@@ -126,7 +126,7 @@ def test_the_burn_fraction_rises_around_the_light_time():
     assert burn([0.7, 2e-6, 0.5e-6], 1.9e-6)[0] == 0.7, "it never falls"
 
 
-def test_virgin_material_burns_at_no_time_and_by_compression_only_if_told():
+def test_virgin_material_never_burns_and_by_compression_only_on_request():
     virgin = [field.at_rest(ROW) for field in jwl.INTERNAL]
     assert burn(virgin, 1.0)[0] == 0.0
     assert burn(virgin, 1e-6, rho=1630.0 / 0.8)[0] == 0.0

@@ -1,4 +1,4 @@
-"""Mie-Grueneisen: the Hugoniot it is made from, its guard, its tension branch and its temperature."""
+"""Mie-Grueneisen: the underlying Hugoniot, its guard, its tension branch and its temperature."""
 
 import numpy as np
 import pytest
@@ -79,7 +79,7 @@ def test_expansion_is_linear_and_joins_smoothly(material):
 
 @pytest.mark.parametrize("e", [1e6, 1e7, 1e8])
 def test_hot_material_expands_to_zero_pressure_at_a_sound_speed_of_its_heat(material, e):
-    """rho = rho0/(1 + Gamma0 e/c0^2) has no pressure and c^2 = c0^2 + Gamma0 e, however hot; nothing is stiffer there."""
+    """At rho = rho0/(1 + Gamma0 e/c0^2) p = 0 and c^2 = c0^2 + Gamma0 e, however hot; nothing is stiffer there."""
     values, row = material
     heat = values["grueneisen"] * e
     rho = values["reference_density"] / (1.0 + heat / values["sound_speed"] ** 2)
@@ -102,7 +102,7 @@ def test_guard_goes_on_along_the_tangent(material):
 
 @pytest.mark.parametrize(("s", "gamma"), [(0.0, 2.0), (0.5, 2.2), (1.0, 2.2), (0.0, 0.0), (2.5, 1.0)])
 def test_pressure_rises_for_any_hugoniot(s, gamma):
-    """Gamma0 large beside s makes the reference curve fall back before s eta = 0.95: the guard comes earlier."""
+    """If Gamma0 is large compared with s, the reference curve falls before s eta = 0.95: the guard comes earlier."""
     row = mie_grueneisen.row({**AL5083, "hugoniot_slope": s, "grueneisen": gamma})
     p = [mie_grueneisen.evaluate(rho, 0.0, row)[0] for rho in 2660.0 * np.geomspace(1.0, 50.0, 2000)]
     assert (np.diff(p) > 0.0).all()

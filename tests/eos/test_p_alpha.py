@@ -1,4 +1,4 @@
-"""P-alpha: the elastic range, the crush curve, what stays crushed, and material without pores."""
+"""P-alpha: the elastic range, the crush curve, permanent crushing, and material without pores."""
 
 import math
 
@@ -18,7 +18,7 @@ ROW = p_alpha.row({**SOLID, **POROUS}, mie_grueneisen)
 VIRGIN = 2700.0 / 2000.0
 
 
-#: the models that p-alpha may stand over must be known before its compiled functions are loaded
+#: the models that p-alpha may build on must be known before its compiled functions are loaded
 assert dispatch.WITH_MEMORY
 
 
@@ -58,7 +58,7 @@ def test_below_the_elastic_pressure_and_in_tension_nothing_is_crushed():
 @pytest.mark.parametrize("e", [0.0, 1e5])
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
 def test_on_the_crush_curve(share, e):
-    """The distention and the pressure after a step are a point of it: alpha = 1 + (alpha_e - 1) ((P_s - p)/(P_s - P_e))^2."""
+    """The distention and the pressure after a step lie on it: alpha = 1 + (alpha_e - 1) ((P_s - p)/(P_s - P_e))^2."""
     rho = 2000.0 + share * 690.0
     left = after(rho, e=e)
     p, alpha = pressure(rho, left, e), p_alpha.solid_density(rho, left, ROW)[0] / rho
@@ -68,16 +68,16 @@ def test_on_the_crush_curve(share, e):
 
 
 def test_the_elastic_range_ends_on_the_crush_curve():
-    """At the elastic pressure, the virgin material has the distention from which the curve begins."""
+    """At the elastic pressure, the virgin material has the distention at which the curve begins."""
     rho = 2000.0
     while pressure(rho, VIRGIN) < 0.08e9:
         rho *= 1.0 + 1e-7
     assert p_alpha.solid_density(rho, VIRGIN, ROW)[0] / rho == pytest.approx(ROW[p_alpha.DISTENTION], rel=1e-6)
 
 
-def test_what_has_been_crushed_stays_so():
+def test_crushed_material_stays_crushed():
     crushed = after(2400.0)
-    back = 2700.0 / crushed  # the density without pressure
+    back = 2700.0 / crushed  # the density at zero pressure
     assert back > 2000.0
     assert pressure(back, crushed) == pytest.approx(0.0, abs=1.0)
     assert after(back, crushed) == crushed
@@ -94,7 +94,7 @@ def test_from_the_crush_pressure_on_it_is_its_solid_to_the_last_bit():
 
 
 def test_no_pores_are_left_at_any_density_beyond_the_crush_pressure():
-    """The elastic law (10) alone would make the solid thinner than the whole at more than twice its density."""
+    """The elastic law (10) alone would make the solid less dense than the porous material at more than twice its density."""
     for distention in (1.01, 1.1, VIRGIN):
         rho = 2.4 * 2700.0
         assert p_alpha.solid_density(rho, distention, ROW)[0] < rho
@@ -135,7 +135,7 @@ def test_decks_that_are_wrong(override, words):
 
 
 def test_any_equation_of_state_without_memory_may_be_the_solid():
-    """An ideal gas in the pores' walls makes little sense, but has its pressure at rest over alpha."""
+    """An ideal gas as the solid makes little sense, but its pressure at rest is divided by alpha."""
     own = {name: value for name, value in POROUS.items() if name != "elastic_pressure"}
     gas = {**own, "adiabatic_index": 1.4, "reference_energy": 1e7, "elastic_pressure": 1.1e10, "crush_pressure": 1.2e11,
            "elastic_sound_speed": 1900.0}
@@ -144,10 +144,10 @@ def test_any_equation_of_state_without_memory_may_be_the_solid():
 
 
 def test_the_resolved_deck_names_the_solid():
-    found = deck.load(DECK)
-    again = deck.loads(found.to_toml(), name=found.name)
+    loaded = deck.load(DECK)
+    again = deck.loads(loaded.to_toml(), name=loaded.name)
     assert again.materials["Al_porous"].eos.solid == "mie-grueneisen"
-    assert again.to_toml() == found.to_toml()
+    assert again.to_toml() == loaded.to_toml()
     table = library.resolve(again)
     assert table.virgin(0) == pytest.approx([1.275], rel=1e-6)
     assert table.remembers

@@ -1,4 +1,4 @@
-"""P-alpha over a table: the search for the crush curve at its ends, continuity, c^2, second order, and where it ends."""
+"""P-alpha over a table: the search for the crush curve at its ends, continuity, c^2, second order, and the table's limits."""
 
 import functools
 
@@ -69,10 +69,10 @@ def test_the_crush_curve_is_found_though_the_search_begins_beyond_the_table(par,
             exact = after(MODEL, rho, e)
             if not has(par, p_alpha.solid_density(rho, exact, MODEL)[0], e):
                 continue
-            found = after(par, rho, e)
-            assert not np.isnan(evaluate(par, rho, e, found)[0]), (rho, e, exact, found)
-            assert found == pytest.approx(exact, abs=2e-3)
-            if 1.0 < found < VIRGIN:
+            distention = after(par, rho, e)
+            assert not np.isnan(evaluate(par, rho, e, distention)[0]), (rho, e, exact, distention)
+            assert distention == pytest.approx(exact, abs=2e-3)
+            if 1.0 < distention < VIRGIN:
                 thin += not has(par, rho, e)
                 dense += not has(par, p_alpha.solid_density(rho, VIRGIN, par)[0], e)
     assert thin > 20
@@ -90,20 +90,20 @@ def test_material_that_has_been_crushed_is_on_the_crush_curve(e):
 
 def test_beyond_the_table_the_excess_is_infinite_on_the_side_of_the_rest():
     for rho, distention, e, sign in ((0.8 * REST, 1.0, 0.0, -1.0), (1.7 * REST, 1.0, 1e6, 1.0), (1.4 * REST, 1.2, 0.0, 1.0)):
-        found, p = p_alpha.excess(rho, e, distention, ROW)
-        assert (found, np.isnan(p)) == (sign * np.inf, True)
+        over, p = p_alpha.excess(rho, e, distention, ROW)
+        assert (over, np.isnan(p)) == (sign * np.inf, True)
 
 
 @pytest.mark.parametrize(("rho", "e"), [(1.4 * REST, 0.0), (1.7 * REST, 1e6), (2400.0, 4e7), (np.nan, 0.0), (2400.0, np.nan)])
 def test_where_the_table_has_no_state_there_is_no_pressure(rho, e):
-    """The distention stays a number, so that the message can tell the density of the solid."""
+    """The distention stays a number, so that the message can give the density of the solid."""
     left = after(ROW, rho, e)
     assert 1.0 <= left <= VIRGIN
     assert np.isnan(evaluate(ROW, rho, e, left)).all()
 
 
 def test_a_crush_curve_that_the_table_does_not_reach_leaves_the_material_beyond_it():
-    """The states of the table are all below the curve: no clipping to the last of them."""
+    """All states of the table lie below the curve: the material is not clipped to the last of them."""
     short = over(41, 0.9, 1.004)
     for rho in (2550.0, 2600.0, 2650.0):
         assert p_alpha.solid_density(rho, after(MODEL, rho, 0.0), MODEL)[0] > 1.004 * REST
@@ -121,7 +121,7 @@ def density_at(rho_s, distention):
 
 
 def state(x, y, z):
-    """Density, energy and distention whose solid is at shares of the densities and energies of the table."""
+    """Density, energy and distention of material whose solid lies at these shares of the table's densities and energies."""
     distention = 1.0 + z * (VIRGIN - 1.0)
     low, high = (density_at(edge, distention) for edge in (EDGES[0] * (1 + 1e-9), EDGES[-1] * (1 - 1e-9)))
     rho = low + x * (high - low)
@@ -132,7 +132,7 @@ def state(x, y, z):
 @given(x=SHARE, y=SHARE, z=SHARE)
 @settings(max_examples=300, deadline=None)
 def test_c2_is_positive_wherever_the_pressure_is(x, y, z):
-    """c^2 = h^2 c_s^2 + (1 - h^2)(p_s/rho_s)(1 + dp/de|s/rho_s), and in tension while that of the solid outweighs the rest."""
+    """c^2 = h^2 c_s^2 + (1 - h^2)(p_s/rho_s)(1 + dp/de|s/rho_s), and in tension while the solid's term outweighs the rest."""
     rho, e, distention = state(x, y, z)
     p, dpdrho, dpde, T = evaluate(ROW, rho, e, distention)
     assert not np.isnan(p)
@@ -161,14 +161,14 @@ def test_pressure_and_temperature_are_continuous(x, y, z):
 @given(x=st.floats(0.0, 1.0), e=st.floats(0.0, 5e5))
 @settings(max_examples=200, deadline=None)
 def test_pressure_is_continuous_while_pores_are_crushed(x, e):
-    """Also where the solid passes a point of its table, and where a crush begins or ends."""
+    """Even where the solid passes a point of its table, and where a crush begins or ends."""
     rho = ROW[RHO0] * (1.0 + 0.3 * x)
     p, other = (evaluate(ROW, density, e, after(ROW, density, e))[0] for density in (rho, rho * (1 + 1e-9)))
     assert abs(other - p) < 1e-7 * (abs(p) + 75e9)
 
 
 def test_across_the_points_of_the_table_the_pressure_does_not_jump():
-    """At the least step that densities have, virgin and crushed."""
+    """Over the smallest step between densities, for virgin and crushed material."""
     for edge in EDGES[1:-1]:
         for distention in (VIRGIN, 1.1):
             rho = density_at(edge, distention)
@@ -177,7 +177,7 @@ def test_across_the_points_of_the_table_the_pressure_does_not_jump():
                 assert below[0] == pytest.approx(above[0], rel=1e-9, abs=10.0)
 
 
-# the model that was tabulated
+# against the model that was tabulated
 
 
 def compacted(par, velocity):
@@ -196,8 +196,8 @@ def compacted(par, velocity):
 
     def excess(p):
         rho, e = behind(p)
-        found = evaluate(par, rho, e, after(par, rho, e))[0]
-        return 1e300 if np.isnan(found) else found - p
+        pressure = evaluate(par, rho, e, after(par, rho, e))[0]
+        return 1e300 if np.isnan(pressure) else pressure - p
 
     least = first + 1.001 * rho1 * jump**2
     p = brentq(excess, least, 50.0 * least + 1e10, xtol=1.0)
@@ -205,7 +205,7 @@ def compacted(par, velocity):
 
 
 def test_the_crushing_wave_is_that_of_the_model_to_second_order():
-    """The largest miss in pressure and density, where pores close in part and in full; the page's numbers."""
+    """The largest error in pressure and density, with pores closed in part and in full; the page's numbers."""
     velocities = np.linspace(120.0, 1000.0, 23)
     exact = [compacted(MODEL, u) for u in velocities]
     errors = [max(abs(a / b - 1.0) for u, pair in zip(velocities, exact, strict=True)
@@ -225,7 +225,7 @@ def test_at_rest_the_sound_speed_is_the_given_one_and_the_solid_that_of_the_tabl
 
 
 def test_h_is_of_first_order():
-    """By the slope of the table above the density at rest; the page's number."""
+    """From the slope of the table above the density at rest; the page's number."""
     default = [p_alpha.row(POROUS, tabular, tabulate.table_of(
         "aluminium", mie_grueneisen, {**SOLID, "reference_density": REST},
         tabulate.points(0.8 * REST, REST, 3.0 * REST, number), tabulate.temperatures(298.0, 2e4, 11))) for number in (76, 151)]
@@ -249,7 +249,7 @@ def test_a_row_that_the_table_does_not_allow(change, high, words):
 
 
 def deck(**changes):
-    """The compaction of a block whose solid is a table."""
+    """The compaction of a block whose solid comes from a table."""
     eos = {"model": "p-alpha", "solid": "tabular", "table_data": sesame.write(table(41)), "table_from": "al.301", **POROUS}
     given = {"body.block.material": "foam", "materials.foam": {"eos": eos}, "mesh.z": [{"to": "4 mm", "cells": 80}],
              "body.block.thickness": "3.9 mm", "stop.time": "0.7 us", "numbers": "SI", **changes}
@@ -258,11 +258,11 @@ def deck(**changes):
 
 
 def test_the_resolved_deck_carries_the_table_of_the_solid():
-    found = deck()
-    again = decks.loads(found.to_toml(), name=found.name)
+    loaded = deck()
+    again = decks.loads(loaded.to_toml(), name=loaded.name)
     model = again.materials["foam"].eos
     assert (model.solid, model.table_from, model.title) == ("tabular", "al.301", "p-alpha over tabular (al.301)")
-    assert again.to_toml() == found.to_toml()
+    assert again.to_toml() == loaded.to_toml()
     assert again.materials["foam"].tables()[0]["file"] == "al.301"
     assert library.resolve(again).virgin(0) == pytest.approx([VIRGIN], rel=1e-12)
 

@@ -1,4 +1,4 @@
-"""The tabular equation of state: its inverse, derivatives, continuity, c^2, its end, Hugoniots and second order."""
+"""The tabular equation of state: its inverse, derivatives, continuity, c^2, its limits, Hugoniots and second order."""
 
 import functools
 
@@ -32,7 +32,7 @@ WIDE = made(low=0.05, high=3.0)[0]
 
 
 def cell_of(share_rho, share_e, par):
-    """A state at shares of the densities and of the energies that the table has there."""
+    """A state at these shares of the table's densities and energies."""
     nr = int(par[tabular.DENSITIES])
     low, high = par[tabular.DATA], par[tabular.DATA + nr - 1]
     rho = low * (high / low) ** share_rho
@@ -46,7 +46,7 @@ SHARE = st.floats(1e-6, 1.0 - 1e-6)
 @given(x=SHARE, y=SHARE)
 @settings(max_examples=300, deadline=None)
 def test_c2_is_positive_all_over_the_table(x, y):
-    """Or the cell is closed; the closed ones of ROW are none."""
+    """Or the cell is closed; ROW has no closed cells."""
     for par, may_end in ((ROW, False), (WIDE, True)):
         rho, e = cell_of(x, y, par)
         p, dpdrho, dpde, T = tabular.evaluate(rho, e, par)
@@ -81,7 +81,7 @@ def test_cells_are_closed_exactly_where_c2_is_not_positive():
 @given(x=SHARE, y=SHARE)
 @settings(max_examples=200, deadline=None)
 def test_the_inverse_is_exact(x, y):
-    """What density and temperature give by bilinear interpolation, density and energy give again."""
+    """Density and energy give back the density and temperature from which they were interpolated."""
     nr, nt = int(ROW[tabular.DENSITIES]), int(ROW[tabular.TEMPERATURES])
     rho, T = ROW[tabular.DATA:][:nr], ROW[tabular.DATA + nr:][:nt]
     p, e = (ROW[tabular.DATA + nr + nt + n * nr * nt:][: nr * nt].reshape(nr, nt) for n in (0, 1))
@@ -90,15 +90,15 @@ def test_the_inverse_is_exact(x, y):
     def between(q):
         return np.interp(temperature, T, [np.interp(density, rho, q[:, j]) for j in range(nt)])
 
-    found = tabular.evaluate(density, between(e), ROW)
-    assert found[0] == pytest.approx(between(p), rel=1e-9, abs=10.0)
-    assert found[3] == pytest.approx(temperature, rel=1e-9, abs=1e-6)
+    state = tabular.evaluate(density, between(e), ROW)
+    assert state[0] == pytest.approx(between(p), rel=1e-9, abs=10.0)
+    assert state[3] == pytest.approx(temperature, rel=1e-9, abs=1e-6)
 
 
 @given(x=SHARE, y=SHARE)
 @settings(max_examples=200, deadline=None)
 def test_pressure_and_temperature_are_continuous(x, y):
-    """Across the edges of cells as well: a step of 1e-9 moves them by no more than their slopes say, anywhere."""
+    """Across the edges of cells as well: a step of 1e-9 changes them by no more than their slopes, everywhere."""
     rho, e = cell_of(x, y, ROW)
     p, dpdrho, dpde, T = tabular.evaluate(rho, e, ROW)
     for density, energy in ((rho * (1 + 1e-9), e), (rho, e + 1e-9 * 1e6)):
@@ -108,7 +108,7 @@ def test_pressure_and_temperature_are_continuous(x, y):
 
 
 def test_pressure_is_continuous_along_lines_through_all_cells():
-    """At the least step that densities and energies have at every edge."""
+    """Over the smallest step in density and energy at every edge."""
     nr = int(ROW[tabular.DENSITIES])
     for rho in ROW[tabular.DATA:][1: nr - 1]:
         for e in np.linspace(*tabular.energies(rho, ROW), 9)[1:-1]:
@@ -130,15 +130,15 @@ def test_there_is_nothing_beyond_the_table(rho, e):
 
 
 def test_the_density_without_pressure_is_found_though_the_search_leaves_the_table():
-    """In tension the search first goes a quarter denser, where the energy lies below the cold curve."""
+    """In tension the search first tries a density higher by a quarter, where the energy lies below the cold curve."""
     rho, virgin = 0.97 * REST, np.zeros(0)
     assert np.isnan(tabular.evaluate(1.25 * rho, -2e4, ROW)[0])
-    found = zero_pressure_density(tabular.ID, rho, -2e4, virgin, ROW)
-    assert found == pytest.approx(zero_pressure_density(TILLOTSON.ID, rho, -2e4, virgin, MODEL), rel=1e-3)
-    assert abs(tabular.evaluate(found, -2e4, ROW)[0]) < 1.0
+    at_rest = zero_pressure_density(tabular.ID, rho, -2e4, virgin, ROW)
+    assert at_rest == pytest.approx(zero_pressure_density(TILLOTSON.ID, rho, -2e4, virgin, MODEL), rel=1e-3)
+    assert abs(tabular.evaluate(at_rest, -2e4, ROW)[0]) < 1.0
 
 
-# the model that was tabulated
+# against the model that was tabulated
 
 
 def shocked(module, par, u):
@@ -153,7 +153,7 @@ def shocked(module, par, u):
 
 @pytest.mark.parametrize("name", ["Al_tillotson", "Al_mie_grueneisen"])
 def test_hugoniots_are_those_of_the_model_to_second_order(name):
-    """The largest miss over 40 velocities falls by four where the table has twice the points in each direction."""
+    """The largest error over 40 velocities falls by a factor of four if the table has twice the points in each direction."""
     def worst(number):
         density = tabulate.points(0.9 * REST, REST, 2.4 * REST, number)
         temperature = tabulate.temperatures(298.0, 2e4, number)
@@ -174,14 +174,14 @@ def test_hugoniots_are_those_of_the_model_to_second_order(name):
 
 
 def test_the_temperature_is_as_consistent_as_the_table_is_fine():
-    """Of a model whose temperature is consistent: slopes within a cell are those of its corners, so it is of first order."""
+    """For a model with a consistent temperature: slopes within a cell are those of its corners, so the order is one."""
     def worst(number):
         density, temperature = tabulate.points(0.9 * REST, REST, 2.4 * REST, number), tabulate.temperatures(298.0, 2e4, number)
         values = {"reference_density": REST, "sound_speed": 5350.0, "grueneisen": 2.0, "hugoniot_slope": 1.34,
                   "specific_heat": 900.0}
         row = tabular.row({"reference_density": REST}, tabulate.table_of(
             "x", eos.MODELS["mie-grueneisen"], values, density, temperature))
-        found = []
+        errors = []
         for rho in REST * np.linspace(0.93, 1.9, 41):
             for e in (5e5, 2e6):
                 p, _, dpde, T = tabular.evaluate(rho, e, row)
@@ -190,19 +190,19 @@ def test_the_temperature_is_as_consistent_as_the_table_is_fine():
                     by_rho = (tabular.evaluate(rho * (1 + d), e, row)[3] - T) / (d * rho)
                     by_e = (tabular.evaluate(rho, e + d * e, row)[3] - T) / (d * e)
                     terms = T * dpde / rho**2, p * by_e / rho**2
-                    found.append(abs(by_rho - terms[0] + terms[1]) / (abs(terms[0]) + abs(terms[1])))
-        return np.mean(found)
+                    errors.append(abs(by_rho - terms[0] + terms[1]) / (abs(terms[0]) + abs(terms[1])))
+        return np.mean(errors)
 
     coarse, middle, fine = worst(21), worst(81), worst(161)
     assert fine < 1e-2
     assert coarse > 2.5 * middle > 3.5 * fine, (coarse, middle, fine)
 
 
-# what a row refuses
+# errors of a row
 
 
 def plain(**changes):
-    """A table of a linear solid, 4 densities and 3 temperatures, with changes."""
+    """A table of a linear solid, with 4 densities and 3 temperatures, and changes."""
     rho, T = np.array([900.0, 1000.0, 1100.0, 1200.0]), np.array([0.0, 298.0, 1000.0])
     p = 1e6 * (rho[:, None] - 1000.0) + 1e5 * (T[None, :] - 298.0)
     e = 1e3 * T[None, :] + 0.0 * rho[:, None]
@@ -223,7 +223,7 @@ def test_a_row_that_has_not_the_state_at_rest_is_refused(values, changes, words)
 
 
 def test_a_density_and_a_temperature_between_the_points_change_nothing_elsewhere():
-    """Making the state at rest a point leaves the interpolation as it was."""
+    """Making the state at rest a point does not change the interpolation."""
     table = plain(energy=plain().energy + 0.3 * plain().density[:, None] * plain().temperature)
     split = tabular.row({"reference_density": 1000.0, "reference_temperature": 298.0}, table)
     other = tabular.row({"reference_density": 1020.0, "reference_temperature": 98.0}, table)

@@ -17,8 +17,8 @@ ALUMINIUM = {"reference_density": 2700.0, "a": 0.5, "b": 1.63, "A": 75.2e9, "B":
              "complete_vaporisation": 13.9e6, "alpha": 5.0, "beta": 5.0, "specific_heat": 900.0}
 ROW = tillotson.row(ALUMINIUM)
 
-#: pressures (GPa) behind shocks that give material at rest these velocities, m/s: computed from the printed constants apart
-#: from this code
+#: pressures (GPa) behind shocks that give material at rest these velocities, m/s: computed from the printed constants,
+#: independently of this code
 VELOCITIES = 500.0, 1000.0, 2000.0, 4000.0, 6000.0
 HUGONIOTS = {
     "Al_tillotson": (8.12, 18.23, 44.19, 117.2, 216.7),
@@ -46,7 +46,7 @@ def test_hugoniot(name, u, pressure):
 
 
 def as_written(rho, e, values=ALUMINIUM):
-    """p by the equations as Melosh prints them, region by region; where the cold curve has not turned."""
+    """p by the equations as Melosh prints them, region by region; valid where the cold curve has not turned."""
     rho0, a, b, A, B, E0 = (values[name] for name in ("reference_density", "a", "b", "A", "B", "E0"))
     begins, ends = values["incipient_vaporisation"], values["complete_vaporisation"]
     x, mu = rho / rho0, rho / rho0 - 1.0
@@ -69,7 +69,7 @@ def test_the_equations_as_printed(x, e):
 
 @given(x=st.floats(1e-3, 4.0), e=st.floats(-1e5, 5e7))
 def test_derivatives(x, e):
-    """Where no joint of two regions is near."""
+    """Away from the joints between regions."""
     rho, h = 2700.0 * x, 1e-6
     p, dpdrho, dpde, T = tillotson.evaluate(rho, e, ROW)
     if min(abs(x - 1.0), abs(e / 3e6 - 1.0), abs(e / 13.9e6 - 1.0), abs(e) / 1e5, abs(x - 1.0 + 0.45 * 75.2 / 65.0)) > 1e-4:
@@ -84,7 +84,7 @@ def test_derivatives(x, e):
 
 @pytest.mark.parametrize("e", [0.0, 2.9e6, 3.1e6, 8e6, 13.8e6, 2e7])
 def test_pressure_is_continuous_in_density(e):
-    """Also where material begins to expand, and where the cold curve is left."""
+    """Even where material begins to expand, and where the cold curve is left."""
     for x in (1.0, 1.0 - 0.45 * 75.2 / 65.0):
         below, above = (tillotson.evaluate(2700.0 * x * (1.0 + s), e, ROW)[0] for s in (-1e-12, 1e-12))
         assert below == pytest.approx(above, rel=1e-9, abs=1.0)
@@ -99,7 +99,7 @@ def test_pressure_is_continuous_in_energy(x):
 
 @given(x=st.floats(1e-3, 4.0), e=st.floats(0.0, 5e7))
 def test_sound_is_real_under_pressure(x, e):
-    """In tension it is so down to the strength of the solid's cold curve; material fractures long before."""
+    """In tension down to the strength of the solid's cold curve; material fractures long before."""
     rho = 2700.0 * x
     p, dpdrho, dpde, _ = tillotson.evaluate(rho, e, ROW)
     if p >= 0.0 and e > 0.0:
@@ -131,7 +131,7 @@ def test_isentropes_through_all_regions(u, last, through):
 
 
 def test_temperature_follows_the_isentrope():
-    """dT/T = Gamma drho/rho with Gamma = (dp/de)/rho at e_s, and T rises by de/cv beside it."""
+    """dT/T = Gamma drho/rho with Gamma = (dp/de)/rho at e_s, and off the isentrope T rises by de/cv."""
     def slope(rho, y):
         p, _, dpde, _ = tillotson.evaluate(rho, y[0], ROW)
         return [p / rho**2, y[1] * dpde / rho**2]

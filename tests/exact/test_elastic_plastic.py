@@ -9,18 +9,18 @@ from problems.verification.exact.elastic_plastic import ALUMINIUM, ALUMINIUM_EXA
 
 def test_wilkins_flyer_at_800():
     """Symmetric impact at 800 m/s is a piston at 400 m/s."""
-    found = piston(*ALUMINIUM, 400.0)
-    assert found.elastic.rho == pytest.approx(2800.177, abs=1e-3)
-    assert found.elastic.sigma == pytest.approx(0.63588e9, rel=1e-5)
-    assert found.elastic.u == pytest.approx(35.178, abs=1e-3)
-    assert found.elastic.speed == pytest.approx(6490.43, abs=0.01)
-    assert found.plastic.speed == pytest.approx(5908.52, abs=0.01)
-    assert found.plastic.sigma == pytest.approx(6.63588e9, rel=1e-6)
-    assert found.plastic.p == pytest.approx(6.43588e9, rel=1e-6)
-    assert found.plastic.rho == pytest.approx(2985.63, abs=0.005)
-    assert found.plastic.e == pytest.approx(81272, abs=1)
-    assert found.c_elastic_release == pytest.approx(6903.5, abs=0.1)
-    assert found.c_bulk_release == pytest.approx(5944.1, abs=0.1)
+    solution = piston(*ALUMINIUM, 400.0)
+    assert solution.elastic.rho == pytest.approx(2800.177, abs=1e-3)
+    assert solution.elastic.sigma == pytest.approx(0.63588e9, rel=1e-5)
+    assert solution.elastic.u == pytest.approx(35.178, abs=1e-3)
+    assert solution.elastic.speed == pytest.approx(6490.43, abs=0.01)
+    assert solution.plastic.speed == pytest.approx(5908.52, abs=0.01)
+    assert solution.plastic.sigma == pytest.approx(6.63588e9, rel=1e-6)
+    assert solution.plastic.p == pytest.approx(6.43588e9, rel=1e-6)
+    assert solution.plastic.rho == pytest.approx(2985.63, abs=0.005)
+    assert solution.plastic.e == pytest.approx(81272, abs=1)
+    assert solution.c_elastic_release == pytest.approx(6903.5, abs=0.1)
+    assert solution.c_bulk_release == pytest.approx(5944.1, abs=0.1)
 
 
 def test_wilkins_flyer_at_2000_is_overdriven():
@@ -38,19 +38,19 @@ def test_wilkins_flyer_at_2000_is_overdriven():
     ids=["ExactPack", "copper"],
 )
 def test_weak_pistons(material, u, hel, precursor, shock, sigma, p):
-    found = piston(*material, u)
-    assert found.elastic.sigma == pytest.approx(hel, rel=1e-5)
-    assert found.elastic.speed == pytest.approx(precursor, abs=0.01)
-    assert found.plastic.speed == pytest.approx(shock, abs=0.05)
-    assert found.plastic.sigma == pytest.approx(sigma, rel=1e-5)
-    assert found.plastic.p == pytest.approx(p, rel=4e-5)
+    solution = piston(*material, u)
+    assert solution.elastic.sigma == pytest.approx(hel, rel=1e-5)
+    assert solution.elastic.speed == pytest.approx(precursor, abs=0.01)
+    assert solution.plastic.speed == pytest.approx(shock, abs=0.05)
+    assert solution.plastic.sigma == pytest.approx(sigma, rel=1e-5)
+    assert solution.plastic.p == pytest.approx(p, rel=4e-5)
 
 
 def test_linear_limit():
     """With a tiny yield stress the precursor runs at the longitudinal sound speed."""
     solid, shear_modulus, _ = ALUMINIUM
-    found = piston(solid, shear_modulus, 1e5, 1.0)
-    assert found.elastic.speed == pytest.approx(math.sqrt(solid.c0**2 + 4 * shear_modulus / 3 / solid.rho0), rel=1e-5)
+    solution = piston(solid, shear_modulus, 1e5, 1.0)
+    assert solution.elastic.speed == pytest.approx(math.sqrt(solid.c0**2 + 4 * shear_modulus / 3 / solid.rho0), rel=1e-5)
 
 
 def test_elastic_piston_is_refused():
@@ -59,10 +59,10 @@ def test_elastic_piston_is_refused():
 
 
 def test_an_elastic_piston():
-    """At the elastic limit it is the precursor; in the limit of a slow piston the wave of longitudinal sound."""
+    """At the elastic limit it is the precursor; for a slow piston, in the limit, the longitudinal sound wave."""
     solid, shear_modulus, yield_stress = ALUMINIUM
     limit = piston(solid, shear_modulus, yield_stress, 400.0).elastic
-    found = elastic(solid, shear_modulus, limit.u)
-    assert (found.sigma, found.speed, found.rho) == pytest.approx((limit.sigma, limit.speed, limit.rho), rel=1e-9)
+    solution = elastic(solid, shear_modulus, limit.u)
+    assert (solution.sigma, solution.speed, solution.rho) == pytest.approx((limit.sigma, limit.speed, limit.rho), rel=1e-9)
     slow, sound = elastic(solid, shear_modulus, 1e-3), math.sqrt(solid.c0**2 + 4 * shear_modulus / 3 / solid.rho0)
     assert (slow.speed, slow.sigma) == pytest.approx((sound, solid.rho0 * sound * 1e-3), rel=1e-6)

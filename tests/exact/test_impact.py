@@ -1,4 +1,4 @@
-"""Impedance match and release against numbers that an independent program printed, and against the jump conditions."""
+"""Impedance match and release against numbers printed by an independent program, and against the jump conditions."""
 
 import pytest
 
@@ -35,21 +35,21 @@ TABLE = [
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: f"{row[0].rho0:.0f}-{row[1].rho0:.0f}-{row[2]}")
 def test_table(row):
     flyer, target, velocity, u, p, speed_target, speed_flyer, rho_target, rho_flyer, free = row
-    found = impact(flyer, target, velocity)
-    assert found.u == pytest.approx(u, abs=6e-4)
-    assert found.p == pytest.approx(p * 1e9, rel=2e-5)
-    assert found.target.speed == pytest.approx(speed_target, rel=2e-6)
-    assert found.flyer.speed == pytest.approx(speed_flyer, rel=2e-6)
-    assert found.target.rho == pytest.approx(rho_target, rel=1e-5)
-    assert found.flyer.rho == pytest.approx(rho_flyer, rel=1e-5)
-    assert free_surface_velocity(target, found.target) == pytest.approx(free, rel=1.5e-4)
+    solution = impact(flyer, target, velocity)
+    assert solution.u == pytest.approx(u, abs=6e-4)
+    assert solution.p == pytest.approx(p * 1e9, rel=2e-5)
+    assert solution.target.speed == pytest.approx(speed_target, rel=2e-6)
+    assert solution.flyer.speed == pytest.approx(speed_flyer, rel=2e-6)
+    assert solution.target.rho == pytest.approx(rho_target, rel=1e-5)
+    assert solution.flyer.rho == pytest.approx(rho_flyer, rel=1e-5)
+    assert free_surface_velocity(target, solution.target) == pytest.approx(free, rel=1.5e-4)
 
 
 @pytest.mark.parametrize(("velocity", "p", "speed"), [(500, 19.7002, 4339.3), (2000, 95.6487, 5267.0)])
 def test_tungsten_on_itself(velocity, p, speed):
-    found = impact(TUNGSTEN, TUNGSTEN, velocity)
-    assert found.p == pytest.approx(p * 1e9, rel=1e-5)
-    assert found.target.speed == pytest.approx(speed, abs=0.06)
+    solution = impact(TUNGSTEN, TUNGSTEN, velocity)
+    assert solution.p == pytest.approx(p * 1e9, rel=1e-5)
+    assert solution.target.speed == pytest.approx(speed, abs=0.06)
 
 
 def test_release_leaves_hot_and_light_metal():
@@ -60,7 +60,7 @@ def test_release_leaves_hot_and_light_metal():
 
 @pytest.mark.parametrize("u", [50.0, 500.0, 1500.0])
 def test_two_ways_to_the_same_shock(u):
-    """The Hugoniot line is a solution of the Hugoniot relation with the equation of state."""
+    """The Hugoniot line satisfies the Hugoniot relation with the equation of state."""
     line = shock(AL_5083, u)
     relation = shock_from(AL_5083, AL_5083.rho0, 0.0, line.p)
     assert relation.u == pytest.approx(u, rel=1e-9)

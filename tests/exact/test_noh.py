@@ -15,7 +15,7 @@ def test_plateau(j, rho, p):
 
 @pytest.mark.parametrize("j", [1, 2, 3])
 def test_conservation(j):
-    """What is inside r = 1 at t = 0.6 is what was inside r = 1.6 at t = 0."""
+    """Mass and energy inside r = 1 at t = 0.6 equal those inside r = 1.6 at t = 0."""
     noh, time, n = Noh(j), 0.6, 300_000
     r = (np.arange(n) + 0.5) / n
     rho, u, p = noh.sample(r, time)

@@ -1,4 +1,4 @@
-"""The Riemann solver against Toro's tables and against the jump conditions it must satisfy."""
+"""The Riemann solver against Toro's tables and against the jump conditions."""
 
 import numpy as np
 import pytest
@@ -18,37 +18,37 @@ WATER_GAS = (Gas(1000.0, 0.0, 1e9, 4.4, 6e8), Gas(50.0, 0.0, 1e5, 1.4))
 @pytest.mark.parametrize("name", TORO)
 def test_star_states(name):
     left, right, p, u, rho_left, rho_right = TORO[name]
-    found = solve(left, right)
-    assert found.p == pytest.approx(p, rel=4e-4 if p < 0.01 else 2e-6)
-    assert found.u == pytest.approx(u, rel=3e-6, abs=1e-9)
-    assert found.rho_left == pytest.approx(rho_left, rel=1e-5)
-    assert found.rho_right == pytest.approx(rho_right, rel=1e-5)
+    solution = solve(left, right)
+    assert solution.p == pytest.approx(p, rel=4e-4 if p < 0.01 else 2e-6)
+    assert solution.u == pytest.approx(u, rel=3e-6, abs=1e-9)
+    assert solution.rho_left == pytest.approx(rho_left, rel=1e-5)
+    assert solution.rho_right == pytest.approx(rho_right, rel=1e-5)
 
 
 def test_wave_speeds_of_sod():
-    found = sod()
-    assert found.left_wave == pytest.approx((-1.183216, -0.070273), abs=1e-6)
-    assert found.right_wave == pytest.approx((1.752156, 1.752156), abs=1e-6)
+    solution = sod()
+    assert solution.left_wave == pytest.approx((-1.183216, -0.070273), abs=1e-6)
+    assert solution.right_wave == pytest.approx((1.752156, 1.752156), abs=1e-6)
 
 
 def test_water_drives_gas():
-    found = solve(*WATER_GAS)
-    assert found.p == pytest.approx(1.4190e7, rel=1e-4)
-    assert found.u == pytest.approx(482.61, rel=1e-5)
-    assert found.rho_left == pytest.approx(804.44, rel=1e-5)
-    assert found.rho_right == pytest.approx(288.17, rel=1e-5)
-    assert found.right_wave[0] == pytest.approx(583.93, rel=1e-5)
+    solution = solve(*WATER_GAS)
+    assert solution.p == pytest.approx(1.4190e7, rel=1e-4)
+    assert solution.u == pytest.approx(482.61, rel=1e-5)
+    assert solution.rho_left == pytest.approx(804.44, rel=1e-5)
+    assert solution.rho_right == pytest.approx(288.17, rel=1e-5)
+    assert solution.right_wave[0] == pytest.approx(583.93, rel=1e-5)
 
 
 @pytest.mark.parametrize("pair", [*(value[:2] for value in TORO.values()), WATER_GAS])
 def test_conservation_over_the_fan(pair):
-    """d/dt of mass and momentum in a box that holds every wave is the flux through its ends."""
+    """d/dt of mass and momentum in a box that contains all waves is the flux through its ends."""
     left, right = pair
-    found = solve(left, right)
-    edge = 1.1 * max(abs(found.left_wave[0]), abs(found.right_wave[0]))
+    solution = solve(left, right)
+    edge = 1.1 * max(abs(solution.left_wave[0]), abs(solution.right_wave[0]))
     xi = np.linspace(-edge, edge, 400_001)
     xi = 0.5 * (xi[1:] + xi[:-1])
-    rho, u, p = found.sample(xi)
+    rho, u, p = solution.sample(xi)
     width = xi[1] - xi[0]
     mass = edge * (left.rho + right.rho) + left.rho * left.u - right.rho * right.u
     push = left.p + left.rho * left.u**2 - right.p - right.rho * right.u**2

@@ -22,7 +22,7 @@ def test_printed_energies(j, gamma, alpha, centre):
 def test_kamm_and_timmes_end_times():
     """The problems of LA-UR-07-2849 have the shock at 0.5, 0.75 and 1.0 after 1 s; the planar energy is that of one side.
 
-    Their energies are those of an earlier quadrature and good to four digits.
+    Their energies come from an earlier quadrature and are good to four digits.
     """
     for j, energy, radius in ((1, 2.0 * 0.0673185, 0.5), (2, 0.311357, 0.75), (3, 0.851072, 1.0)):
         assert Sedov(j, 1.4, energy).radius(1.0) == pytest.approx(radius, rel=2e-4)

@@ -18,7 +18,7 @@ def test_printed_speeds(j, stop, speed):
 
 @pytest.mark.parametrize("j", [2, 3])
 def test_energy_by_layers(j):
-    """Kinetic energy of thin layers, and the yield stress times the equivalent strain that each has at the stop."""
+    """Kinetic energy of thin layers, and the yield stress times the equivalent strain of each at the stop."""
     shell = Shell(j, 0.08, 0.1, 1845.0, 0.33e9)
     edges = np.linspace(0.08, 0.1, 4001)
     r = 0.5 * (edges[1:] + edges[:-1])
@@ -36,7 +36,7 @@ def test_a_shell_that_closes():
 
 @pytest.mark.parametrize(("j", "speed"), [(3, 619.787), (2, 490.299)])
 def test_the_path(j, speed):
-    """It begins with the speed and ends at the stop; in the middle the energy that is left is kinetic."""
+    """It begins with the speed and ends at the stop; in the middle the remaining energy is kinetic."""
     shell = Shell(j, 0.08, 0.1, 1845.0, 0.33e9)
     time, radius = shell.path(speed)
     assert (radius[0] - radius[5]) / (time[5] - time[0]) == pytest.approx(speed, rel=5e-3)

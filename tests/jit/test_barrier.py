@@ -1,4 +1,4 @@
-"""The barrier at which the threads of a phase wait for one another, and what there is where they cannot."""
+"""The barrier at which the threads of a phase wait for one another, and the fallback where they cannot."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ TIMES = 500
 
 @threaded
 def meet_often(gate, parts, times, written, missed):
-    """Every thread writes, meets the others, counts what of theirs it does not see, and meets them again."""
+    """Every thread writes, meets the others, counts the writes of theirs that it does not see, and meets them again."""
     for place in prange(parts.shape[0] - 1):
         for k in range(times):
             written[place] = k + 1
@@ -32,14 +32,14 @@ def meet_often(gate, parts, times, written, missed):
 
 
 def met(number: int) -> tuple[int, list[int], list[int]]:
-    """(what one of so many threads did not see of another, what a gate holds after it, what all have written)"""
+    """(writes that one of so many threads did not see of another, the contents of a gate after it, what all have written)"""
     gate, written, missed = np.zeros(GATE, dtype=np.int64), np.zeros(number, dtype=np.int64), np.zeros(number, dtype=np.int64)
     meet_often(gate, np.arange(number + 1), TIMES, written, missed)
     return int(missed.sum()), sorted(set(gate.tolist())), written.tolist()
 
 
 def in_process(code: str, **environment: str) -> str:
-    """What a process of its own prints that runs the code."""
+    """Output of a process of its own that runs the code."""
     code = f"import tests.jit.{__name__.rsplit('.', 1)[-1]} as here\n{code}"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env={**os.environ, **environment}, capture_output=True,
                           text=True, timeout=300)
@@ -58,7 +58,7 @@ def test_one_part_does_not_wait():
 
 
 def parts_and_bits(cycles: int = 12) -> tuple[int, int, str, float]:
-    """(parts that a phase can have, those that it had, sums of what came out, seconds in which the first was found out)"""
+    """(parts that a phase can have, those that it had, sums of the results, seconds in which the first was found out)"""
     start = time.perf_counter()
     jit.parts_at_once()
     waited = time.perf_counter() - start

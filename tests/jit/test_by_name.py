@@ -1,4 +1,4 @@
-"""Functions that take arrays by their names: what is compiled of them, and what is refused."""
+"""Functions that take arrays by their names: their compiled form, and what is refused."""
 
 import inspect
 import traceback
@@ -20,13 +20,13 @@ def half_of(j, i, w):
 
 @jit.apart
 def pushed(j, i, more, w):
-    """What a vertex gains."""
+    """Velocity that a vertex gains."""
     return w.dt * half_of(j, i, w) + more
 
 
 @jit.rowwise
 def push_row(j, more, w):
-    """Pushes the vertices of a row; pushed may be called otherwise."""
+    """Pushes the vertices of a row; pushed may be called under another name."""
     for i in range(w.i0, w.i1):
         u = pushed(j, i, more, w)
         w.v[0, j, i] += u
@@ -41,7 +41,7 @@ def push(part, ranges, w):
 
 @jit.cell_rows
 def count(j, part, w):
-    """Counts rows, and in the first part by ten."""
+    """Counts rows, and in the first part in tens."""
     step = 10.0 if part == 0 else 1.0
     w.dz[j] += step
 
@@ -84,13 +84,13 @@ def test_the_same_comes_of_it_compiled_and_as_python(run):
 
 
 @pytest.mark.parametrize("function", [half_of, pushed], ids=lambda each: each.__name__)
-def test_what_kernels_call_can_be_called_from_python(function):
+def test_functions_that_kernels_call_can_be_called_from_python(function):
     more = (1.0,) if function is pushed else ()
     assert function(2, 1, *more, given()) == by_name.source(function)(2, 1, *more, given())
 
 
 @pytest.mark.parametrize("compiled", [True, False])
-def test_what_is_written_for_a_row_is_done_in_all_rows_of_a_part(compiled):
+def test_a_function_of_a_row_runs_in_all_rows_of_a_part(compiled):
     w = SimpleNamespace(parts=np.array([0, 2, 3]), dz=np.zeros(5))
     for kernel in (count, double):
         for part in (0, 1):
@@ -144,7 +144,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("text", "message"), REFUSED.values(), ids=REFUSED)
-def test_what_cannot_be_rewritten_is_refused(text, message):
+def test_functions_that_cannot_be_rewritten_are_refused(text, message):
     with pytest.raises(ValueError, match=message):
         jit.module_of("refused", f"from {__name__} import half_of, jit\n{text}\njit.point(f)\n")
 
@@ -155,7 +155,7 @@ def test_what_cannot_be_rewritten_is_refused(text, message):
     ("def f(j, s):\n    s.dz[j] = 0.0", "2: f does not take a row j first and w last"),
 ], ids=["returns", "no row", "no handle"])
 @pytest.mark.parametrize("rows", ["cell_rows", "vertex_rows"])
-def test_what_is_not_the_same_in_every_row_is_refused(text, message, rows):
+def test_values_that_differ_between_rows_are_refused(text, message, rows):
     with pytest.raises(ValueError, match=message):
         jit.module_of("refused", f"from hydro2d import jit\n{text}\njit.{rows}(f)\n")
 

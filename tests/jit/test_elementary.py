@@ -41,9 +41,9 @@ def row_of(function, *arguments):
     return out
 
 
-def error(found, exact):
+def error(computed, exact):
     """Largest relative error in units of 2^-52."""
-    return float(np.max(np.abs((found - exact) / exact))) / EPSILON
+    return float(np.max(np.abs((computed - exact) / exact))) / EPSILON
 
 
 @long
@@ -69,8 +69,8 @@ def test_power():
     """Strains from 1e-40 and exponents of all signs; the error grows with the logarithm of the result."""
     x, y = 10.0 ** RANDOM.uniform(-40.0, 8.0, 400_000), RANDOM.uniform(-3.0, 3.0, 400_000)
     exact = x.astype(np.longdouble) ** y.astype(np.longdouble)
-    found = (row_of(powers, x, y) - exact) / exact / (1.0 + np.abs(np.log(exact)))
-    assert float(np.max(np.abs(found))) / EPSILON < 1.0
+    relative = (row_of(powers, x, y) - exact) / exact / (1.0 + np.abs(np.log(exact)))
+    assert float(np.max(np.abs(relative))) / EPSILON < 1.0
 
 
 @pytest.mark.parametrize(("function", "x", "expected"), [
@@ -101,7 +101,7 @@ def test_the_last_values_that_are_finite_and_not_zero():
 
 @pytest.mark.parametrize("number", [1, 7, 8, 9, 31, 64])
 def test_the_bits_do_not_depend_on_the_place_in_a_row(number):
-    """Vectors, what is left after the last one, and a single call."""
+    """Vectors, the remainder after the last one, and a single call."""
     x, y = 10.0 ** RANDOM.uniform(-12.0, 3.0, number), RANDOM.uniform(0.05, 1.5, number)
     np.testing.assert_array_equal(row_of(powers, x, y), [power(a, b) for a, b in zip(x, y, strict=True)])
     np.testing.assert_array_equal(row_of(logs, x), [log(a) for a in x])

@@ -1,4 +1,4 @@
-"""Handles: what compiled code finds by a name is what Python has given by it; values of another type are refused."""
+"""Handles: compiled code finds under a name what Python has stored under it; values of another type are refused."""
 
 import numba
 import numpy as np
@@ -39,29 +39,29 @@ def filled() -> Handle:
 
 
 def test_compiled_code_reads_and_writes_by_name(read):
-    handle, found = filled(), np.zeros(8)
-    read(handle.address, found)
-    assert found.tolist() == [1.5e-9, 7.0, 1.0, 23.0, 234.0, -3.0, 1.0, 6.0]
+    handle, values = filled(), np.zeros(8)
+    read(handle.address, values)
+    assert values.tolist() == [1.5e-9, 7.0, 1.0, 23.0, 234.0, -3.0, 1.0, 6.0]
     assert handle.p.tolist() == [[0.0, 0.0], [0.0, 7.0]]
     handle.give(dt=2.0, travels=False, u=np.arange(48.0).reshape(2, 4, 6))
-    read(handle.address, found)
-    assert found.tolist() == [2.0, 7.0, 0.0, 39.0, 246.0, -3.0, 1.0, 6.0]
+    read(handle.address, values)
+    assert values.tolist() == [2.0, 7.0, 0.0, 39.0, 246.0, -3.0, 1.0, 6.0]
 
 
 def test_two_handles_have_values_of_their_own(read):
-    one, other, found = filled(), filled(), np.zeros(8)
+    one, other, values = filled(), filled(), np.zeros(8)
     other.give(dt=3.0)
-    read(one.address, found)
-    assert found[0] == 1.5e-9
+    read(one.address, values)
+    assert values[0] == 1.5e-9
 
 
 def test_a_handle_keeps_its_arrays_alive(read):
-    handle, found = filled(), np.zeros(8)
+    handle, values = filled(), np.zeros(8)
     for _ in range(20):
         handle.give(u=np.full((2, 3, 4), 5.0))
         np.full((2, 3, 4), -1.0)
-        read(handle.address, found)
-        assert found[3] == 5.0
+        read(handle.address, values)
+        assert values[3] == 5.0
 
 
 @pytest.mark.parametrize("value", [
@@ -97,7 +97,7 @@ def test_a_name_has_one_meaning():
     assert len(handles.declared()) == len(names.NAMES) + len(names.LIGHT)
 
 
-def test_names_exchange_what_they_stand_for():
+def test_names_exchange_their_arrays():
     handle, one, other = jit.Handle(), np.full((2, 1, 3, 4), 1.0), np.full((2, 1, 3, 4), 2.0)
     handle.give(velocity=one, velocity0=other)
     before = handle._words.copy()

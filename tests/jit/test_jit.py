@@ -51,7 +51,7 @@ def test_models_without_the_function_are_left_out():
 
 
 def test_the_chain_has_one_name_for_the_same_text():
-    """What is compiled of it is found again by that name and by the text, of which no file exists."""
+    """Its compiled code is found again by that name and by the text, for which no file exists."""
     function = dispatch.flow_stress.py_func
     again = jit.by_id(dispatch.STRENGTH_MODULES, "flow_stress", "ep, rate, T, p, rho, par", dispatch.flow_stress.__doc__)
     assert again.py_func.__code__.co_filename == (file := function.__code__.co_filename)
@@ -74,8 +74,8 @@ def seen_by(name: str) -> set[str]:
 
 
 @pytest.mark.parametrize("file", KERNELS, ids=lambda file: file.stem)
-def test_whatever_a_kernel_can_call_is_among_the_sources_of_its_cache(file):
-    """Every compiled function that its module knows, and what that one's module knows, and so on."""
+def test_all_functions_that_a_kernel_can_call_are_sources_of_its_cache(file):
+    """Every compiled function that its module knows, and those that their modules know, and so on."""
     seen, waiting, known = cache.seen_by(file), [importlib.import_module(f"hydro2d.kernels.{file.stem}")], set()
     while waiting:
         for value in vars(waiting.pop()).values():
@@ -90,13 +90,13 @@ def test_whatever_a_kernel_can_call_is_among_the_sources_of_its_cache(file):
 
 
 def test_constants_of_any_folder_are_among_the_sources():
-    """A kernel of the solver once kept old columns: they stand in a file beside it, of which the hash did not know."""
+    """A kernel of the solver once kept old columns: their file next to it was not in the hash."""
     assert "hydro2d/mesh/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
     assert "hydro2d/mesh/fields.py" in seen_by("hydro2d/kernels/remap.py")
     assert not {"hydro2d/__init__.py", "hydro2d/files.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
 
 
-#: what numba does not promise to keep: (object, attribute, words that its signature must have)
+#: features that numba does not promise to keep: (object, attribute, words that its signature must have)
 RELIED_ON = [
     (codegen.CPUCodeLibrary, "_optimize_final_module", ("self",)),
     (codegen.CPUCodeLibrary, "_finalize_final_module", ("self",)),
@@ -141,9 +141,9 @@ RELIED_ON = [
 
 
 @pytest.mark.parametrize(("owner", "name", "words"), RELIED_ON, ids=[name for _, name, _ in RELIED_ON])
-def test_what_numba_does_not_promise_is_there(owner, name, words):
-    found = getattr(owner, name)
-    assert not words or set(words) <= set(inspect.signature(found).parameters)
+def test_unpromised_features_of_numba_exist(owner, name, words):
+    feature = getattr(owner, name)
+    assert not words or set(words) <= set(inspect.signature(feature).parameters)
 
 
 def test_no_other_private_name_of_numba_is_used():
@@ -180,8 +180,8 @@ def test_the_folder_changes_with_the_text_of_a_source(tmp_path):
 
 
 def test_the_cache_in_the_temporary_folder_is_the_users_alone(tmp_path, monkeypatch, capsys):
-    """What is kept there is executed: a folder that somebody has prepared is not used."""
-    monkeypatch.setenv("HYDRO2D_CACHE_DIR", os.environ.get("HYDRO2D_CACHE_DIR", ""))  # as it was, afterwards
+    """Files kept there are executed: a folder that somebody else has prepared is not used."""
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", os.environ.get("HYDRO2D_CACHE_DIR", ""))  # restored afterwards
     own = str(tmp_path / "own")
     assert cache._private(own) == cache._private(own) == own
     assert stat.S_IMODE(os.stat(own).st_mode) == 0o700
@@ -206,7 +206,7 @@ def test_a_home_that_cannot_be_written_to_has_a_private_cache(tmp_path, monkeypa
 
 @pytest.mark.parametrize(("own", "home"), [("", ""), ("", "here"), ("", "./here"), (None, ""), (None, "here")])
 def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_it(own, home, tmp_path, monkeypatch):
-    """What is kept there is executed, and the directory can be anybody's."""
+    """Files kept there are executed, and the directory can be anybody's."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     (tmp_path / "home" / ".cache").mkdir(parents=True)
@@ -218,8 +218,8 @@ def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_i
 
 
 @pytest.mark.parametrize("apart", [True, False])
-def test_arrays_of_kernels_are_promised_to_be_apart(apart):
-    """The option is numba's own; a compiler that is not told compares addresses before every loop."""
+def test_arrays_of_kernels_are_promised_not_to_overlap(apart):
+    """The option is numba's own; without it the compiler compares addresses before every loop."""
     def add(n, a, b):
         for i in range(n):
             a[i] += b[i]
@@ -233,8 +233,8 @@ def test_arrays_of_kernels_are_promised_to_be_apart(apart):
 
 
 @pytest.mark.parametrize("only_calls", [True, False])
-def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, monkeypatch):
-    """A phase calls its kernels by their names; without the option, a kernel as short as this one becomes part of it."""
+def test_kernels_are_not_optimised_again_in_their_callers(only_calls, monkeypatch):
+    """A phase calls its kernels by their names; without the option, a kernel as short as this one is inlined into it."""
     def named_kernel(part, parts, a):
         for j in range(parts[part], parts[part + 1]):
             a[j] *= 2.0
@@ -252,8 +252,8 @@ def test_kernels_are_not_optimised_again_in_what_only_calls_them(only_calls, mon
 
 
 @pytest.mark.parametrize("inner", [True, False])
-def test_what_only_compiled_code_calls_has_no_code_of_its_own(inner, monkeypatch):
-    """A kernel is part of the machine code of the phase that calls it, and is not made into code by itself."""
+def test_functions_called_only_by_compiled_code_have_no_code_of_their_own(inner, monkeypatch):
+    """A kernel is part of the machine code of the phase that calls it, and is not compiled by itself."""
     def kernel_of_a_phase(a):
         a[0] += 2.0
 
@@ -284,7 +284,7 @@ def test_python_gets_code_of_its_own_when_it_asks():
 
 
 def test_every_phase_only_calls_kernels():
-    """As the option takes for granted: what is not a kernel, or the barrier, would not be optimised at all."""
+    """The option assumes it: a function that is neither a kernel nor the barrier would not be optimised at all."""
     for name in ("lagrangian_step", "remap_step"):
         module = importlib.import_module(f"hydro2d.kernels.{name}")
         phases = [value for value in vars(module).values() if isinstance(value, jit.Phase)]

@@ -1,4 +1,4 @@
-"""Phases as lists: the function that is made of one does what the list says, part by part, barrier by barrier."""
+"""Phases as lists: the function made from one does what the list says, part by part, barrier by barrier."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ PHASES = {name: value for module in (lagrangian_step, remap_step) for name, valu
 
 
 def text(*steps) -> list[str]:
-    """The lines of the function that is made of some steps."""
+    """The lines of the function made from some steps."""
     phase = Phase("made", "Made for a test.", *steps)
     kernels = list(dict.fromkeys(run.kernel for run in phase.runs()))
     lines = phase._text(kernels).split("\n")
@@ -34,7 +34,7 @@ def test_a_list_becomes_a_function():
     ]  # fmt: skip
 
 
-def test_what_a_phase_takes():
+def test_arguments_of_a_phase():
     phase = Phase("made", "Made for a test.", when("travels", alone(thermodynamics.least_step)))
     assert phase.takes == {"parts", "gate", "travels", "row_step", "bad", "least_row"}
 
@@ -60,7 +60,7 @@ def test_lists_that_make_no_sense_are_refused(steps, message):
 
 @pytest.mark.parametrize("name", PHASES)
 def test_phases_of_the_step_do_what_their_lists_say(name):
-    """Every kernel of the list is in the text, in its order, and every barrier."""
+    """Every kernel of the list is in the text, in order, and so is every barrier."""
     phase = PHASES[name]
     kernels = list(dict.fromkeys(run.kernel for run in phase.runs()))
     lines = phase._text(kernels).split("\n")

@@ -1,4 +1,4 @@
-"""Compiled code that a wheel brings: it is used wherever the package lies, and is made without anything of the user's."""
+"""Compiled code shipped in a wheel: it is used wherever the package lies, and contains nothing of the user's."""
 
 import importlib.util
 import json
@@ -19,25 +19,25 @@ from tests.jit.test_store import PROGRAM
 
 
 def installed(place: Path) -> Path:
-    """A copy of the packages, as an installation has them."""
+    """A copy of the packages, as in an installation."""
     for name in ("hydro2d", "eos", "strength"):
         shutil.copytree(cache.ROOT / name, place / name, ignore=shutil.ignore_patterns("__pycache__", "_compiled"))
     return place
 
 
 def runs(site: Path, home: Path, **environment: str) -> tuple[str, list[str], set[str]]:
-    """What the program prints, the lines of the error output, and the names of the files of code in the user's cache then."""
+    """The program's output, the lines of its error output, and the names of the files of code in the user's cache then."""
     home.mkdir(exist_ok=True)
     (home / "program.py").write_text(PROGRAM)
     own = {name: value for name, value in os.environ.items() if not name.startswith("HYDRO2D_")}
     own |= {"HYDRO2D_CACHE_DIR": str(home / "cache"), "PYTHONPATH": str(site), **environment}
     done = subprocess.run([sys.executable, str(home / "program.py")], env=own, text=True, capture_output=True, check=True)
-    found = {f"{file.parent.name}/{file.name}" for file in (home / "cache").glob("*/*.code")}
-    return done.stdout.strip(), done.stderr.splitlines(), found
+    names = {f"{file.parent.name}/{file.name}" for file in (home / "cache").glob("*/*.code")}
+    return done.stdout.strip(), done.stderr.splitlines(), names
 
 
 def ship(site: Path, home: Path) -> None:
-    """Makes the user's cache the compiled code of the package."""
+    """Ships the user's cache as the compiled code of the package."""
     shutil.copytree(home / "cache", site / "hydro2d" / "_compiled")
     about = ("from hydro2d.jit import cache; from hydro2d.files import write_json\n"
              "write_json(cache.SHIPPED / cache.ABOUT, cache.about())")
@@ -80,7 +80,7 @@ def test_damaged_code_of_the_package_is_compiled_into_the_users_cache(tmp_path):
 
 @pytest.fixture
 def nothing_compiled(tmp_path, monkeypatch):
-    """`main` in an empty cache, where compilation makes a file of each kind; gives the cache."""
+    """`main` in an empty cache, where compilation makes a file of each kind; returns the cache."""
     def compiles(files):
         assert all(file.is_file() for file in files)
         folder = tmp_path / "cache" / "0123"
@@ -97,8 +97,8 @@ def nothing_compiled(tmp_path, monkeypatch):
 @pytest.mark.skipif(target.named() is None, reason="this kind of machine has no named target")
 def test_the_folder_of_a_wheel_has_code_and_what_it_is_for(nothing_compiled):
     compile_all.main()
-    found = {file.relative_to(nothing_compiled).as_posix() for file in nothing_compiled.glob("**/*") if file.is_file()}
-    assert found == {"0123/a.code", "about.json"}
+    names = {file.relative_to(nothing_compiled).as_posix() for file in nothing_compiled.glob("**/*") if file.is_file()}
+    assert names == {"0123/a.code", "about.json"}
     about = json.loads((nothing_compiled / "about.json").read_text())
     assert {name: about[name] for name in cache.about()} == cache.about()
     with pytest.raises(FileExistsError, match="is not empty"):
@@ -113,7 +113,7 @@ def test_code_for_this_processor_alone_is_not_shipped(nothing_compiled, monkeypa
 
 
 class Interface:
-    """What hatchling gives a build hook."""
+    """The interface that hatchling gives a build hook."""
 
     def __init__(self, target_name="wheel"):
         self.target_name, self.root = target_name, str(cache.ROOT)
@@ -137,7 +137,7 @@ def hook(monkeypatch):
 @pytest.mark.parametrize(("value", "kind", "version"), [("", "wheel", "standard"), ("0", "wheel", "standard"),
                                                         ("1", "sdist", "standard"), ("1", "wheel", "editable")])
 def test_nothing_is_compiled_unless_a_wheel_is_to_have_it(value, kind, version, hook, monkeypatch):
-    """Neither for `pip install .`, nor for the sdist, nor for an editable install."""
+    """Not for `pip install .`, the sdist or an editable install."""
     monkeypatch.setenv("HYDRO2D_BUILD_COMPILED", value)
     build, data = hook(kind), {"force_include": {}}
     build.initialize(version, data)

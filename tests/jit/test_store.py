@@ -1,4 +1,4 @@
-"""Files of compiled code: what was written comes back, and nothing else is executed."""
+"""Files of compiled code: they are read back as they were written, and nothing else is executed."""
 
 import errno
 import os
@@ -35,13 +35,13 @@ def made(function, *folders: Path):
 
 
 def hits(compiled) -> int:
-    """How often it came from a file."""
+    """Number of times that it came from a file."""
     return sum(compiled.stats.cache_hits.values())
 
 
 @pytest.fixture
 def said(capsys):
-    """What is said on the error output, as if nothing had been said before."""
+    """Messages on the error output, as if there had been none before."""
     cache.say_once.cache_clear()
     return lambda: error_output.lines(capsys.readouterr().err)
 
@@ -54,7 +54,7 @@ def kept(tmp_path):
     return file
 
 
-def test_what_was_compiled_comes_back(kept, said):
+def test_compiled_code_comes_back(kept, said):
     again = made(add, kept.parent)
     assert again._cache.has((numba.float64,))
     assert not again._cache.has((numba.int64,))
@@ -67,11 +67,11 @@ def test_what_was_compiled_comes_back(kept, said):
 
 
 def test_the_file_has_no_path_in_it(kept):
-    """It is for any machine, and names none."""
+    """It is for any machine, and contains no name of one."""
     assert str(cache.ROOT).encode() not in kept.read_bytes()
 
 
-def test_a_folder_that_stands_first_is_read_and_not_written(kept, tmp_path, said):
+def test_the_first_folder_is_read_and_not_written(kept, tmp_path, said):
     own = tmp_path / "own"
     compiled = made(add, kept.parent, own)
     assert (compiled(1.0), hits(compiled)) == (8.0, 1)
@@ -81,7 +81,7 @@ def test_a_folder_that_stands_first_is_read_and_not_written(kept, tmp_path, said
 
 
 class Planted:
-    """What runs a program when it is unpickled."""
+    """An object that runs a program when it is unpickled."""
 
     def __init__(self, trace: Path):
         self.trace = trace
@@ -106,7 +106,7 @@ def headed(data: bytes, file: Path) -> bytes:
 
 
 def no_pickle(data: bytes, file: Path) -> bytes:
-    """Whose checksum matches."""
+    """A pickle with a correct checksum."""
     return b"%s %s\n" % (store.FORM, store._checksum(file, b"none")) + b"none"
 
 
@@ -160,7 +160,7 @@ PLACES = {"a folder": lambda file: (file.unlink(), file.mkdir()), "a pipe": lamb
 
 
 @pytest.mark.parametrize("damage", PLACES.values(), ids=PLACES)
-def test_what_is_no_file_does_not_end_a_run(damage, kept, said):
+def test_a_path_that_is_no_file_does_not_end_a_run(damage, kept, said):
     damage(kept)
     compiled = made(add, kept.parent)
     assert (compiled(1.0), hits(compiled)) == (8.0, 0)
@@ -176,7 +176,7 @@ def test_a_file_in_the_place_of_the_folder(tmp_path, said):
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EIO])
 def test_a_place_that_fails_in_the_middle_of_a_write_is_said_once(number, tmp_path, said, monkeypatch):
-    """The run goes on, and nothing half-written is left."""
+    """The run goes on, and no half-written file is left."""
     whole = Path.write_bytes
 
     def half(path, data):
@@ -202,7 +202,7 @@ def test_a_disk_that_is_full_for_one_file(tmp_path, said, monkeypatch):
     assert len(said()) == 1
 
 
-#: a program with two kernels; it says what they give
+#: a program with two kernels; it prints their results
 PROGRAM = """
 from hydro2d import jit
 import numpy as np
@@ -225,7 +225,7 @@ print(a[0])
 
 
 def program(folder: Path, *before: str, root: str = "") -> tuple[str, list[str]]:
-    """What it prints, and the lines of the error output. before : words of the command before Python"""
+    """Its output, and the lines of its error output. before : words of the command before Python"""
     (folder / "program.py").write_text(PROGRAM)
     own = {"HYDRO2D_CACHE_DIR": root or str(folder / "cache"), "PYTHONPATH": str(cache.ROOT)}
     done = subprocess.run([*before, sys.executable, str(folder / "program.py")], env={**os.environ, **own}, text=True,
@@ -234,16 +234,16 @@ def program(folder: Path, *before: str, root: str = "") -> tuple[str, list[str]]
 
 
 def test_every_file_of_a_cache_can_be_spoiled(tmp_path):
-    """The locks as well as the code; nothing is left that ends a run."""
+    """The locks as well as the code; no leftover ends a run."""
     assert program(tmp_path) == ("6.0", [])
-    found = [file for file in (tmp_path / "cache").glob("*/*") if file.is_file()]
-    assert {file.suffix for file in found} == {".code", ".lock"}
-    for file in found:
+    files = [file for file in (tmp_path / "cache").glob("*/*") if file.is_file()]
+    assert {file.suffix for file in files} == {".code", ".lock"}
+    for file in files:
         file.write_bytes(b"garbage")
     printed, lines = program(tmp_path)
     assert (printed, len(lines)) == ("6.0", 2)
     assert program(tmp_path) == ("6.0", [])
-    for file in found:
+    for file in files:
         if file.suffix == ".lock":
             file.unlink()
             file.mkdir()
@@ -258,7 +258,7 @@ def can_mount() -> bool:
 @pytest.mark.skipif(not can_mount(), reason="no file system can be mounted here")
 @pytest.mark.parametrize("size", ["4k", "8k,nr_inodes=3", "16k"])
 def test_a_file_system_that_is_full(size, tmp_path):
-    """It has room for nothing, for folders but no more, or for one function and half of the next."""
+    """It has room for nothing, for folders only, or for one function and half of the next."""
     (tmp_path / "disk").mkdir()
     script = f'mount -t tmpfs -o size={size} none "$0" && exec "$@"'
     before = ["unshare", "--mount", "--map-root-user", "sh", "-c", script, str(tmp_path / "disk")]

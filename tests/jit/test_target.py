@@ -1,4 +1,4 @@
-"""The processor that code is compiled for, and that code for another one, or by other options, is never taken for it."""
+"""The processor that code is compiled for; code for another one, or with other options, is never used instead."""
 
 import os
 import platform
@@ -45,7 +45,7 @@ def test_a_target_that_is_not_there_is_an_error(monkeypatch):
 
 
 @pytest.mark.parametrize(("machine", "name", "lacks"), [("x86_64", "x86-64-v3", "avx2"), ("aarch64", "generic", "neon")])
-def test_a_processor_without_the_features_is_told_which(machine, name, lacks, monkeypatch):
+def test_missing_features_of_a_processor_are_named(machine, name, lacks, monkeypatch):
     monkeypatch.setattr(platform, "machine", lambda: machine)
     monkeypatch.setenv("HYDRO2D_TARGET", name)
     has = dict.fromkeys(target.named().features, True)
@@ -68,8 +68,8 @@ def test_numba_compiles_for_the_target():
 
 
 @needs_name
-def test_a_program_that_has_used_numba_before_is_told(tmp_path):
-    """The target stays what it was, also in the names of the files."""
+def test_a_program_that_has_used_numba_before_gets_a_message(tmp_path):
+    """The target stays as it was, also in the names of the files."""
     done = in_process("import numba; numba.njit(lambda x: x)(1); from hydro2d.jit import target; print(target.PROCESSOR)",
                       HYDRO2D_TARGET=NAME)
     assert done.stdout.strip() == llvmlite.binding.get_host_cpu_name()
@@ -77,7 +77,7 @@ def test_a_program_that_has_used_numba_before_is_told(tmp_path):
     assert len(done.stderr.splitlines()) == 1
 
 
-#: variables of numba that change code, and what says that they are different from the default
+#: variables of numba that change code, and the text that says that they differ from the default
 CHANGES = {"NUMBA_OPT": "max", "NUMBA_LOOP_VECTORIZE": "0", "NUMBA_SLP_VECTORIZE": "1", "NUMBA_ENABLE_AVX": "0",
            "NUMBA_BOUNDSCHECK": "1", "NUMBA_DEBUGINFO": "1", "NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": "",
            "HYDRO2D_TARGET": NAME}  # fmt: skip
@@ -86,7 +86,7 @@ HARMLESS = {"NUMBA_FULL_TRACEBACKS": "1", "NUMBA_DEVELOPER_MODE": "0", "NUMBA_CO
 
 @needs_name
 def test_options_that_change_code_change_the_folder():
-    """And what only changes reports does not."""
+    """Variables that only change reports do not."""
     code = "from hydro2d.jit import cache; print(cache.folder_for([cache.HERE / 'bits.py']))"
     processes = {name: subprocess.Popen([sys.executable, "-c", code], cwd=cache.ROOT, stdout=subprocess.PIPE, text=True,
                                         env={**os.environ, **({name: value} if name else {})})
@@ -105,7 +105,7 @@ def test_other_versions_have_other_folders(module, name, monkeypatch):
 
 
 def test_the_folder_is_the_same_wherever_the_package_lies(tmp_path, monkeypatch):
-    """A file is known by its path from the folder that holds hydro2d, not by its name alone."""
+    """A file is known by its path from the folder that contains hydro2d, not by its name alone."""
     for place in ("one", "two"):
         for name in ("eos/a.py", "strength/a.py"):
             (tmp_path / place / name).parent.mkdir(parents=True)
@@ -181,7 +181,7 @@ def test_a_run_has_the_same_bits_on_another_target():
 
 @pytest.fixture
 def shipped(tmp_path, monkeypatch, capsys):
-    """A package with compiled code, of which a test changes what it is for; gives what is then said."""
+    """A package with compiled code, of which a test changes the target; returns the message."""
     monkeypatch.setattr(cache, "SHIPPED", tmp_path / "_compiled")
     (tmp_path / "_compiled").mkdir()
 
@@ -217,7 +217,7 @@ def test_shipped_code_for_something_else_is_said_in_one_line(changes, said, ship
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "{}", "1"])
-def test_what_does_not_say_what_it_is_for_is_not_used(text, shipped):
+def test_code_without_a_target_is_not_used(text, shipped):
     (line,) = shipped(text)
     assert "about.json" in line
     assert "does not say what it is for" in line

@@ -13,7 +13,7 @@ from hydro2d.mesh.state import State
 
 
 def handle(**values) -> SimpleNamespace:
-    """What a function of kernels takes by name."""
+    """The values that a function of kernels takes by name."""
     return SimpleNamespace(**values)
 
 
@@ -28,9 +28,9 @@ def source(function):
 
 
 class Cells:
-    """A mesh of square cells of 1 m, planar if not told otherwise; its first cell is (2, 2), as ghosts come before it.
+    """A mesh of square cells of 1 m, planar by default; its first cell is (2, 2), after the ghosts.
 
-    All of it is the active box, in one part, and every body may be in every cell. A sweep goes along r.
+    All of it is the active box, in one part, and every body may be in every cell. Sweeps go along r.
     """
 
     def __init__(self, nr: int = 4, nz: int = 4, bodies: int = 1, group=None, geometry: str = "planar"):
@@ -50,10 +50,10 @@ class Cells:
         return getattr(self.__dict__["state"], name)
 
     def call(self, function, as_python: bool = False, **given):
-        """Calls a function of kernels: what is not given is what the state or the mesh has by its name."""
-        own, taken = by_name.own_parameters(function), by_name.takes(function)
-        assert set(given) <= set(taken), set(given) - set(taken)
-        found = {**self.known, **given}
-        values = {name: found[name] if name in found else getattr(self.state, name, None) if hasattr(self.state, name)
-                  else getattr(self.grid, name) for name in taken}  # fmt: skip
+        """Calls a function of kernels: arguments not given are those of the state or the mesh with that name."""
+        own, names = by_name.own_parameters(function), by_name.takes(function)
+        assert set(given) <= set(names), set(given) - set(names)
+        known = {**self.known, **given}
+        values = {name: known[name] if name in known else getattr(self.state, name, None) if hasattr(self.state, name)
+                  else getattr(self.grid, name) for name in names}  # fmt: skip
         return (source(function) if as_python else function)(*(values[name] for name in own), *handles(function, values))

@@ -1,4 +1,4 @@
-"""Kernels of the step, each by itself, for the whole active box of an engine in one part."""
+"""Kernels of the step, each by itself, over the whole active box of an engine in one part."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def ghost_vertices(engine) -> None:
 
 
 def constrain(engine) -> None:
-    """The given normal velocities of axis, walls and edges."""
+    """Sets the prescribed normal velocities of axis, walls and edges."""
     s = engine.state
     boundaries.constrain(0, handle(parts=rows(engine), constrained=engine.edges.constrained, pushing=engine.edges.pushing,
                          edge_velocity=engine.method.boundaries.velocity, mass=s.mass, u0=s.u0, v0=s.v0, u=s.u, v=s.v,
@@ -32,14 +32,14 @@ def constrain(engine) -> None:
 
 
 def keep_one(engine) -> None:
-    """The one velocity of vertices that one of two groups has: both groups of the state are given it."""
+    """At vertices where only one of two groups has a velocity, gives it to both groups of the state."""
     s, (_, _, i0, i1) = engine.state, engine.box
     contact_motion.keep_one(0, handle(parts=rows(engine), i0=i0, i1=i1, group_ranges=s.group_ranges, mass=s.mass, u=s.u,
                             v=s.v))
 
 
 def sweep_faces(engine) -> None:
-    """Volumes that the faces sweep in a step, by the velocities at both of its ends."""
+    """Volumes that the faces sweep in a step, from the velocities at its start and end."""
     s, g, (_, _, i0, i1) = engine.state, engine.grid, engine.box
     acceleration.swept_volumes(0, handle(parts=rows(engine), i0=i0, i1=i1, dt=engine.dt, metrics=g.metrics, dz=g.dz,
                                group_ranges=s.group_ranges, u0=s.u0, v0=s.v0, u=s.u, v=s.v, fr=s.fr, fz=s.fz))

@@ -15,7 +15,7 @@ from tests.decks import entry, mesh, plate, rod, stop, table
 
 #: bytes: views and numbers of Python, the same on every mesh
 SLACK = 512
-#: cycles before memory is looked at, and while it is: both orders of the sweeps, with and without new slip zones
+#: cycles before memory is measured, and during: both orders of the sweeps, with and without new slip zones
 WARM, LOOKED_AT = 6, 10
 
 
@@ -35,11 +35,11 @@ def started(columns: int, rows: int, *, active: bool, advection: str, sliding: s
 
 
 def peaks(simulation: Simulation) -> list[int]:
-    """The most memory that every one of a few cycles holds beyond what was there before it, bytes.
+    """The largest memory of each of a few cycles beyond that before the cycle, bytes.
 
-    Not of those in which depths are looked at, whose columns are as long as the mesh.
+    Cycles in which depths are measured, with columns as long as the mesh, are left out.
     """
-    found = []
+    bytes_held = []
     tracemalloc.start()
     try:
         simulation.step()
@@ -48,10 +48,10 @@ def peaks(simulation: Simulation) -> list[int]:
             tracemalloc.reset_peak()
             simulation.step()
             if simulation.cycle % WATCH_EVERY:
-                found.append(tracemalloc.get_traced_memory()[1] - before)
+                bytes_held.append(tracemalloc.get_traced_memory()[1] - before)
     finally:
         tracemalloc.stop()
-    return found
+    return bytes_held
 
 
 every_choice = pytest.mark.parametrize(
@@ -74,9 +74,9 @@ def test_numpy(options):
 
 @every_choice
 def test_kernels(monkeypatch, options):
-    """Kernels neither allocate nor count references to the arrays that they are given."""
+    """Kernels neither allocate nor count references to their arrays."""
     simulation = started(24, 72, **options)
-    monkeypatch.setattr(simulation, "refuse_nonsense", lambda: None)  # its sums are no kernels of a cycle
+    monkeypatch.setattr(simulation, "refuse_nonsense", lambda: None)  # its sums are not kernels of a cycle
     counting = _nrt_python.memsys_stats_enabled()
     _nrt_python.memsys_enable_stats()
     try:

@@ -1,4 +1,4 @@
-"""Between two barriers no part of the mesh touches what another one writes: every access of a step, seen in Python."""
+"""Between two barriers no part of the mesh touches what another one writes: every access of a step, watched in Python."""
 
 import functools
 import sys
@@ -25,7 +25,7 @@ DECKS = {"slip-layer": text_of("both", LAYER), "contact": text_of("both", CONTAC
 
 
 class Seen(threading.local):
-    """What the part that runs has read and written since the last barrier: addresses."""
+    """The addresses that the running part has read and written since the last barrier."""
 
     def __init__(self):
         self.read, self.written = set(), set()
@@ -47,10 +47,10 @@ class Watched(np.ndarray):
         return self.at + sum(int(place) * step for place, step in zip(places, self.strides, strict=True))
 
     def __getitem__(self, key):
-        found = super().__getitem__(key)
-        if not isinstance(found, np.ndarray):
+        item = super().__getitem__(key)
+        if not isinstance(item, np.ndarray):
             SEEN.read.add(self._address(key))
-        return found
+        return item
 
     def __setitem__(self, key, value):
         SEEN.written.add(self._address(key))
@@ -60,7 +60,7 @@ class Watched(np.ndarray):
 class Races:
     """Runs the phases as Python, every part in a thread of its own, one after another from barrier to barrier.
 
-    found : (phase, number of the interval between barriers, array) of what one part wrote and another one touched
+    found : (phase, number of the interval between barriers, array) of elements written by one part and touched by another
     """
 
     def __init__(self, monkeypatch, without: tuple[str, int] | None = None):
@@ -125,15 +125,15 @@ class Races:
 
 
 def owners(address: int, arrays: list) -> list[str]:
-    """The names of the arrays that an address lies in."""
-    found = [name for name, array in arrays
+    """The names of the arrays that contain an address."""
+    names = [name for name, array in arrays
              if 0 <= address - array.__array_interface__["data"][0] < array.nbytes]
-    assert found, "an address of no array"
-    return found
+    assert names, "an address of no array"
+    return names
 
 
 def everything_happens(monkeypatch) -> None:
-    """What is rare happens everywhere: groups come apart in every cell beside them, and every contact node is a slave."""
+    """Makes rare events happen everywhere: groups part in every cell next to them, every contact node is a slave."""
     for name in ("meeting", "come_apart"):
         monkeypatch.setattr(contact_motion, name, lambda *_: True)
     monkeypatch.setattr(extension, "sureness", lambda share: 0.0)
@@ -168,7 +168,7 @@ def test_no_part_touches_what_another_one_writes(monkeypatch, case):
 
 
 def barrier_before(phase: str, kernel: str) -> tuple[str, int]:
-    """The last barrier in a phase before it calls a kernel: which of its barriers it is, from 1, with contact."""
+    """The last barrier in a phase before it calls a kernel: its number in the phase, from 1, with contact."""
     module = next(module for module, name in PHASES if name == phase)
     steps = [step if step == jit.WAIT else f"{step.kernel.__module__.split('.')[-1]}.{step.kernel.__name__}"
              for step in flat(getattr(module, phase).steps)]
@@ -176,7 +176,7 @@ def barrier_before(phase: str, kernel: str) -> tuple[str, int]:
 
 
 def flat(steps):
-    """The steps of a phase, those of its branches in their places."""
+    """The steps of a phase, with those of its branches in their places."""
     for step in steps:
         if hasattr(step, "steps"):
             yield from flat(step.steps)
@@ -184,13 +184,13 @@ def flat(steps):
             yield step
 
 
-#: barriers without which bits rarely change, and what is then touched by two parts
+#: barriers without which bits rarely change, and the array that two parts then touch
 RARE = [
     ("find_contact", "contact_motion.contact_viscosity", "vof"),
     ("carry_bodies", "contact_volumes.limit_fluxes", "flux_volume"),
     ("carry_momentum", "column_ranges.find_active_ranges", "occupied"),
 ]
-#: all others of which this deck has need
+#: all others that this deck needs
 OFTEN = [
     ("close_cells", "mixed.close_cells", "u"), ("close_cells", "contact_geometry.number_nodes", "contact_node_count"),
     ("find_contact", "contact_geometry.face_apertures", "line"), ("find_contact", "extension.find_extensions", "filled"),
@@ -214,6 +214,6 @@ def test_a_barrier_that_is_missing_is_seen(monkeypatch, phase, kernel, array):
 
 
 def test_without_contact_sweeps_wait_for_the_volumes_of_mixed_cells(monkeypatch):
-    """The third barrier that is met; with contact it is the fifth, and `limit_fluxes` stands before it."""
+    """The third barrier reached; with contact it is the fifth, and `limit_fluxes` comes before it."""
     seen = races(monkeypatch, "slip-layer", ("carry_bodies", 3))
     assert "flux_volume" in {touched for _, _, touched in seen.found}

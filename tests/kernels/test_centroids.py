@@ -1,4 +1,4 @@
-"""Where bodies lie in the cells that they share, while they are carried and while they push each other."""
+"""Positions of bodies in the cells that they share, while they are carried and while they push each other."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ volume_before = centroids.volume_before.source
 donor_place = centroids.donor_place.source
 forget_centroids = remap.forget_centroids.py_func
 
-#: nothing moves with a velocity of its own
+#: no body has a velocity of its own
 ONE_GROUP, NO_CONTACT = np.zeros((1, 1, 1)), np.zeros((1, 2), dtype=np.int64)
 
 
@@ -23,17 +23,17 @@ ONE_GROUP, NO_CONTACT = np.zeros((1, 1, 1)), np.zeros((1, 2), dtype=np.int64)
 
 
 def sizes(cells, dj):
-    """Of the cells along the sweep: what a volume is divided by is the same in all of them across."""
+    """Sizes of the cells along the sweep, by which a volume is divided: the same in all cells across."""
     return cells.grid.dz if dj else cells.grid.volume[3]
 
 
 def faces_of(cells, dj):
-    """Sum of the sizes up to every face along the sweep, ghosts counted."""
+    """Sum of the sizes up to every face along the sweep, ghosts included."""
     return np.append(0.0, np.cumsum(sizes(cells, dj)))
 
 
 def place_slab(cells, m, first, last, dj) -> None:
-    """Body m between two places along the sweep, in all cells across, and the centroids of its parts."""
+    """Puts body m between two places along the sweep, in all cells across, and sets the centroids of its parts."""
     faces, size = faces_of(cells, dj), sizes(cells, dj)
     low, high = np.clip(faces[:-1], first, last), np.clip(faces[1:], first, last)
     share = (high - low) / size
@@ -74,7 +74,7 @@ STEPS = 2 * (0.3, 0.45, 0.4, 0.35, 0.5, 0.3, -0.2, -0.45, 0.5, 0.1, 0.45, 0.4)
 
 
 def fly(cells, bodies, dj, smallest, order) -> None:
-    """Each of the bodies moves by what is swept, to round-off, from its first place through several cells."""
+    """Each body moves by the swept distance, to round-off, from its first place through several cells."""
     start = [centre(cells, m, dj) for m in bodies]
     moved = 0.0
     for step in STEPS:
@@ -99,8 +99,8 @@ def test_a_slab_that_flies_through_several_cells_keeps_its_centre(thickness, dj,
 
 @pytest.mark.parametrize("dj", [0, 1])
 @pytest.mark.parametrize("order", [[0, 1, 2], [2, 1, 0], [1, 0, 2]])
-def test_a_slab_between_two_others_that_are_wide_keeps_its_centre_whatever_the_order(order, dj):
-    """Between a gas from the edge on and a third body with a gap before it, all on their way."""
+def test_a_slab_between_two_wide_ones_keeps_its_centre_in_any_order(order, dj):
+    """Between a gas from the edge on and a third body behind a gap, all of them moving."""
     cells = Cells(nr=20, nz=20, bodies=3)
     for m, (first, last) in enumerate([(4.2, 7.3), (7.3, 7.6), (7.6, 9.9)]):
         place_slab(cells, m, first, last, dj)
@@ -113,7 +113,7 @@ def test_a_slab_between_two_others_that_are_wide_keeps_its_centre_whatever_the_o
 def crossed(dj, swept, given=None, place=(0.0, 0.0)) -> Cells:
     """Cells of 1 m^3 with (3, 3) and the next one along the sweep, between which a face sweeps a volume.
 
-    given : what of it is body; place : where in the strip that lies
+    given : how much of it is body; place : where in the strip the body lies
     """
     cells = Cells()
     target = (3 + dj, 4 - dj)
@@ -137,8 +137,8 @@ def carry(cells, dj, **more) -> None:
 
 @pytest.mark.parametrize("second", [False, True])
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_a_full_cell_gives_lies_at_the_face_all_across(dj, second):
-    """A quarter, in the first quarter of the next cell; no place was written for it, and the full cell stays without one."""
+def test_the_flux_of_a_full_cell_lies_at_the_face_all_across(dj, second):
+    """A quarter, in the first quarter of the next cell; its place was not written, and the full cell keeps none."""
     cells = crossed(dj, 0.25, place=(np.nan, np.nan))
     target = (3 + dj, 4 - dj)
     cells.vof[0, 3, 3], cells.vof[0, *target] = 1.0, 0.25
@@ -155,7 +155,7 @@ def test_what_a_full_cell_gives_lies_at_the_face_all_across(dj, second):
 
 @pytest.mark.parametrize("dj", [0, 1])
 def test_a_full_cell_that_gives_more_than_comes_keeps_the_rest_where_it_was(dj):
-    """It was as large as 1.25 cells, of which a half goes on and the cell behind it gives nothing."""
+    """It was as large as 1.25 cells; half a cell flows on and the cell behind gives nothing."""
     cells = crossed(dj, 0.5)
     face = cells.fz if dj else cells.fr
     face[3, 3], cells.pre[3, 3] = 0.25, 1.25
@@ -189,13 +189,13 @@ def test_parts_that_stay_and_that_come_have_one_centroid_by_volume(dj):
 
 @pytest.mark.parametrize("dj", [0, 1])
 def test_a_centroid_moves_with_the_cell_where_only_void_flows(dj):
-    """Both faces go in by a tenth of a cell: a body that flows nowhere is what it was, in a cell of 0.8 m^3 before."""
+    """Both faces move in by a tenth of a cell: the body does not flow, and is as before, in a cell of 0.8 m^3."""
     cells = crossed(dj, -0.1, given=0.0)
     face = cells.fz if dj else cells.fr
     face[3, 3], cells.pre[3, 3], cells.vof[0, 3, 3], cells.centroid[dj, 0, 3, 3] = 0.1, 0.8, 0.3, 0.2
     carry(cells, dj)
     assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.16, abs=1e-15)
-    face[3 + dj, 4 - dj], cells.pre[3, 3] = 0.1, 1.0  # both forward: it is taken along
+    face[3 + dj, 4 - dj], cells.pre[3, 3] = 0.1, 1.0  # both forward: it is carried along
     carry(cells, dj)
     assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.26, abs=1e-15)
     carry(cells, dj)
@@ -203,8 +203,8 @@ def test_a_centroid_moves_with_the_cell_where_only_void_flows(dj):
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_comes_in_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_strip(dj):
-    """Across, it has the place of the ghost cell, whose volumes are not kept; what is written for the face is not read."""
+def test_inflow_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_strip(dj):
+    """Across, it has the place of the ghost cell, whose volumes are not kept; the place written for the face is not read."""
     for side in (0, 1):
         cells = Cells()
         edge, ghost = (5, 6) if side else (2, 1)
@@ -223,7 +223,7 @@ def test_what_comes_in_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_st
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_leaves_through_the_edge_of_the_mesh_is_taken_off_at_its_place(dj):
+def test_outflow_through_the_edge_of_the_mesh_is_removed_at_its_place(dj):
     """A slab of 0.3 m at the lower edge, of which 0.1 m leaves; the cell had 1.1 m^3."""
     cells = Cells()
     face = cells.fz if dj else cells.fr
@@ -236,8 +236,8 @@ def test_what_leaves_through_the_edge_of_the_mesh_is_taken_off_at_its_place(dj):
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_leaves_through_either_face_is_taken_off_where_it_lies_in_the_strip(dj):
-    """From a cell of 1.1 m^3: a fiftieth of one, a quarter of a strip of 0.1 m off the middle of that, and at 0.1 across."""
+def test_outflow_through_either_face_is_removed_at_its_place_in_the_strip(dj):
+    """From a cell of 1.1 m^3: a fiftieth of one, at a quarter of a strip of 0.1 m off its middle, and at 0.1 across."""
     for side, place in ((0, 0.25), (0, -0.25), (1, 0.25), (1, -0.25)):
         cells = Cells()
         face = cells.fz if dj else cells.fr
@@ -253,7 +253,7 @@ def test_what_leaves_through_either_face_is_taken_off_where_it_lies_in_the_strip
 
 @pytest.mark.parametrize("dj", [0, 1])
 def test_in_cells_of_a_contact_a_body_moves_with_its_group(dj):
-    """The face stands still; the body's group moves on by a tenth of a cell, the other one by two tenths back."""
+    """The face is at rest; the body's group moves forward by a tenth of a cell, the other one back by two tenths."""
     cells = Cells(bodies=2, group=[1, 0])
     cells.pre[...] = 1.0
     cells.vof[:, 3, 3] = 0.3, 0.4
@@ -278,7 +278,7 @@ def test_only_cells_that_are_mixed_get_centroids():
 
 
 def test_sizes_and_volumes_of_a_cell_around_a_sweep():
-    """After the first of two sweeps the faces say how large a cell is, after the second it is as on the mesh."""
+    """After the first of two sweeps the faces give the size of a cell, after the second it is that of the mesh."""
     volume, pre, face = np.full((3, 3), 2.0), np.full((3, 3), 1.75), np.zeros((4, 4))
     face[1, 1], face[1, 2], face[2, 1] = 0.5, 0.25, 0.125
     assert size_after(1, 1, handle(dj=0, di=1, second=True, volume=volume, pre=pre, face=face)) == 2.0
@@ -330,28 +330,28 @@ SIDES = pytest.mark.parametrize("side", [-1.0, 1.0])
 @SIDES
 def test_a_gas_that_grows_pushes_a_plate_into_the_void_by_what_it_grows(side, axis):
     """Gas from the face to 0.3, the plate to 0.5, then void."""
-    found = pushed([0.3, 0.2], [0.4, 0.2], [-0.35 * side, -0.1 * side], axis)
-    np.testing.assert_allclose(found, [-0.3 * side, 0.0], atol=1e-15)
+    offsets = pushed([0.3, 0.2], [0.4, 0.2], [-0.35 * side, -0.1 * side], axis)
+    np.testing.assert_allclose(offsets, [-0.3 * side, 0.0], atol=1e-15)
 
 
 @AXES
 @SIDES
 def test_a_body_at_a_face_stays_there_as_others_take_and_give(side, axis):
-    """Alone as it grows into void, beside a body that loses what it gains, and with one at the other side of void."""
+    """Alone as it grows into void, next to a body that loses what it gains, and with another body beyond the void."""
     assert pushed([0.3], [0.35], [-0.35 * side], axis) == pytest.approx([-0.325 * side], abs=1e-15)
     for growth in (0.05, -0.05):
-        found = pushed([0.4, 0.6], [0.4 + growth, 0.6 - growth], [-0.3 * side, 0.2 * side], axis)
-        np.testing.assert_allclose(found, [side * (0.5 * growth - 0.3), side * (0.5 * growth + 0.2)], atol=1e-15)
+        offsets = pushed([0.4, 0.6], [0.4 + growth, 0.6 - growth], [-0.3 * side, 0.2 * side], axis)
+        np.testing.assert_allclose(offsets, [side * (0.5 * growth - 0.3), side * (0.5 * growth + 0.2)], atol=1e-15)
     for growth in (0.2, 0.1):
-        found = pushed([0.3, 0.5], [0.3 + growth, 0.5], [-0.35 * side, 0.25 * side], axis)
-        np.testing.assert_allclose(found, [side * (0.5 * growth - 0.35), 0.25 * side], atol=1e-15)
+        offsets = pushed([0.3, 0.5], [0.3 + growth, 0.5], [-0.35 * side, 0.25 * side], axis)
+        np.testing.assert_allclose(offsets, [side * (0.5 * growth - 0.35), 0.25 * side], atol=1e-15)
 
 
 @AXES
 @SIDES
 @pytest.mark.parametrize("void", [0.6, 0.1, 1e-3, 1e-9])
-def test_void_that_opens_beside_void_opens_there_the_more_the_more_there_was(void, side, axis):
-    """A body at the face loses a tenth: what opens in the midst of it is the share gained / (void + gained) of that."""
+def test_the_more_void_there_was_the_more_opens_next_to_it(void, side, axis):
+    """A body at the face loses a tenth: in its midst opens the share gained / (void + gained) of that."""
     f = 1.0 - void
     within = 0.1 * 0.1 / (void + 0.1)
     expected = side * (0.5 * f - 0.5 - 0.5 * (0.1 - within))
@@ -361,17 +361,17 @@ def test_void_that_opens_beside_void_opens_there_the_more_the_more_there_was(voi
 @AXES
 @SIDES
 def test_three_slabs_that_trade_volume_stay_side_by_side(side, axis):
-    """The middle one grows at the cost of both, of the one three times as much as of the other."""
-    found = pushed([0.3, 0.2, 0.5], [0.27, 0.24, 0.49], np.array([-0.35, -0.1, 0.25]) * side, axis)
-    np.testing.assert_allclose(found, np.array([-0.365, -0.11, 0.255]) * side, atol=1e-15)
+    """The middle one grows at the expense of both, three times as much of one as of the other."""
+    offsets = pushed([0.3, 0.2, 0.5], [0.27, 0.24, 0.49], np.array([-0.35, -0.1, 0.25]) * side, axis)
+    np.testing.assert_allclose(offsets, np.array([-0.365, -0.11, 0.255]) * side, atol=1e-15)
 
 
 @AXES
 @pytest.mark.parametrize("where", [-0.2, 0.0, 0.3])
 def test_a_body_in_the_midst_of_void_grows_into_either_gap_in_proportion(where, axis):
-    """It fills 0.2; the gaps beside it, of 0.4 - where and 0.4 + where, become a tenth smaller."""
-    found = pushed([0.2], [0.28], [where], axis)
-    assert found == pytest.approx([0.9 * where], abs=1e-15)
+    """It fills 0.2; the gaps on either side, of 0.4 - where and 0.4 + where, shrink by a tenth."""
+    offsets = pushed([0.2], [0.28], [where], axis)
+    assert offsets == pytest.approx([0.9 * where], abs=1e-15)
 
 
 @AXES
@@ -382,13 +382,13 @@ def test_void_that_opens_from_nothing_moves_nobody(axis):
 
 @AXES
 def test_void_opens_in_the_midst_of_bodies_that_shrink_by_more_than_others_grow_by(axis):
-    """The first body grows by 0.05 from the face on, and the second one loses 0.15: the rest of it is opened in its middle."""
+    """The first body grows by 0.05 from the face on, the second loses 0.15: the rest opens in the middle of the second."""
     assert pushed([0.3, 0.7], [0.35, 0.55], [-0.35, 0.15], axis) == pytest.approx([-0.325, 0.175], abs=1e-15)
 
 
 @AXES
 def test_a_push_does_not_jump_where_there_is_no_void(axis):
-    """As void opens or closes, and as there was none of it or a little: the bodies trade a tenth of the cell."""
+    """As void opens or closes, from none or from a little: the bodies trade a tenth of the cell."""
     where = [-0.31, 0.22]  # not quite those of slabs that fill the cell
 
     def traded(void, opened):
@@ -414,7 +414,7 @@ def test_a_body_that_was_not_there_before_is_not_pushed(axis):
 
 @AXES
 @pytest.mark.parametrize("change", [0.0, 1e-12])
-def test_a_push_changes_in_proportion_to_what_a_body_grows_by(change, axis):
+def test_a_push_changes_in_proportion_to_the_growth_of_a_body(change, axis):
     changes_in_proportion(lambda more: pushed([0.3, 0.2], [0.3 + more, 0.2], [-0.35, -0.1], axis), change, 1.0)
     assert largest_jump(lambda more: pushed([0.3, 0.2], [0.3 + more, 0.2], [-0.35, -0.1], axis), -0.3, 0.5) < 1e-12
 
@@ -432,7 +432,7 @@ def test_bodies_that_fill_a_cell_and_that_are_not_in_it_have_no_centroid():
 
 
 def test_a_cell_that_a_sweep_fills_forgets_its_centroids():
-    """Two thirds of it, and a third that flows in."""
+    """Two thirds are in it, and a third flows in."""
     cells = Cells()
     cells.vof[0, 3, 3:5], cells.q[RHO, 0], cells.centroid[:, 0, 3, 4] = (1.0, 0.75), 2.0, 0.1
     cells.pre[3, 3], cells.pre[3, 4], cells.fr[3, 4] = 1.25, 0.75, 0.25

@@ -1,4 +1,4 @@
-"""Checkerboards of stress: what fades, how fast, what stays, and that a smooth field is left alone."""
+"""Checkerboards of stress: which patterns fade, how fast, which stay, and that a smooth field is left alone."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ SHARE = 0.08
 
 
 class Block:
-    """A hard body (1) that fills columns 0 to 6 of a mesh, and a soft one (0) in what is left; vertices do not move."""
+    """A hard body (1) that fills columns 0 to 6 of a mesh, and a soft one (0) in the rest; vertices do not move."""
 
     def __init__(self, geometry="planar", edges=None):
         edges = 1e-3 * np.arange(N + 1.0) if edges is None else edges
@@ -73,7 +73,7 @@ def test_a_checkerboard_of_a_deviator_fades_by_its_share(row):
 
 
 def test_a_checkerboard_of_pressure_fades_by_its_share():
-    """By the volume that its cells gain and lose; each does work on its neighbours by their mean pressure."""
+    """By the volume that its cells gain and lose; each does work on its neighbours at their mean pressure."""
     block = Block()
     block.pm[1] = 3e9 + 1e9 * block.sign
     block.fade()
@@ -83,7 +83,7 @@ def test_a_checkerboard_of_pressure_fades_by_its_share():
 
 @pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
 def test_volume_and_energy_stay(geometry):
-    """Whatever the stress is: what a cell gains another one loses."""
+    """For any stress: one cell gains what another one loses."""
     block, rng = Block(geometry, 1e-3 * np.cumsum(1.0 + 0.3 * np.sin(np.arange(N + 1.0)))), np.random.default_rng(4)
     block.pm[1], block.q[SRR:SRZ + 1, 1] = rng.normal(0, 1e9, block.grid.shape), rng.normal(0, 1e9, (3, *block.grid.shape))
     block.fade()
@@ -97,7 +97,7 @@ def test_volume_and_energy_stay(geometry):
 
 @pytest.mark.parametrize("power", [(0, 0), (1, 0), (0, 1), (3, 0), (0, 3), (1, 1)])
 def test_nothing_else_changes(power):
-    """Fields that bend as the mesh can resolve it have no cell that stands out of those around it."""
+    """Fields with a curvature that the mesh resolves have no cell that stands out from its neighbours."""
     block = Block()
     field = 1e6 * (block.i - 4.2) ** power[0] * (block.j - 6.3) ** power[1]
     block.pm[1], block.q[SRR, 1], block.q[SRZ, 1] = field, field, -field
@@ -108,7 +108,7 @@ def test_nothing_else_changes(power):
 
 
 def test_an_extremum_loses_next_to_nothing():
-    """Its four quarters are a checkerboard of the size of h^4/16 of the fourth derivative, here 4."""
+    """Its four quarters are a checkerboard of h^4/16 times the fourth derivative, here 4."""
     block = Block()
     block.q[SRR, 1] = field = 1e6 * (block.i - 5.0) ** 2 * (block.j - 6.0) ** 2
     block.fade()
@@ -127,7 +127,7 @@ def test_waves_along_one_direction_stay(axis):
 
 
 def test_a_cell_that_stands_out_alone_leaves_nothing_in_its_row_and_column():
-    """A linear filter would spread it along both: what is forced in one cell would stripe the whole rod."""
+    """A linear filter would spread it along both: a stress forced in one cell would stripe the whole rod."""
     block = Block()
     block.q[SZZ, 1, 6, 5] = 1e9
     for _ in range(200):
@@ -138,7 +138,7 @@ def test_a_cell_that_stands_out_alone_leaves_nothing_in_its_row_and_column():
 
 
 def test_a_cell_comes_in_by_degrees():
-    """As its emptiest neighbour fills: nothing at none of it, all of it from INSIDE on."""
+    """As its emptiest neighbour fills: no share of it at first, all of it from INSIDE on."""
     lost = []
     for share in (0.0, 1e-9, 0.5 * kernels.INSIDE, kernels.INSIDE, 1.0):
         block = Block()
@@ -189,7 +189,7 @@ def test_the_groups_own_volumes_are_swept_with_it_where_they_are_in_use():
 
 
 def test_no_more_than_half_of_it_fades(monkeypatch):
-    """Where the hourglass coefficient is large and steps are long."""
+    """With a large hourglass coefficient and long steps."""
     monkeypatch.setattr("tests.kernels.test_checkerboard.SHARE", 3.0)
     block = Block()
     block.q[SRR, 1] = 1e9 * block.sign

@@ -1,4 +1,4 @@
-"""Every kernel, compiled, does what its Python source says: numba can lose writes without a word."""
+"""Every compiled kernel does what its Python source says: numba can silently lose writes."""
 
 import importlib
 import itertools
@@ -18,7 +18,7 @@ from tests.kernels.cells import handles, source
 
 
 def _kernels():
-    """Every function that Python calls but the phases, which call the rest."""
+    """Every function that Python calls, except the phases, which call the rest."""
     for entry in pkgutil.iter_modules(hydro2d.kernels.__path__):
         module = importlib.import_module(f"hydro2d.kernels.{entry.name}")
         for name, value in vars(module).items():
@@ -40,7 +40,7 @@ CASES = {"ke, slip-layer": ("ke", LAYER), "both, slip-layer": ("both", LAYER), "
 
 
 def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | None = None) -> str:
-    """A rod that strikes a plate, small; with contact it follows the rod if nothing else is said."""
+    """A rod that strikes a plate, small; with contact the mesh follows the rod by default."""
     if follows is None:
         follows = sliding["method"] == "contact"
     struck = "hardening" if advection == "both" else "Al7039"  # both models of the one have variables
@@ -67,10 +67,10 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     seen, kernels = set(), list(_kernels())
 
     def held_against_source(module, name, function):
-        taken, own = by_name.takes(function), len(by_name.own_parameters(function))
+        names, own = by_name.takes(function), len(by_name.own_parameters(function))
 
         def call(*arguments):
-            given = dict(zip(taken, by_name.values(function, arguments), strict=True))
+            given = dict(zip(names, by_name.values(function, arguments), strict=True))
             copies = {of: a.copy() if isinstance(a, np.ndarray) else a for of, a in given.items()}
             arrays = [a for a in given.values() if isinstance(a, np.ndarray) and a.size]
             for one, other in itertools.combinations(arrays, 2):  # hydro2d.jit promises it to the compiler

@@ -1,4 +1,4 @@
-"""What flows through a face between a cell that both groups and void share and a full one: no void into a body."""
+"""Flow through a face between a cell shared by both groups and void, and a full one: no void enters a body."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ SHAPE, ROW, GIVER = (7, 10), 3, 5
 GROUP = np.array([1, 0], dtype=np.int64)
 SOLIDS = np.zeros(2, dtype=bool)
 MESH_BOX = np.array([2, SHAPE[0] - 2, 2, SHAPE[1] - 2], dtype=np.int64)
-#: one part, of the giver's row alone
+#: one part, with the giver's row only
 ROWS = np.array([ROW, ROW + 1])
 COLUMNS = np.tile(np.array([GIVER - 1, GIVER + 2], dtype=np.int64), (SHAPE[0], 1))
 
@@ -30,7 +30,7 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None, pla
 
     own are the volumes that the face sweeps with the velocities of the soft and of the hard body; the nested interfaces begin
     with the soft body.
-    place, centroid [2, m, j, i] : where they lie in what the face sweeps is written there; where they lie in their cells
+    place, centroid [2, m, j, i] : receives the positions in the swept volume; the positions in the cells
     """
     line, result = np.zeros((10, *SHAPE)), np.zeros((2, *SHAPE))
     place = np.zeros((2, *vof.shape)) if place is None else place
@@ -46,7 +46,7 @@ def fluxes(vof, face: float, own: tuple[float, float], part=None, size=None, pla
 
 
 def upright(hard: float, soft: float, beside: float = 1.0):
-    """Fractions: left of the giver all is hard, or as much as is beside the giver, right of it soft."""
+    """Fractions: left of the giver all is hard, or the share `beside`, right of it soft."""
     vof = np.zeros((2, *SHAPE))
     vof[0, :, :GIVER] = 1.0
     vof[0, ROW, GIVER - 1] = beside
@@ -64,7 +64,7 @@ def oblique(hard: float, soft: float):
 
 
 def flux(hard: float, soft: float, swept: float) -> tuple[float, float]:
-    """`fluxes` of upright bodies that move alike."""
+    """`fluxes` of upright bodies that move together."""
     return fluxes(upright(hard, soft), swept, (swept, swept))
 
 
@@ -72,8 +72,8 @@ def test_a_full_cell_takes_its_own_body_from_a_cell_with_a_gap():
     assert flux(0.3, 0.6, -0.01) == pytest.approx((-0.01, 0.0), abs=1e-15)
 
 
-def test_what_flows_lies_where_it_was():
-    """The hard body is placed by the interfaces in their order; what gives nothing or comes from a full cell, in the middle."""
+def test_the_flux_lies_where_the_body_was():
+    """The ordered interfaces place the hard body; a body that gives nothing or comes from a full cell is in the middle."""
     place, centroid = np.full((2, 2, *SHAPE), np.nan), np.zeros((2, 2, *SHAPE))
     centroid[0, :, :, GIVER] = np.array([-0.498, 0.2])[:, None]
     fluxes(upright(0.004, 0.6), -0.01, (-0.01, -0.01), place=place, centroid=centroid)
@@ -94,11 +94,11 @@ def test_without_void_all_that_is_swept_is_body():
     assert sum(flux(0.4, 0.6, -0.01)) == pytest.approx(-0.01, abs=1e-15)
 
 
-# ------------------------------------------------------------------------------------------- what must not jump
+# ------------------------------------------------------------------------------------------- continuity
 
 
 @pytest.mark.parametrize("swept", [-0.01, -0.02])
-def test_who_takes_the_rest_does_not_hang_on_a_sign(swept):
+def test_the_body_that_takes_the_rest_does_not_depend_on_a_sign(swept):
     """The soft body would come from where there is none as soon as the face sweeps more than the hard body does."""
     vof = oblique(0.1, 0.9)
     assert fluxes(vof, 0.01, (swept, 0.01)) == pytest.approx((0.01, 0.0), abs=1e-15)
@@ -109,7 +109,7 @@ def test_who_takes_the_rest_does_not_hang_on_a_sign(swept):
 
 @pytest.mark.parametrize("face", [0.008, 0.012])
 def test_a_crumb_takes_no_more_than_it_is(face):
-    """A crumb of the soft body in the cell from which the rest comes: the hard one gives the rest."""
+    """A crumb of the soft body in the cell that gives the rest: the hard one gives it."""
     def with_crumb(share):
         vof = oblique(0.1, 0.9)
         vof[:, ROW, GIVER - 1] = 1.0 - share, share
@@ -122,7 +122,7 @@ def test_a_crumb_takes_no_more_than_it_is(face):
 
 @pytest.mark.parametrize("own", [-0.008, -0.012])
 def test_bodies_make_up_for_what_the_void_cannot_give(own):
-    """A cell that is full and one with a little void give the same but for that void."""
+    """A full cell and one with a little void give the same except for that void."""
     def with_void(void):
         return fluxes(upright(0.3, 0.7 - void), -0.01, (own, own))
 
@@ -168,7 +168,7 @@ def test_the_shares_of_a_cell_do_not_jump_as_it_becomes_one_body_s_or_full(stret
 
 
 def corner_of(scale: float, void: float) -> list[float]:
-    """What strips of a tenth of a cell hold of a body that has a corner there, beside another one; mixed cells are scaled."""
+    """Shares, in strips of a tenth of a cell, of a body with a corner there, next to another one; mixed cells are scaled."""
     f = np.clip(2.5 - np.arange(5), 0.0, 1.0)
     body = np.outer(f, f)
     vof = np.array([body, 1.0 - body])
@@ -193,7 +193,7 @@ def test_a_cell_without_void_has_no_corner_however_its_fractions_are_scaled():
     assert largest_jump(lambda void: corner_of(1.0, void), 0.0, 0.5) < 1e-11
 
 
-# ------------------------------------------------------------------------------------------------ who takes what
+# ------------------------------------------------------------------------------------------------ which body takes what
 
 
 def taken(g, more, vof, flux):
@@ -217,8 +217,8 @@ def test_a_body_takes_no_more_than_it_has_there():
     assert taken(0, 0.5, [[0.0, 0.5], [1.0, 0.0], [0.0, 0.5]], [0.0, 0.0, 0.0]) == (0.5, [0.0, 0.0, 0.0])
 
 
-def test_what_flows_the_other_way_ends_first():
-    """No body gives from a cell in which it is not: the third flows from the right, and is not on the left."""
+def test_flow_the_other_way_ends_first():
+    """No body gives from a cell that it is not in: the third flows from the right, and is not on the left."""
     vof = [[0.3, 0.1], [0.7, 0.0], [0.0, 0.9]]
     assert taken(0, 0.2, vof, [-0.1, 0.0, -0.3]) == (0.0, pytest.approx([-0.05, 0.0, -0.15]))
     assert taken(0, 0.5, vof, [-0.1, 0.0, -0.3]) == (0.0, pytest.approx([0.1, 0.0, 0.0]))

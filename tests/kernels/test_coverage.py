@@ -1,4 +1,4 @@
-"""No kernel, and no function of mixed cells, without a test that calls it by its name."""
+"""Every kernel, and every function of mixed cells, has a test that calls it by its name."""
 
 import ast
 
@@ -8,7 +8,7 @@ from tests.physics.test_coverage import touched
 from tests.rules import source
 
 PACKAGE = "hydro2d.kernels"
-#: files of which every compiled function has a test of its own: what they do is physics, one cell at a time
+#: files of which every compiled function has a test of its own: they compute physics, one cell at a time
 MIXED = {"cut_cells", "mixed", "mixed_strength", "plastic_return"}
 LOOPS = ("kernel", "cell_rows", "vertex_rows", "serial", "threaded")
 CALLED = sorted(

@@ -1,4 +1,4 @@
-"""Cracks on their way through a step: opened, summed across the crack, and made void where nothing is borne."""
+"""Cracks during a step: opened, summed across the crack, and turned into void where they bear nothing."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ J, I = 8, 3
 
 
 class Block:
-    """A block at rest, and the two kernels as the step calls them."""
+    """A block at rest, and the two kernels called as in a step."""
 
     def __init__(self):
         self.simulation = Simulation(deck.loads(TEXT))
@@ -59,7 +59,7 @@ def block():
     return Block()
 
 
-def test_what_is_left_of_the_tension():
+def test_the_remaining_tension():
     """By hand: 1 - D^(2/3)."""
     row = cochran_banner.row({"opening": OPENING})
     assert [cochran_banner.tension_left(d, row) for d in (0.0, 0.125, 1.0)] == pytest.approx([1.0, 0.75, 0.0], abs=1e-15)
@@ -82,7 +82,7 @@ def test_a_cell_opens_to_what_it_bears(block, damage):
 
 @pytest.mark.parametrize("along", ["z", "r"])
 def test_the_damage_is_the_opening_however_the_remap_has_spread_the_crack(block, along):
-    """5 um of cracks in one cell, or over three, along the way in which it opens: D = 5/20. Cracks beside it count nothing."""
+    """5 um of cracks in one cell, or over three in the direction of opening: D = 5/20. Cracks to the side do not count."""
     (block.state.v if along == "z" else block.state.u)[0] = np.indices(block.state.u[0].shape)[int(along == "r")]
     for shares in ((0.0, 1.0, 0.0), (0.2, 0.5, 0.3)):
         block.q[WIDE], block.q[DMG] = 0.0, 0.0
@@ -99,7 +99,7 @@ def test_the_damage_is_the_opening_however_the_remap_has_spread_the_crack(block,
 
 
 def test_opening_a_crack_takes_two_fifths_of_tension_times_opening(block):
-    """A cell that is pulled apart, a little in every step: the work of its tension on its crack, per area."""
+    """A cell pulled apart a little in every step: the work of its tension on its crack, per area."""
     work, last = 0.0, 0.0
     while block.q[DMG, 0, J, I] < 1.0:
         block.q[RHO, 0, J, I] *= 1.0 - 2e-4
@@ -111,7 +111,7 @@ def test_opening_a_crack_takes_two_fifths_of_tension_times_opening(block):
 
 
 def test_where_all_is_gone_the_cracks_become_void(block):
-    """Mass stays; the solid keeps its density and has no stress; the share of the void is that of the cracks."""
+    """Mass stays; the solid keeps its density and has no stress; the void takes the share of the cracks."""
     block.q[RHO, 0, J, I] *= 0.8
     block.q[DMG, 0, J, I] = FAILED
     block.q[SRR:SZZ + 1, 0, J, I] = 1e8

@@ -1,4 +1,4 @@
-"""Cells that a surface cuts: where their surfaces are, the traction at which bodies meet, volumes and energies after that."""
+"""Cells that a surface cuts: positions of their surfaces, the traction at which bodies meet, resulting volumes and energies."""
 
 import numpy as np
 import pytest
@@ -56,7 +56,7 @@ class Cell:
 
     @property
     def grown(self) -> float:
-        """What the bodies grow by, as a share of the cell."""
+        """Growth of the bodies, as a share of the cell."""
         return float(self.vof[:, 0, 0] @ self.mix[0, GROWTH])
 
     def normal_pressures(self):
@@ -72,7 +72,7 @@ STEEL, ALUMINIUM = (1.0, 0.5), (0.45, 0.17)  # bulk and shear modulus
 
 
 @pytest.mark.parametrize("change", [0.0, 0.01, -0.01])
-def test_a_body_beside_void_relaxes_and_void_takes_the_rest(change):
+def test_a_body_next_to_void_relaxes_and_void_takes_the_rest(change):
     cell = Cell((0.7, 0.006, *STEEL), kind=FREE_SURFACE).strained(-0.001, 0.002)
     assert cell.meet(change) == 0.0
     e = (0.006 + 0.001 - 0.002) / (1.0 + 4.0 / 3.0 * 0.5)
@@ -124,7 +124,7 @@ def test_a_crack_without_void_pulls_and_a_wider_one_the_less():
 @pytest.mark.parametrize(("kind", "bodies"), [(FREE_SURFACE, ((0.8, 0.0, *STEEL),)),
                                               (INTERFACE, ((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM)))])
 def test_void_is_shut_before_the_traction_rises(kind, bodies, weight):
-    """And nothing jumps where it just shuts."""
+    """Without a jump where it just closes."""
     def with_void(void):
         scaled = [((1.0 - void) * f / sum(b[0] for b in bodies), *rest) for f, *rest in bodies]
         cell = Cell(*scaled, kind=kind, weight=weight)
@@ -152,7 +152,7 @@ def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight)
     assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
 
 
-def test_what_bodies_grow_by_falls_with_the_pressure_as_stated():
+def test_growth_of_bodies_falls_with_the_pressure_as_stated():
     cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM), weight=0.6).strained([-0.002, 0.001], [0.003, -0.001])
     low, give = grow(0, 0, 0.0, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     by_hand = sum(f * (0.6 / (k + 0.6 * 4.0 / 3.0 * g) + 0.4 / k) for f, (k, g) in ((0.3, STEEL), (0.5, ALUMINIUM)))
@@ -244,7 +244,7 @@ def test_a_body_with_room_grows_by_what_it_grows():
 
 
 def test_each_body_does_the_work_of_its_own_normal_stress():
-    """What is left of the cell's work goes by mass."""
+    """The rest of the cell's work is shared by mass."""
     _, after = filled(*CASES[0])
     mass = 3.0 * np.array([0.3, 0.7]) * (2.0, 3.0)
     own = 3.0 * np.array([0.3 * -0.01 * 0.5 * (0.011 + 0.01), 0.7 * -0.0243 * 0.5 * (0.006 + 0.01)])
@@ -275,7 +275,7 @@ def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False,
 
 
 def half_plane(angle: float, dr: float = 1.0, dz: float = 1.0):
-    """Fractions of what lies against (cos, sin) of a line through the middle of the mesh."""
+    """Fractions of material on the side opposite to (cos, sin) of a line through the middle of the mesh."""
     inside = (np.arange(40) + 0.5) / 40
     x = ((np.arange(SIZE_OF_MESH)[:, None] + inside).ravel() - 0.5 * SIZE_OF_MESH) * dr
     below = x[None, :] * np.cos(angle) + x[:, None] * (dz / dr) * np.sin(angle) <= 0.0
@@ -295,7 +295,7 @@ def test_the_normal_of_a_flat_interface_is_found(degrees, dz):
 
 
 @pytest.mark.parametrize("degrees", [20, 45, 70])
-def test_a_surface_beside_void_has_the_normal_of_its_group(degrees):
+def test_a_surface_next_to_void_has_the_normal_of_its_group(degrees):
     body = half_plane(np.radians(degrees))
     with_void = surfaces([np.zeros_like(body), body])[:, 4, 4]
     with_other = surfaces([body, 1.0 - body])[:, 4, 4]
@@ -358,7 +358,7 @@ def test_a_surface_between_bodies_of_one_group_has_the_normal_of_a_free_one(degr
     assert abs(with_solid[:2] @ with_void[:2]) == pytest.approx(1.0)
 
 
-def test_what_a_body_has_of_vertices_in_a_gas_is_tied_to_it():
+def test_the_share_of_a_body_in_vertices_in_a_gas_is_tied_to_it():
     """A cell of 3 m^2 per radian on r = 1 to 2 m, 2 m high, with 0.25 of 2 kg/m^3 beside gas, and a normal of (0.6, 0.8)."""
     cell = Cell((0.25, 0.0, 1.0, 0.5), (0.75, 0.0, 0.001, 0.0), kind=BESIDE_GAS)
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.6, 0.8

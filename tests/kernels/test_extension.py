@@ -1,4 +1,4 @@
-"""Slave nodes: how firmly they are tied, and to what, all of it continuous in what fills the cells."""
+"""Slave nodes: how firmly they are tied, and to which masters, all of it continuous in the fractions of the cells."""
 
 import numpy as np
 import pytest
@@ -18,12 +18,12 @@ cell_weight = extension.cell_weight.source
 #: cells of the mesh along either side, and those of a mesh whose cells differ
 N = 11
 LEVEL, GRADED = np.arange(N + 1.0), np.cumsum(1.0 + 0.2 * np.sin(np.arange(N + 1.0)))
-#: nothing is that steep that decides anything at once
+#: no change so steep that it switches anything at once
 STEEPNESS = 2e4
 
 
 class Extensions:
-    """Slaves among all vertices that both groups have, where hard fills cells [j, i] and soft the rest of them.
+    """Slaves among all vertices of both groups, where hard fills cells [j, i] and soft the rest of them.
 
     Rows and columns are those of the mesh without ghosts. The normal, from hard to soft, is everywhere the same.
     """
@@ -73,8 +73,8 @@ class Extensions:
 
     def of(self, b: int, j: int, i: int) -> dict[tuple[int, int], float]:
         """Weights of the masters of a slave by how many rows and columns away they are."""
-        found = np.nonzero(self.weights[b, j, i, :MASTERS])[0]
-        return {(int(n) // SPAN - REACH, int(n) % SPAN - REACH): self.weights[b, j, i, n] for n in found}
+        places = np.nonzero(self.weights[b, j, i, :MASTERS])[0]
+        return {(int(n) // SPAN - REACH, int(n) % SPAN - REACH): self.weights[b, j, i, n] for n in places}
 
     def everything(self, b: int, j: int, i: int):
         """Strength, and weights as far as they count."""
@@ -82,7 +82,7 @@ class Extensions:
 
 
 def half_plane(angle: float) -> np.ndarray:
-    """Fractions of what lies against (cos, sin) of a line through the middle of cells of one size."""
+    """Fractions of material on the side opposite to (cos, sin) of a line through the middle of cells of one size."""
     inside = (np.arange(20) + 0.5) / 20
     x = (np.arange(N)[:, None] + inside).ravel() - 0.5 * N + 0.1
     below = x[None, :] * np.cos(angle) + x[:, None] * np.sin(angle) <= 0.0
@@ -94,7 +94,7 @@ def scattered(seed: int) -> np.ndarray:
 
 
 def block(**cells: float) -> np.ndarray:
-    """A hard block of 3 x 3 cells from row and column 4 on, with other fractions in cells named as r5c4."""
+    """A hard block of 3 x 3 cells from row and column 4 on, with other fractions in cells named like r5c4."""
     hard = np.zeros((N, N))
     hard[4:7, 4:7] = 1.0
     for name, fraction in cells.items():
@@ -151,8 +151,8 @@ def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
     hard, soft, filled = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
     for size in (9, 8, 6):
         mesh_box = np.array([0, size, 0, size])
-        found = cell_weight(1, 5, 5, row, column, 1.0, 0.0, handle(mesh_box=mesh_box, hard=hard, soft=soft, filled=filled))
-        assert found == pytest.approx(expected if row < size and column < size else 0.0)
+        weight = cell_weight(1, 5, 5, row, column, 1.0, 0.0, handle(mesh_box=mesh_box, hard=hard, soft=soft, filled=filled))
+        assert weight == pytest.approx(expected if row < size and column < size else 0.0)
 
 
 # ---------------------------------------------------------------------------------------------------- extensions
@@ -164,24 +164,24 @@ MESHES = [*((scattered(seed), (0.76, 0.64)) for seed in range(3)), *((half_plane
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
 @pytest.mark.parametrize("most_squares", [1.0, 1e6])
 def test_weights_add_up_to_one(hard, normal, most_squares):
-    found = Extensions(hard, normal, most_squares=most_squares)
-    assert len(found.slaves) >= 8
-    for b, j, i in found.slaves:
-        assert found.weights[b, j, i].sum() == pytest.approx(1.0, abs=1e-13)
-    assert (found.weights[found.strength == 0.0] == 0.0).all()
+    extensions = Extensions(hard, normal, most_squares=most_squares)
+    assert len(extensions.slaves) >= 8
+    for b, j, i in extensions.slaves:
+        assert extensions.weights[b, j, i].sum() == pytest.approx(1.0, abs=1e-13)
+    assert (extensions.weights[extensions.strength == 0.0] == 0.0).all()
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 4, 1.3, 2.5])
 @pytest.mark.parametrize("edges", [LEVEL, GRADED], ids=["level", "graded"])
 def test_a_linear_field_is_met(angle, edges):
-    """As long as it is a mean of those of cells, and nothing is capped."""
-    found = Extensions(half_plane(angle), (np.cos(angle), np.sin(angle)), edges=edges)
-    field = 3.0 - 2.0 * found.r[None, :] + 0.7 * found.z[:, None]
+    """As long as it is a mean of cell values, and nothing is capped."""
+    extensions = Extensions(half_plane(angle), (np.cos(angle), np.sin(angle)), edges=edges)
+    field = 3.0 - 2.0 * extensions.r[None, :] + 0.7 * extensions.z[:, None]
     extended = 0
-    for b, j, i in found.slaves:
+    for b, j, i in extensions.slaves:
         if 3 <= j <= N - 3 and 3 <= i <= N - 3:
-            masters = found.of(b, j, i)
-            assert found.weights[b, j, i, TIED] == 0.0
+            masters = extensions.of(b, j, i)
+            assert extensions.weights[b, j, i, TIED] == 0.0
             assert sum(w * field[j + dj, i + di] for (dj, di), w in masters.items()) == pytest.approx(field[j, i], rel=1e-12)
             extended += 1
     assert extended >= 8
@@ -189,7 +189,7 @@ def test_a_linear_field_is_met(angle, edges):
 
 @pytest.mark.parametrize("most_squares", [1.0, 1.6, 2.5])
 def test_squares_of_weights_are_bounded(most_squares):
-    """One cell alone has four full vertices: of those on the edges of the block some would need more."""
+    """One cell alone has four full vertices: some of those on the edges of the block would need more."""
     free, capped = (Extensions(block(), (1.0, 0.0), most_squares=most) for most in (1e6, most_squares))
     squares = {most: [] for most in ("free", "capped")}
     for b, j, i in free.slaves:
@@ -202,8 +202,8 @@ def test_squares_of_weights_are_bounded(most_squares):
 
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
 def test_means_of_cells_are_bounded_too(hard, normal):
-    found = Extensions(hard, normal, most_squares=1.5)
-    assert max(np.sum(found.weights[b, j, i] ** 2) for b, j, i in found.slaves) <= 1.5 + 1e-12
+    extensions = Extensions(hard, normal, most_squares=1.5)
+    assert max(np.sum(extensions.weights[b, j, i] ** 2) for b, j, i in extensions.slaves) <= 1.5 + 1e-12
 
 
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
@@ -226,11 +226,11 @@ def test_groups_that_change_places_change_slaves():
     np.testing.assert_allclose(swapped.weights[::-1], here.weights, atol=1e-12)
 
 
-# ---------------------------------------------------------------------------------------------- what must not jump
+# ---------------------------------------------------------------------------------------------- continuity
 
 
 def walked(values, fill, b, j, i, normal=(1.0, 0.0)):
-    """Asserts that nothing of a slave jumps at these values of a fraction, nor anywhere between 0 and 1."""
+    """Asserts that no result for a slave jumps at these values of a fraction, or anywhere between 0 and 1."""
     def of(fraction):
         return Extensions(fill(fraction), normal).everything(b, j, i)
 
@@ -285,14 +285,14 @@ def test_nothing_jumps_as_any_cell_fills(seed):
     first, last = 0.02 + 0.96 * scattered(seed), 0.02 + 0.96 * scattered(seed + 10)
 
     def everything(way):
-        found = Extensions((1.0 - way) * first + way * last, (0.76, 0.64), most_squares=2.0)
-        return np.concatenate([found.strength.ravel(), (found.strength[..., None] * found.weights).ravel()])
+        extensions = Extensions((1.0 - way) * first + way * last, (0.76, 0.64), most_squares=2.0)
+        return np.concatenate([extensions.strength.ravel(), (extensions.strength[..., None] * extensions.weights).ravel()])
 
     assert largest_jump(everything, 0.0, 1.0) < 1e-9
 
 
 def pair(beyond: float) -> Extensions:
-    """A crumb of both groups in void, by itself, and a hard block whose one vertex within reach is filled by UNDERFILLED and
+    """A crumb of both groups in void, by itself, and a hard block whose only vertex in reach is filled by UNDERFILLED and
     `beyond`."""
     hard, soft = np.zeros((N, N)), np.zeros((N, N))
     hard[4:6, 2:4] = UNDERFILLED + beyond
@@ -301,12 +301,12 @@ def pair(beyond: float) -> Extensions:
 
 
 def test_two_nodes_that_are_tied_to_each_other_let_go_by_a_little():
-    """As far as neither has masters of its own group: the other one's slack ends with its weight."""
-    alone, held = pair(0.0), pair(0.05)
+    """While neither has masters of its own group: the other one's slack ends with its weight."""
+    alone, tied = pair(0.0), pair(0.05)
     assert (alone.weights[:, 5, 5, TIED] == 1.0).all()
     np.testing.assert_allclose(alone.strength[:, 5, 5], 1.0 - SLACK, rtol=1e-15)
-    assert held.weights[:, 5, 5, TIED].tolist() == [1.0, 0.0]
-    assert held.strength[:, 5, 5].tolist() == [1.0, 1.0]
+    assert tied.weights[:, 5, 5, TIED].tolist() == [1.0, 0.0]
+    assert tied.strength[:, 5, 5].tolist() == [1.0, 1.0]
     assert largest_jump(lambda beyond: pair(beyond).everything(1, 5, 5), 0.0, 0.05) < 1e-9
 
 

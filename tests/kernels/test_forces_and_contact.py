@@ -1,6 +1,6 @@
 """Stress, forces and contact, kernel by kernel, on cells made by hand.
 
-In the contact the hard body fills the columns 2 and 3, the soft one the columns 5 on, and column 4 belongs to each by half.
+In the contact the hard body fills columns 2 and 3, the soft one columns 5 and beyond, and column 4 is half of each.
 """
 
 import numpy as np
@@ -55,7 +55,7 @@ def test_the_stress_of_a_pure_cell():
 
 
 def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
-    """Half void, then the same in mode solid, then in the hard zone of a slip layer, where the hard body has it all."""
+    """Half void, then the same in mode solid, then in the hard zone of a slip layer, where only the hard body counts."""
     cells = stressed()
     cells.vof[:, 3, 3], cells.solid[3, 3] = (0.25, 0.25), 0.5
     cells.q[SRR, 1] = 30.0
@@ -66,7 +66,7 @@ def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
 
 
 def test_the_deviator_of_a_crumb_is_not_swallowed_by_the_pressure_of_a_full_cell():
-    """A crumb with a free surface in a cell that would have 1e17 Pa if it were full: once its deviator was lost in that."""
+    """A crumb with a free surface in a cell that would have 1e17 Pa if it were full: its deviator used to be lost in that."""
     cells = stressed()
     crumb = 1e-9
     cells.mixed_count[3], cells.mixed[3, 0], cells.skin[KIND, 3, 3] = 1, 3, FREE_SURFACE
@@ -79,7 +79,7 @@ NOTHING = np.zeros((0, 0, 0, 0))
 
 
 def accelerated(pushed: np.ndarray = NOTHING, **fields) -> Cells:
-    """0.1 s later: vertices of 1 kg around the cell (3, 3), which alone has a stress or an hourglass filter."""
+    """0.1 s later: vertices of 1 kg around the cell (3, 3), the only one with a stress or an hourglass filter."""
     cells = Cells()
     cells.mass[...] = 1.0
     for name, value in fields.items():
@@ -90,7 +90,7 @@ def accelerated(pushed: np.ndarray = NOTHING, **fields) -> Cells:
 
 
 def test_a_pressure_pushes_the_corners_of_its_cell_apart():
-    """8 Pa on half of a face of 1 m^2, of either side of a corner: 4 N each way."""
+    """8 Pa on half of a face of 1 m^2, on either side of a corner: 4 N each way."""
     cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
     assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, 0.4], [-0.4, 0.4]]))
     assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, -0.4], [0.4, 0.4]]))
@@ -109,7 +109,7 @@ def test_the_filter_works_against_the_hourglass():
     assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-3, 3], [3, -3]]))
 
 
-def test_what_sources_push_comes_on_top():
+def test_the_push_of_sources_is_added():
     pushed = np.zeros((2, 1, 9, 9))
     pushed[0, 0, 3, 3], pushed[1, 0, 4, 4] = 2.0, 3.0
     cells = accelerated(pushed, sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
@@ -118,13 +118,13 @@ def test_what_sources_push_comes_on_top():
 
 
 def limited(**given) -> Cells:
-    """Vertices of 1 kg around the cell (3, 3) that were at rest and fly apart by 0.4 m/s both ways, held to 0.2 m/s."""
+    """Vertices of 1 kg around the cell (3, 3) that were at rest and fly apart by 0.4 m/s both ways, limited to 0.2 m/s."""
     cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
     cells.call(acceleration.limit_speed, speed_limit=0.2, underfilled_density=10.0, **{"edge_velocity": np.zeros(4), **given})
     return cells
 
 
-def test_a_node_that_is_thinly_filled_is_held_to_the_limit():
+def test_the_speed_of_a_thinly_filled_node_is_limited():
     """The energy is that of the mean velocity of the step."""
     cells, end = limited(), 0.2 / np.sqrt(2.0)
     assert cells.u[0, 3, 3:5] == pytest.approx([-end, end])
@@ -132,7 +132,7 @@ def test_a_node_that_is_thinly_filled_is_held_to_the_limit():
 
 
 def test_a_limited_node_ends_the_step_with_the_velocity_that_an_edge_gives():
-    """The column 3 is held and the row 4 moves at 0.5 m/s: of each row one component of one node ends as it is limited."""
+    """Column 3 is fixed and row 4 moves at 0.5 m/s: of each row one component of one node ends as limited."""
     end = 0.2 / np.sqrt(2.0)
     cells = limited(constrained=np.array([3, -1, -1, 4]), edge_velocity=np.array([0.0, 9.0, 9.0, 0.5]))
     assert cells.limited[:, 3] == pytest.approx([2 * (end - 0.4), 0.5 * (0.4 - end) * (0.0 + end + 2 * end), 2.0])
@@ -140,7 +140,7 @@ def test_a_limited_node_ends_the_step_with_the_velocity_that_an_edge_gives():
 
 
 def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave():
-    """The column 3 is the low edge of r, beyond which the first node of a row would go, and the row 4 the low one of z."""
+    """Column 3 is the low edge of r, beyond which the first node of a row would go, and row 4 the low one of z."""
     end = 0.2 / np.sqrt(2.0)
     cells = limited(pushing=np.array([3, -1, 4, -1]))
     assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
@@ -235,7 +235,7 @@ def seen(cells: Cells) -> np.ndarray:
 
 
 def test_viscosity_answers_to_the_one_rate_of_volume():
-    """The cell loses 0.3 of its volume in a second; the mean density by compressibility is (3 * 1 + 1 * 4)/4 = 1.75 kg/m^3."""
+    """The cell loses 0.3 of its volume per second; the mean density by compressibility is (3 * 1 + 1 * 4)/4 = 1.75 kg/m^3."""
     cells = halves()
     cells.km[0], cells.km[1] = 1.0, 3.0
     cells.solid[...], cells.p[...], cells.bulk[...], cells.cl[...], cells.rhobar[...] = 1.0, 1.0, 7.0, 10.0, 2.5
@@ -253,8 +253,8 @@ def test_a_full_cell_whose_groups_part_is_given_room():
     cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = cells.solid[...] = 1.0
     cells.u[0] = 1.0  # the soft body leaves the hard one
     seen(cells)
-    assert cells.skin[KIND, 3, 4] == WHOLE  # both have been in this cell all along: `find_surfaces` has seen to it
-    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == WHOLE  # nothing is beside them but the cell of both
+    assert cells.skin[KIND, 3, 4] == WHOLE  # both were in this cell before: `find_surfaces` has handled it
+    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == WHOLE  # they have only the cell of both next to them
     cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[1.0], [0.0]], 0.0, 1.0
     seen(cells)
     assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 4] == INTERFACE
@@ -264,7 +264,7 @@ def test_a_full_cell_whose_groups_part_is_given_room():
     assert cells.mixed[3, :2].tolist() == [3, 4]
 
 
-def test_a_gap_beside_the_other_group_is_no_free_surface():
+def test_a_gap_next_to_the_other_group_is_no_free_surface():
     cells = halves()
     cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = 1.0
     cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[0.9], [0.0]], 0.0, 0.9
@@ -293,8 +293,8 @@ def test_pressure_acts_on_each_group_by_its_aperture():
     both = pushed(pushed=of_source)
     assert both.u[:, 3, 4] == pytest.approx([0.1 * 4.0 / 0.25, 0.1 * 4.0 / 3.0 + 0.5])
     assert both.v[:, 3, 4] == pytest.approx([0.0, -7.0])
-    held = pushed(constrained=np.array([4, -1, -1, -1]))
-    assert held.u[:, 3, 4].tolist() == [0.0, 0.0]
+    constrained_cells = pushed(constrained=np.array([4, -1, -1, -1]))
+    assert constrained_cells.u[:, 3, 4].tolist() == [0.0, 0.0]
 
 
 def test_deviators_of_a_group_act_on_it_alone():
@@ -320,7 +320,7 @@ def test_both_ways_of_summing_the_corner_forces_agree():
     inside = np.s_[0, 3:6, 3:6]
     by_rows = np.array([cells.u[inside], cells.v[inside]])
     cells.contact_node_count[3:6], cells.contact_nodes[3:6, :3] = 3, [3, 4, 5]
-    cells.mass[1] = 1.0  # divided by, and of no matter
+    cells.mass[1] = 1.0  # only a divisor here
     cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False, pushed=NOTHING)
     np.testing.assert_allclose([cells.u[inside], cells.v[inside]], by_rows, rtol=1e-12, atol=1e-13)
     assert np.abs(by_rows - [cells.u0[inside], cells.v0[inside]]).min() > 1e-4

@@ -13,7 +13,7 @@ from tests.decks import body, box, mesh, stop, table, walls
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-#: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, a prototype's: flow, cells -> error
+#: E_geo = sum |f - f0| h^2 of Youngs' method with directionally split sweeps, from a prototype: flow, cells -> error
 YOUNGS = {
     ("vortex 2", 32): 2.98e-3,
     ("vortex 2", 64): 8.38e-4,
@@ -37,12 +37,12 @@ CIRCLE = body("circle", "gas_7_5", "sphere", centre=[0.5, 0.75], radius=0.15, en
 
 
 def vortex(x, y, t, period):
-    """Stream function of Rider & Kothe, J. Comput. Phys. 141 (1998) 112: a vortex that turns back."""
+    """Stream function of Rider & Kothe, J. Comput. Phys. 141 (1998) 112: a vortex that reverses."""
     return np.sin(np.pi * x) ** 2 * np.sin(np.pi * y) ** 2 * np.cos(np.pi * t / period) / np.pi
 
 
 def rotation(x, y, t):
-    """Stream function of a rigid rotation in unit time, held at the walls."""
+    """Stream function of a rigid rotation in unit time, fixed at the walls."""
     return -np.pi * np.minimum((x - 0.5) ** 2 + (y - 0.5) ** 2, 0.25)
 
 
@@ -53,7 +53,7 @@ FLOWS = {"vortex 2": (partial(vortex, period=2.0), 2.0, 1.0), "vortex 8": (parti
 def carry(engine, flow, steps: int) -> None:
     """Carries the bodies of an engine by the program's own interfaces and remap: flow(step) sets the swept volumes.
 
-    Nothing has a velocity.
+    No body has a velocity.
     """
     for step in range(steps):
         flow(step)
@@ -66,7 +66,7 @@ def carry(engine, flow, steps: int) -> None:
 
 
 def by_stream_function(engine, stream, dt: float):
-    """Swept volumes that are free of divergence to the last bit: differences of the stream function at mid-step."""
+    """Swept volumes free of divergence to the last bit: differences of the stream function at mid-step."""
     s, g = engine.state, engine.grid
     r, z = np.meshgrid(g.r_edges, g.z_edges)
     rows, columns = g.inside_vertices
@@ -92,7 +92,7 @@ def test_circle_in_a_flow(name, n):
     mass = np.sum(g.interior(s.vof[0] * s.rho[0])) + engine.audit.sinks["cutoff"].mass[0] * n * n
     assert mass == pytest.approx(np.sum(first), rel=1e-12)
     np.testing.assert_allclose(g.interior(s.e[0])[vof > 0], 2.5, rtol=1e-11)  # round-off over what little a cell keeps
-    np.testing.assert_allclose(g.interior(s.rho[0])[vof > 0], 1.0, atol=1e-7)  # what lacks less than the cutoff is made full
+    np.testing.assert_allclose(g.interior(s.rho[0])[vof > 0], 1.0, atol=1e-7)  # cells that lack less than the cutoff are filled
 
 
 def test_three_bodies_without_void_fill_every_cell():
@@ -117,7 +117,7 @@ RING = (
 
 
 def test_ring_that_shrinks_keeps_its_volume():
-    """u = -C/r: the square of every radius falls by 2 C t; a straight interface in r^2/2 is kept exactly."""
+    """u = -C/r: the square of every radius falls by 2 C t; an interface straight in r^2/2 is kept exactly."""
     engine = Simulation(deck.loads(RING)).engine
     s, g = engine.state, engine.grid
     step, steps = 2e-4, 400
@@ -152,17 +152,17 @@ def test_sphere_moved_along_the_axis_and_back(n, error):
     assert mass == pytest.approx(np.sum(volume * first), rel=1e-12)
 
 
-#: bodies that are no gases, and of which the second of three is one
+#: no body a gas, and only the second of three bodies a gas
 SOLIDS, GAS_BETWEEN = np.zeros(3, dtype=bool), np.array([False, True, False])
 ONE_GROUP = np.zeros(3, dtype=np.int64)
-#: the mesh goes on around the middle one of 5 x 5 cells, and no cell is one of a contact
+#: the mesh goes on around the middle one of 5 x 5 cells, and no cell is in a contact
 INSIDE, NO_CONTACT = np.array([0, 5, 0, 5]), np.zeros((5, 2), dtype=np.int64)
 #: its row, as a part of the mesh
 ONE_ROW = np.array([2, 3])
 
 
 def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywhere: bool = False) -> np.ndarray:
-    """What a cell gives of a body that has a corner there and of the one around it through both of its faces.
+    """Volumes of a body with a corner in a cell, and of the one around it, that leave through both faces of the cell.
 
     The void is in the cell alone, or everywhere as a share of the body around.
     """
@@ -185,7 +185,7 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_a_cell_gives_does_not_jump_as_its_void_opens(dj):
+def test_the_flux_of_a_cell_does_not_jump_as_its_void_opens(dj):
     np.testing.assert_allclose(given(dj, 0.0).sum(axis=1), [-0.1, 0.2], rtol=1e-15)
     np.testing.assert_allclose(given(dj, 0.3)[:, 0], [-0.05, 0.0], rtol=1e-15)
     for void in (0.0, 1e-12):
@@ -195,12 +195,12 @@ def test_what_a_cell_gives_does_not_jump_as_its_void_opens(dj):
 
 
 @pytest.mark.parametrize("dj", [0, 1])
-def test_what_a_cell_gives_does_not_jump_as_the_body_around_a_corner_becomes_thin(dj):
+def test_the_flux_of_a_cell_does_not_jump_as_the_body_around_a_corner_becomes_thin(dj):
     """With void everywhere the body around fills no cell any more: it comes first, by a box of its own."""
     def amidst_void(void):
         return given(dj, void, everywhere=True)
 
-    np.testing.assert_allclose(amidst_void(0.3)[:, 1], [-0.1 * 0.45, 0.2 * 0.45], rtol=1e-14)  # it goes on beside the cell
+    np.testing.assert_allclose(amidst_void(0.3)[:, 1], [-0.1 * 0.45, 0.2 * 0.45], rtol=1e-14)  # it continues next to the cell
     for void in (0.0, 0.75 * 0.05):
         changes_in_proportion(amidst_void, void, 30.0, sides=(1.0,))
     assert largest_jump(amidst_void, 0.0, 0.5) < 1e-11
@@ -250,8 +250,8 @@ def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases
 
 @pytest.mark.parametrize("along_z", [False, True])
 @pytest.mark.parametrize("order", list(permutations(range(3))))
-def test_a_plate_between_two_bodies_lies_where_it_is_whatever_the_order(order, along_z):
-    """Each body has in each strip what of it is there, and where it is; the plate alone is thin."""
+def test_a_plate_between_two_bodies_keeps_its_place_in_any_order(order, along_z):
+    """Each body has in each strip the part of it that is there, where it is; only the plate is thin."""
     strips = strips_of(*stack(along_z=along_z), order, along_z)
     for n, ends in enumerate([(-0.5, -0.1), (-0.1, 0.5), (-0.5, 0.5)]):
         expected = np.transpose([in_strip(slab, *ends) for slab in SLABS])
@@ -259,8 +259,8 @@ def test_a_plate_between_two_bodies_lies_where_it_is_whatever_the_order(order, a
     np.testing.assert_array_equal(strips[0, THIN], [0.0, 1.0, 0.0])
 
 
-def test_a_plate_beside_void_lies_where_it_is_too():
-    """A gas from the left, a plate 0.2 thick behind a gap of 0.1, and no more."""
+def test_a_plate_next_to_void_keeps_its_place_too():
+    """A gas from the left, a plate 0.2 thick behind a gap of 0.1, and no other body."""
     slabs = ((-2.5, -0.2), (-0.1, 0.1))
     for order in ((0, 1), (1, 0)):
         strips = strips_of(*stack(slabs), order)
@@ -279,7 +279,7 @@ def test_a_strip_that_is_left_out_stays_as_it_is():
 
 
 def test_no_two_bodies_are_thin_without_each_other():
-    """How thin a body is counts where another is in its cell or around; beside void alone its own `piece` sees to it."""
+    """How thin a body is counts only with another in its cell or around; next to void alone its own `piece` handles it."""
     vof, _ = stack()
     thin = np.full(3, np.nan)
     assert thinnest_body(2, 2, False, np.arange(3), vof, thin) == 1.0
@@ -308,15 +308,15 @@ def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
     vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
     vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
     for gases, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
-        found = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
-        np.testing.assert_allclose(found[:2, SHARE], [low, low], atol=1e-14)
+        pieces = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
+        np.testing.assert_allclose(pieces[:2, SHARE], [low, low], atol=1e-14)
 
 
-def test_bodies_keep_their_order_beside_another_group():
+def test_bodies_keep_their_order_next_to_another_group():
     vof, _ = stack()
     two_groups = np.array([1, 0, 0])
     assert keeps_order(2, 2, two_groups, SOLIDS, vof, 0.0) == (1.0, 1.0)
-    assert keeps_order(2, 3, two_groups, SOLIDS, vof, 0.0) == (1.0, 1.0)  # of the first body there is some in the next cell
+    assert keeps_order(2, 3, two_groups, SOLIDS, vof, 0.0) == (1.0, 1.0)  # some of the first body is in the next cell
     vof[0, :, 2] = 0.0
     assert keeps_order(2, 3, two_groups, SOLIDS, vof, 0.0) == (0.0, 0.0)
     vof[0, 1, 4] = 0.5 * interfaces.MEETING
@@ -324,7 +324,7 @@ def test_bodies_keep_their_order_beside_another_group():
 
 
 def test_void_parts_the_groups_of_a_contact_and_the_order_ends():
-    """Without a jump; what the gap between them is told by remains."""
+    """Without a jump; the gap between them still identifies them."""
     vof, _ = stack()
     two_groups = np.array([1, 0, 0])
 
@@ -338,12 +338,12 @@ def test_void_parts_the_groups_of_a_contact_and_the_order_ends():
     assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.5) == (1.0, 1.0)  # a gas keeps it
 
 
-def test_what_comes_after_the_body_that_is_asked_for_is_left_out():
+def test_bodies_after_the_requested_one_are_left_out():
     vof, centroid = stack()
     all_of_them = strips_of(vof, centroid, (0, 1, 2))
     for m in range(3):
-        found = strips_of(vof, centroid, (0, 1, 2), last=m)
-        np.testing.assert_array_equal(found[:, :THIN, m], all_of_them[:, :THIN, m])
+        pieces = strips_of(vof, centroid, (0, 1, 2), last=m)
+        np.testing.assert_array_equal(pieces[:, :THIN, m], all_of_them[:, :THIN, m])
     assert not strips_of(vof, centroid, (0, 1, 2), gases=GAS_BETWEEN, last=0)[:, :THIN, 1:].any()
 
 
@@ -368,7 +368,7 @@ def test_of_contact_interface_cells_within_the_mesh_only_the_centroids_are_worke
 
 
 def test_bodies_become_thin_without_a_jump():
-    """As the body to the left of a plate ceases to fill a cell, and as it is gone; its centroid is not that of the slab."""
+    """As the body to the left of a plate ceases to fill a cell, and as it vanishes; its centroid is not that of the slab."""
     vof, centroid = stack()
     centroid[:, 0, 2, 2] = -0.1, 0.1
 
@@ -384,7 +384,7 @@ def test_bodies_become_thin_without_a_jump():
 
 
 def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
-    """All weighted: with the plate last in the order the line between it and void decides, else its own box."""
+    """All weighted: with the plate last in the order, the line between it and void decides, otherwise its own box."""
     vof, centroid = stack(((-2.5, -0.2), (-0.1, 0.1)))
     strips = np.zeros((3, 4, 2))
     strips[0, THIN] = 0.0, 1.0
@@ -393,7 +393,7 @@ def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
     np.testing.assert_allclose(strips[0, SHARE], [0.25 * 0.3, 0.0], atol=1e-15)
     assert not strips[1:, :THIN].any()
     nest(2, 2, interfaces.ALL, widths, False, 0.75, np.arange(2), vof, 0.5, False, strips, names)
-    np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows upon the gas
+    np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows the gas
 
 
 def test_the_next_body_has_what_it_and_those_before_have_without_theirs():
@@ -413,7 +413,7 @@ def test_a_thin_body_has_what_its_box_has():
 
 
 def test_a_body_that_gets_less_than_its_interface_gives_lies_where_that_lies():
-    """No more than its fraction: of the 0.3 that the interface gives it has 0.2."""
+    """No more than its fraction: it has 0.2 of the 0.3 that the interface gives it."""
     strip = np.zeros((4, 1))
     below = next_body(0, 0.2, 0.0, (0.0, 0.0, 0.0), (0.3, 0.06, -0.03), 0.2, 0.0, 0.4, 1.0, (0.0, 0.0, 0.0, 0.0), strip)
     assert below[0] == 0.2
@@ -428,7 +428,7 @@ def test_the_place_in_a_strip_is_the_moment_over_the_share():
 
 @pytest.mark.parametrize("along_z", [False, True])
 def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
-    """A tenth of it goes to the left, and six tenths to the right: places in these, and centroids that were not known."""
+    """A tenth goes to the left, and six tenths to the right: places in these, and centroids that were not known."""
     vof, exact = stack(along_z=along_z)
     centroid = exact.copy()
     centroid[:, [0, 2], 2, 2] = 0.0  # those that neighbours place are found, however little was known
@@ -450,7 +450,7 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
 
 
 def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
-    """Of a cell that a body fills by half from the left, whose centroid was not known."""
+    """A cell that a body fills by half from the left, whose centroid was not known."""
     vof, exact = stack(((-2.5, 0.0),))
     mixed = np.full((5, 5), 2, dtype=np.int64)
     for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):

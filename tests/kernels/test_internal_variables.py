@@ -1,4 +1,4 @@
-"""Internal variables of a strength model on their way through a step: hardened, turned, carried, mirrored, cut, written."""
+"""Internal variables of a strength model during a step: hardened, turned, carried, mirrored, cut, written."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ yield_stress = "0.3 GPa"
 hardening_modulus = "5 GPa"
 isotropic_share = SHARE
 """)
-#: a block whose topmost row void cuts, and the same with a second body in the place of void
+#: a block whose topmost row is cut by void, and one with a second body in place of the void
 CUT = HARDENS.replace("z = [0.0, 5.0]", "z = [0.0, 0.33]")
 BONDED = CUT + """
 [[body]]
@@ -39,7 +39,7 @@ def block(share=0.0, text=HARDENS, *overrides):
 
 
 def uniform(e, k):
-    """Row k of q in the block, the same in all cells that hold any of it."""
+    """Row k of q in the block, equal in all cells that contain any of it."""
     inside = e.state.q[k, 0][e.state.vof[0] > 0]
     np.testing.assert_allclose(inside, inside[0], rtol=1e-9, atol=1e-3)
     return inside[0]
@@ -69,7 +69,7 @@ class Loop:
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 @pytest.mark.parametrize("cells", ["full cells", "mixed cells"])
 def test_a_loop_of_pure_shear(share, cells):
-    """The yield surface shifts, widens, or both: the way back yields earlier the less it widens.
+    """The yield surface shifts, widens, or both: the less it widens, the earlier the way back yields.
 
     Mixed cells hold two bodies of one group and no void: they are strained with the cell, as full ones are.
     """
@@ -88,14 +88,14 @@ def test_a_loop_of_pure_shear(share, cells):
 
 @pytest.mark.parametrize(("share", "rest"), [(0.0, 9e6), (0.4, 9e6), (1.0, 1e6)])
 def test_a_loop_of_pure_shear_under_a_free_surface(share, rest):
-    """Void cuts the topmost row, which the loop strains along the surface alone: no normal stress is left across it.
+    """Void cuts the topmost row, which the loop strains along the surface only: no normal stress remains across it.
 
-    The row has another path than the full cells below, but flows at its own yield stress. What is left of the normal stress is
-    by hardening within the step, and by the back stress, which the strain across the surface is foretold without.
+    The row has another path than the full cells below, but flows at its own yield stress. The remaining normal stress is due
+    to hardening within the step, and to the back stress, which the predicted strain across the surface leaves out.
     """
     e, r, z = block(share, CUT, 'numerics.mixed_strength="material"')
     s = e.state
-    e.first = s.q[:2]  # density and heat go on: they make the pressure that holds against the deviator
+    e.first = s.q[:2]  # density and heat evolve: they make the pressure that balances the deviator
     cut, full = (0.0 < s.vof[0]) & (s.vof[0] < 1.0), s.vof[0] == 1.0
     exact = Loop(share)
     for step in (2e-4, -2e-4, 2e-4):
@@ -123,7 +123,7 @@ def test_the_back_stress_turns_with_the_block():
 
 
 def test_the_shared_yield_stress_of_a_cell_is_measured_from_each_centre():
-    """Two halves of one cell, one of which has been strained before: each comes back to its own surface."""
+    """Two halves of one cell, one of which was strained before: each returns to its own surface."""
     e, r, z = block(0.0, CUT, 'numerics.mixed_strength="volume"')
     e.state.q[ZZ, 0], e.state.q[RR, 0] = 80e6, -80e6
     for _ in range(100):
@@ -144,7 +144,7 @@ MOVES = (
 
 
 def test_a_signed_variable_is_carried_and_not_cut_off():
-    """A block flies over 0.8 m with a back stress that changes its sign: its sum stays, and so do most of its extremes."""
+    """A block flies over 0.8 m with a back stress that changes sign: its sum stays, and so do most of its extremes."""
     simulation = Simulation(deck.loads(MOVES))
     s, g = simulation.state, simulation.grid
     wave = 50e6 * np.sin(2 * np.pi * (g.zc - 0.2) / 0.7)[:, None]
@@ -197,9 +197,9 @@ def test_a_restart_goes_on_with_them():
 def test_they_are_written_of_the_bodies_that_have_them():
     simulation = Simulation(deck.loads(IMPACT))
     simulation.state.q[ZZ, 0] = 4e6
-    found = derived.evaluate(simulation)
+    fields = derived.evaluate(simulation)
     names = [f"Back Stress {part} of block [Pa]" for part in ("rr", "zz", "rz")]
-    assert [name for name in found if name.startswith("Back Stress")] == names
-    filled = found["Volume Fraction for block"] > 0
-    np.testing.assert_array_equal(found[names[1]], np.where(filled, 4e6, 0.0))
+    assert [name for name in fields if name.startswith("Back Stress")] == names
+    filled = fields["Volume Fraction for block"] > 0
+    np.testing.assert_array_equal(fields[names[1]], np.where(filled, 4e6, 0.0))
     assert not set(names) & set(derived.evaluate(simulation, ["standard"]))

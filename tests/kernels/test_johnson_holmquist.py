@@ -1,7 +1,7 @@
 """The one-element tests of Johnson and Holmquist (1994): a ceramic in uniaxial strain, compressed by 5 % and released.
 
-Alumina with S = 2 GPa. A: it is crushed as soon as it yields, and has no strength then. B: damage grows with strain, to no
-strength. C: the same, and crushed material keeps a strength.
+Alumina with S = 2 GPa. A: it is crushed as soon as it yields, and then has no strength. B: damage grows with strain, down to no
+strength. C: as B, but crushed material keeps a strength.
 """
 
 import numpy as np
@@ -51,7 +51,7 @@ class Element:
         self.deviator, self.mu = (0.0, 0.0, 0.0), 0.0
 
     def names(self, damage0=0.0, dt=1e-6):
-        """What kernels take of it; damage0 : before the step."""
+        """The values that kernels take from it; damage0 : before the step."""
         before = np.zeros((3, 1, 1, 1))
         before[memory.DAMAGED] = damage0
         return handle(dt=dt, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm, q=self.q, before=before,
@@ -102,7 +102,7 @@ def test_a_is_crushed_as_it_yields():
     assert stress[crushed] == pytest.approx(0.0, abs=1e3)
     assert gained[crushed] == pytest.approx(jump, rel=1e-2)
     assert p[-1] == pytest.approx(7.448e9, rel=5e-3)
-    assert np.all(down[:, 3] == gained[-1])  # none of it comes back
+    assert np.all(down[:, 3] == gained[-1])  # it stays
     assert np.abs(down[:, 1]).max() < 1e3
 
 
@@ -138,8 +138,8 @@ def exact_path(case):
         return y[0] - 1.0
 
     crushed.terminal = True
-    found = solve_ivp(slopes, (begin, -np.log(0.95)), [0.0, 0.0], rtol=1e-10, atol=1e-10, events=crushed, dense_output=True)
-    return begin, found
+    solution = solve_ivp(slopes, (begin, -np.log(0.95)), [0.0, 0.0], rtol=1e-10, atol=1e-10, events=crushed, dense_output=True)
+    return begin, solution
 
 
 @pytest.mark.parametrize("case", ["B", "C"])
@@ -184,7 +184,7 @@ def test_the_size_of_the_steps_does_not_matter():
 
 
 def test_stress_falls_to_the_strength_at_the_damage_of_the_step():
-    """At P_HEL the strain of 0.002 makes the damage 0.002/ef; what the stress then loses is plastic as well."""
+    """At P_HEL the strain of 0.002 makes the damage 0.002/ef; the stress lost to it is plastic as well."""
     element, dep, p = Element("C"), 0.002, P_HEL
     element.pm[...] = p
     intact, crushed = S * A * (1.0 + T / P_HEL) ** N, S * 0.31

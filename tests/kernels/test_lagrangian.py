@@ -30,7 +30,7 @@ def engine(text: str = BLOCK, *overrides: str):
 
 
 def lagrangian(e, dt: float) -> None:
-    """The Lagrangian step of the cycle, with a time step of one's own."""
+    """The Lagrangian step of the cycle, with a chosen time step."""
     e.close_cells()
     e.choose_step()
     e.dt = dt
@@ -122,7 +122,7 @@ def test_lagrangian_step_conserves_energy_to_round_off(geometry, text, options):
     before = energy(e)
     lagrangian(e, 2e-6)
     work = 0.5 * np.sum(s.mass * ((s.u - s.u0) ** 2 + (s.v - s.v0) ** 2))
-    assert work > 1e-5 * before  # it moves
+    assert work > 1e-5 * before  # there is motion
     assert energy(e) == pytest.approx(before, rel=1e-13)
 
 
@@ -144,7 +144,7 @@ def driven(e, u, v, dt: float, steps: int):
 
 
 def deviators(e):
-    """(rr, zz, rz) of the block in MPa, once it is the same everywhere."""
+    """(rr, zz, rz) of the block in MPa, once it is uniform."""
     s, g = e.state, e.grid
     fields = [g.interior(field[0]) for field in (s.srr, s.szz, s.srz)]
     for field in fields:

@@ -1,6 +1,6 @@
 """Light times: Kenamond's problems, a detonation point, several of them, and an inert obstacle in the way; and a slab.
 
-The exact answers are shortest ways: straight where the point is seen, else along tangents and the surface of the obstacle.
+The exact answers are shortest paths: straight where the point is seen, else along tangents and the surface of the obstacle.
 """
 
 import numpy as np
@@ -35,7 +35,7 @@ def arrival(points, n, inert=None):
 
 
 def around_a_disc(r, z, radius):
-    """Shortest way from POINT to (r, z) around a disc at the origin: two tangents and an arc, or straight."""
+    """Shortest path from POINT to (r, z) around a disc at the origin: two tangents and an arc, or straight."""
     a, b = np.hypot(*POINT), np.hypot(r, z)
     angle = np.arccos(np.clip((r * POINT[0] + z * POINT[1]) / (a * b), -1.0, 1.0))
     arc = angle - np.arccos(radius / a) - np.arccos(np.minimum(radius / b, 1.0))
@@ -44,7 +44,7 @@ def around_a_disc(r, z, radius):
 
 
 def around_a_slab(r, z):
-    """Shortest way from POINT around the slab r < 4, 0 < z < 1: by its corners (4, 0) and (4, 1)."""
+    """Shortest path from POINT around the slab r < 4, 0 < z < 1: by its corners (4, 0) and (4, 1)."""
 
     def clear(r0, z0, levels):
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -74,7 +74,7 @@ def test_several_points_and_times_are_exact():
     (lambda r, z: (r < 4.0) & (z > 0.0) & (z < 1.0), around_a_slab, 0.08),
 ], ids=["disc", "slab"])
 def test_around_an_obstacle_of_first_order(inert, exact, largest):
-    """Never early; where the point is seen to round-off; behind the obstacle late by less than a cell and a half."""
+    """Never early; to round-off where the point is seen; behind the obstacle late by less than a cell and a half."""
     means = []
     for n in (40, 80, 160):
         r, z, light, share = arrival([(*POINT, 0.0)], n, inert)
@@ -90,7 +90,7 @@ def test_around_an_obstacle_of_first_order(inert, exact, largest):
     assert np.log2(means[0] / means[2]) / 2.0 > 0.95
 
 
-def test_what_no_way_leads_to_is_never_lit():
+def test_unreachable_explosive_is_never_lit():
     r, z, light, share = arrival([(*POINT, 0.0)], 20, lambda r, z: (z > 0.0) & (z < 1.0) & (r >= 0.0))
     assert np.isinf(light[(z[:, 0] > 1.0)]).all()
     assert np.isfinite(light[(z[:, 0] < 0.0)]).all()

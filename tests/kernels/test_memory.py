@@ -1,4 +1,4 @@
-"""Equations of state with memory on their way through a step: what they are told, and what becomes of their variables."""
+"""Equations of state with memory during a step: the values that they receive, and the changes of their variables."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ grueneisen = 2.0
 specific_heat = 890.0
 """
 POROUS = BLOCK.replace("[materials.metal.strength]", f"{PORES}[materials.metal.strength]")
-#: beside a body without memory, whose strength model has variables of its own
+#: next to a body without memory, whose strength model has variables of its own
 TWO = POROUS.replace("z = [0.0, 5.0]", "z = [0.0, 0.33]") + """
 [[body]]
 name = "upper"
@@ -63,18 +63,18 @@ def test_a_body_with_memory_alone_carries_no_deviators():
     assert carried(fields, strength=True, damage=True) == [1, 2, 3, 4, 5, 6, INTERNAL]
 
 
-def test_no_memory_is_taken_where_no_equation_of_state_has_any():
+def test_no_memory_is_used_without_an_equation_of_state_that_has_it():
     sim = Simulation(deck.loads(BLOCK))
     assert not hasattr(sim.state, "before")
     assert sim.engine.given.handle.before.size == 0
 
 
-def test_a_model_is_told_what_has_happened(monkeypatch):
+def test_a_model_receives_the_changes_of_a_step(monkeypatch):
     """Density, strain and damage before and after; work is stress times strain; damage weakens nothing here."""
-    told = {}
+    received = {}
 
     def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
-        told[len(told)] = rho0, rho, e, dep, work, damage0, damage, released, time, dt
+        received[len(received)] = rho0, rho, e, dep, work, damage0, damage, released, time, dt
         internal[0] = 1.25
 
     s = (sim := simulation()).state
@@ -90,8 +90,8 @@ def test_a_model_is_told_what_has_happened(monkeypatch):
     memory.update_memory.source(0, names)
     stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
     expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, 0.0, 3e-6, 1e-8)
-    assert told[0] == pytest.approx(expected, rel=1e-12)
-    assert len(told) == 1
+    assert received[0] == pytest.approx(expected, rel=1e-12)
+    assert len(received) == 1
     assert s.q[INTERNAL, 0, j, i] == 1.25
 
 
@@ -126,12 +126,12 @@ time = 1.0
 
 
 def test_pores_travel_with_the_body():
-    """In free flight the distention goes along unchanged; what is crushed in part of the body stays that much of its mass."""
+    """In free flight the distention moves with the body unchanged; crushed material keeps its share of the mass."""
     sim = simulation(MOVES)
     s, g = sim.state, sim.grid
     half = (g.zc < 0.5)[:, None] & np.ones(g.shape, dtype=bool)
     s.q[INTERNAL, 0][half] = 1.1
-    s.rho[0][half] *= 1.35 / 1.1  # without pressure
+    s.rho[0][half] *= 1.35 / 1.1  # at zero pressure
 
     def crushed():
         mass = g.interior(s.vof * s.rho * g.volume)[0]
@@ -144,11 +144,11 @@ def test_pores_travel_with_the_body():
         sim.engine.advance()
     assert crushed() == pytest.approx(before, rel=1e-12)
     there = g.interior(s.vof[0]) > 0.0
-    found = g.interior(s.q[INTERNAL, 0])[there]
-    assert found.min() >= 1.1 - 1e-12
-    assert found.max() <= 1.35 + 1e-12
-    assert (found < 1.1 + 1e-6).any()
-    assert (found > 1.35 - 1e-6).any()
+    distention = g.interior(s.q[INTERNAL, 0])[there]
+    assert distention.min() >= 1.1 - 1e-12
+    assert distention.max() <= 1.35 + 1e-12
+    assert (distention < 1.1 + 1e-6).any()
+    assert (distention > 1.35 - 1e-6).any()
 
 
 def test_it_is_written_for_the_body_that_has_it():

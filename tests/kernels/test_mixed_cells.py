@@ -1,6 +1,6 @@
-"""What a mixed cell does in a step, function by function, on one cell made by hand.
+"""A mixed cell in a step, function by function, on one cell made by hand.
 
-The cell is (2, 2) of a mesh of one square cell of 1 m, planar, and is filled by two bodies of 2 and 8 kg/m^3 by half.
+The cell is (2, 2) of a mesh of one square cell of 1 m, planar; two bodies of 2 and 8 kg/m^3 each fill half of it.
 """
 
 import numpy as np
@@ -67,14 +67,14 @@ class Cell(Cells):
                        "internal": np.zeros((5, 4))}  # fmt: skip
 
     def moving(self, **gradient: float) -> None:
-        """A velocity gradient, the same at the end of the step and at its middle, and what the filter does."""
+        """A velocity gradient, constant over the step, and the filter's part."""
         names = {"rr": (RR, MEAN_RR), "tt": (TT, MEAN_TT), "zz": (ZZ, MEAN_ZZ), "rbz": (RBZ, MEAN_RZ), "zbr": (ZBR,),
                  "filter": (HOURGLASS,)}  # fmt: skip
         for name, value in gradient.items():
             self.motion[2, :, names[name]] = value
 
     def run(self, function, **given):
-        """A scalar function as Python."""
+        """A scalar function run as Python."""
         return self.call(function, as_python=True, **given)
 
 
@@ -96,7 +96,7 @@ def test_the_motion_of_a_cell():
 
 
 def test_shares_in_a_change_of_volume():
-    """By f/K they are 0.5 and 0.125, so that the softer body takes four fifths; strained alike they are by volume."""
+    """By f/K they are 0.5 and 0.125, so that the softer body takes four fifths; if strained alike, they are by volume."""
     cell = Cell()
     cell.pm[:, *AT] = 10.0, 20.0
     inverse, mean = cell.run(mixed.soften, tipton=True)
@@ -132,8 +132,8 @@ def test_a_gas_counts_where_it_is():
     assert not cell.run(cut_cells.is_beside_gas)
 
 
-def test_what_is_in_a_cell():
-    """Its groups, whether several bodies of which one has strength are in it, and which fills most of it."""
+def test_the_contents_of_a_cell():
+    """Its groups, whether several bodies are in it one of which has strength, and which fills most of it."""
     cell = Cell(strong=True, group=(0, 1))
     assert cell.run(cut_cells.holds, g=0)
     assert cell.run(cut_cells.holds, g=1)
@@ -141,7 +141,7 @@ def test_what_is_in_a_cell():
     cell.known["strong"][0] = False
     assert cell.run(cut_cells.joins_solids)
     cell.vof[:, *AT] = 0.0, 1.0
-    assert not cell.run(cut_cells.joins_solids)  # there is one body
+    assert not cell.run(cut_cells.joins_solids)  # only one body
     cell.vof[:, *AT] = 1.0, 0.0
     assert not cell.run(cut_cells.holds, g=1)
     assert not cell.run(cut_cells.joins_solids)
@@ -151,7 +151,7 @@ def test_what_is_in_a_cell():
 
 
 def test_sides_of_a_joint():
-    """Gases are on one side; without one, what fills most of the cell is, and what is not there is on neither."""
+    """Gases are on one side; without one, the body that fills most of the cell is; a body not in the cell is on neither."""
     cell = Cell()
     cell.known["gases"][1] = True
     assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=True) for m in (0, 1)] == [1.0, -1.0]
@@ -160,7 +160,7 @@ def test_sides_of_a_joint():
     assert cell.run(cut_cells.side_of_joint, m=0, first=1, gas=False) == 0.0
 
 
-def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
+def test_motion_lost_to_ties_heats_the_body_next_to_the_gas():
     """Half of 1 kg of the body is tied: 0.125 kg by (4 m/s)^2 for the pair below, at the start and at the end alike."""
     cell = Cell()
     cell.known["gases"][1] = True
@@ -174,7 +174,7 @@ def test_what_ties_take_of_the_motion_is_heat_of_the_body_beside_the_gas():
     assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
 
 
-def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
+def test_next_to_a_gas_each_pressure_works_on_its_own_change_of_volume():
     """Changes of -0.08 and -0.02 m^3 at 10 + 1 and 20 + 1 Pa are 0.88 and 0.42 J; of 2 J there remain 0.7, by 1 and 4 kg."""
     cell = Cell()
     cell.pm[:, *AT], cell.ph[AT], cell.mix[2, SOFT] = (10.0, 20.0), 16.0, (0.5, 0.125)
@@ -183,7 +183,7 @@ def test_beside_a_gas_each_pressure_works_on_its_own_change_of_volume():
     assert cell.mix[2, HEAT].sum() == pytest.approx(2.0)
 
 
-def test_relaxation_beside_a_gas_works_too_and_makes_no_energy():
+def test_relaxation_next_to_a_gas_works_too_and_makes_no_energy():
     """A tenth of the excess of -2 and 8 Pa: volumes of 0.1 * 0.5 * (-2/1, 8/4) at (10 + 0.1, 20 - 0.4) Pa."""
     cell = Cell()
     cell.pm[:, *AT], cell.ph[AT] = (10.0, 20.0), 15.0
@@ -197,7 +197,7 @@ def test_relaxation_beside_a_gas_works_too_and_makes_no_energy():
 
 
 def filled(cell: Cell, **given) -> Cell:
-    """0.9 m^3 remain of the cell, of which the bodies lose 0.08 and 0.02."""
+    """0.9 m^3 of the cell remain, of which the bodies lose 0.08 and 0.02."""
     cell.ph[AT] = 13.0
     cell.run(mixed.fill_cell, **{"change": -0.1, "work_p": 1.0, "work_q": 0.5, "relaxation": 0.0, "tipton": True, **given})
     return cell
@@ -213,8 +213,8 @@ def test_a_cell_that_bodies_fill_goes_on_by_their_shares():
     assert cell.q[E, :, *AT] == pytest.approx([1 + 0.8 * 1.0 + 0.5 * 0.7 + 0.01, 1 + (0.2 * 1.0 + 0.5 * 0.7 + 0.02) / 4])
 
 
-def test_pressures_relax_by_a_change_of_volume_that_adds_up_to_none():
-    """Half of 0.5 * 0.5 * (-0.02/1, 0.08/4) m^3; the body that is pressed together gains p dV."""
+def test_pressures_relax_by_changes_of_volume_that_sum_to_zero():
+    """Half of 0.5 * 0.5 * (-0.02/1, 0.08/4) m^3; the body that is compressed gains p dV."""
     cell = Cell()
     cell.pm[:, *AT] = 11.98, 12.08
     filled(cell, change=0.0, work_p=0.0, work_q=0.0, relaxation=0.5)
@@ -246,7 +246,7 @@ def test_a_gas_makes_a_cell_go_by_its_own_rule():
 
 
 def test_the_whole_step_of_a_cell_of_two_gases():
-    """Pressed together by a tenth at 10 Pa: 1 J, by f/K; nothing moves but what the faces sweep."""
+    """Compressed by a tenth at 10 Pa: 1 J, by f/K; only the swept volumes move."""
     cell = Cell()
     cell.fr[2, 2], cell.ph[AT], cell.pm[:, *AT] = 0.1, 10.0, 10.0
     cell.u0[0, 2:4, 2], cell.u[0, 2:4, 2] = 1.0, 1.0  # the left face at 1 m/s for 0.1 s
@@ -256,7 +256,7 @@ def test_the_whole_step_of_a_cell_of_two_gases():
 
 
 def pulled(cell: Cell, smallest: bool = False) -> Cell:
-    """At a tension of 8 Pa each, of which both bear 7: without it they had 2.5 and 32 kg/m^3. Half may open in a cycle."""
+    """At a tension of 8 Pa each, of which both bear 7: without it they had 2.5 and 32 kg/m^3. Half may open per cycle."""
     for m, (rest, squared) in enumerate(((2.5, 16.0), (32.0, 1.0 / 3.0))):
         cell.known["models"][m, EOS] = stiffened_gas.ID
         cell.known["materials"][m, EOS_AT:] = stiffened_gas.row(
@@ -277,9 +277,9 @@ def test_void_opens_where_a_mixed_cell_fractures():
     assert (cell.solid[AT], cell.skin[KIND, *AT]) == (pytest.approx(0.65), FREE_SURFACE)
 
 
-def test_what_bears_the_tension_and_what_belongs_to_a_contact_stays_closed():
+def test_a_cell_that_bears_the_tension_or_is_in_a_contact_stays_closed():
     cell = Cell()
-    cell.known["materials"][1, TENSILE] = 10.0  # by volume they bear 8.5
+    cell.known["materials"][1, TENSILE] = 10.0  # weighted by volume they bear 8.5
     assert pulled(cell).opened[2] == 0.0
     assert cell.q[SRR, :, *AT].tolist() == [1.0, 1.0]
     assert not pulled(cell, smallest=True).q[SRR].any()
@@ -287,7 +287,7 @@ def test_what_bears_the_tension_and_what_belongs_to_a_contact_stays_closed():
     cell.skin[KIND, *AT] = INTERFACE
     assert pulled(cell).q[SRR, :, *AT].tolist() == [1.0, 1.0]
     cell = Cell()
-    cell.known["materials"][0, TENSILE], cell.q[DMG, 0, *AT] = 1e9, 2.0  # what has failed bears none
+    cell.known["materials"][0, TENSILE], cell.q[DMG, 0, *AT] = 1e9, 2.0  # failed material bears none
     assert not pulled(cell).q[SRR].any()
 
 
@@ -303,7 +303,7 @@ def test_the_body_that_dominates_is_hard_and_fills_enough():
 
 
 def test_deviators_work_by_their_share():
-    """s : D of s_rr = 4 Pa, s_rz = 3 Pa at D_rr = 2/s, 2 D_rz = 1/s is 11 W; what a cut cell keeps across is none of it."""
+    """s : D of s_rr = 4 Pa, s_rz = 3 Pa at D_rr = 2/s, 2 D_rz = 1/s is 11 W; the part kept across a cut cell adds none."""
     cell = Cell()
     cell.q[[SRR, SRZ], 0, *AT] = 4.0, 3.0
     cell.moving(rr=2.0, rbz=1.0)
@@ -354,7 +354,7 @@ def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
     assert cell.mix[2, ALONG, 0] == pytest.approx(-1)
 
 
-def test_what_has_failed_or_is_thin_has_no_yield_stress():
+def test_failed_or_thin_material_has_no_yield_stress():
     cell = Cell(strong=True)
     cell.q[DMG, 0, *AT], cell.known["materials"][1, CUTOFF_DENSITY] = 2.0, 8.0
     assert cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME) == 0.0
@@ -362,12 +362,12 @@ def test_what_has_failed_or_is_thin_has_no_yield_stress():
 
 
 def test_bodies_are_strained_across_by_what_their_traction_needs():
-    """Whatever `meet_traction` finds across the surface is put on the trial: 2 G (n n - 1/3) times the strain."""
+    """The strain across the surface from `meet_traction` is added to the trial: 2 G (n n - 1/3) times the strain."""
     cell = Cell(strong=True)
     cell.skin[[NORMAL_R, KIND], *AT], cell.bulk[AT] = (1.0, INTERFACE), 1.6
     cell.mix[2, MODULUS], cell.mix[2, YIELD], cell.q[SRR, 0, *AT] = 5.0, (3.0, 0.0), 4.0
     cell.run(mixed_strength.strain_bodies_across, own=True, cell_yield=9.0, change=-0.01)
-    assert cell.mix[2, FLOW] == pytest.approx([np.sqrt(3.0) * 4.0, 0.0])  # it flows at what it has
+    assert cell.mix[2, FLOW] == pytest.approx([np.sqrt(3.0) * 4.0, 0.0])  # it flows at its own deviator
     assert cell.mix[2, ACROSS].any()
     for trial, share in ((TRIAL_RR, 2 / 3), (TRIAL_ZZ, -1 / 3), (TRIAL_RZ, 0.0)):
         assert cell.mix[2, trial] == pytest.approx(10.0 * share * cell.mix[2, ACROSS])
@@ -397,7 +397,7 @@ def test_the_plastic_heat_of_the_dominant_body_is_shared_by_fraction_over_yield_
     cell = Cell(strong=True)
     cell.mix[2, YIELD], cell.mix[2, HEAT] = (3.0, 0.0), (1.0, 1.0)
     cell.run(mixed_strength.share_plastic_heat, dominant=0, plastic=0.6)
-    assert cell.mix[2, HEAT] == pytest.approx([1.0, 1.0])  # what has no strength takes nothing
+    assert cell.mix[2, HEAT] == pytest.approx([1.0, 1.0])  # a body without strength gets none
     cell.mix[2, YIELD] = 3.0, 1.0
     cell.run(mixed_strength.share_plastic_heat, dominant=0, plastic=0.6)
     assert cell.mix[2, HEAT] == pytest.approx([1.0 - 0.45, 1.0 + 0.45])

@@ -1,4 +1,4 @@
-"""The phases of the step: the same bits whatever the parts of the mesh, in whatever order they reach the next barrier."""
+"""The phases of the step: the same bits for all parts of the mesh, in any order in which they reach the next barrier."""
 
 import functools
 import hashlib
@@ -19,18 +19,18 @@ from hydro2d.solver.simulation import Simulation
 from tests.kernels.test_compiled_equals_source import CASES, CONTACT, text_of
 from tests.rules.source import ROOT
 
-#: a rod that begins deep within the plate, on a mesh that stands: contact nodes in most rows
+#: a rod that begins deep in the plate, on a fixed mesh: contact nodes in most rows
 DEEP = text_of("both", CONTACT, tip="5 mm", follows=False)
 DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contact": text_of("both", CONTACT),
          "both, deep contact": DEEP, "ke, following": text_of("ke", {"method": "none"}, follows=True)}  # fmt: skip
-#: two cuts into parts, and contact for most of them
+#: two divisions into parts, and contact for most of them
 CYCLES = 20
 PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, value in vars(module).items()
           if isinstance(value, jit.Phase)]
 
 
 def bits(case: str, *parts: int) -> str:
-    """A hash of what a restart file would hold after some cycles, in which there are so many parts in turn."""
+    """A hash of the contents of a restart file after some cycles, with these numbers of parts in turn."""
     simulation = Simulation(deck.loads(DECKS[case]))
     counted = jit.parts_at_once
     try:
@@ -40,15 +40,15 @@ def bits(case: str, *parts: int) -> str:
             assert len(simulation.engine.rows) == parts[cycle % len(parts)] + 1
     finally:
         jit.parts_at_once = counted
-    found, g = hashlib.sha256(), simulation.grid
+    digest, g = hashlib.sha256(), simulation.grid
     for name, array in sorted(simulation.restart_arrays().items()):
         cells = array.ndim >= 2 and array.shape[-2:] in (g.shape, g.vertex_shape)
-        found.update(name.encode() + np.ascontiguousarray(array[..., g.g:-g.g, g.g:-g.g] if cells else array).tobytes())
-    return found.hexdigest() + json.dumps(simulation.restart_scalars(), sort_keys=True, default=str)
+        digest.update(name.encode() + np.ascontiguousarray(array[..., g.g:-g.g, g.g:-g.g] if cells else array).tobytes())
+    return digest.hexdigest() + json.dumps(simulation.restart_scalars(), sort_keys=True, default=str)
 
 
 def bits_as_python(case: str) -> str:
-    """The same of phases that run as Python, with one part."""
+    """`bits` of phases that run as Python, with one part."""
     jit.profiling(True, each_kernel=True)
     try:
         return bits(case, 1)
@@ -67,7 +67,7 @@ def test_phases_do_what_their_source_says_with_any_number_of_parts(case):
 
 
 class Turns:
-    """Runs the parts of phases, as Python, one after another from barrier to barrier, in an order of one's own.
+    """Runs the parts of phases, as Python, one after another from barrier to barrier, in a chosen order.
 
     order : int -> list of int, the order of so many parts
     """
@@ -119,7 +119,7 @@ ORDERS = {"upward": range, "downward": lambda number: range(number)[::-1], "at r
 @pytest.mark.parametrize("case", DECKS)
 @pytest.mark.parametrize("order", ORDERS)
 def test_parts_run_in_any_order_between_barriers(monkeypatch, case, order):
-    """What a part reads of another one, or writes for it, is parted from that by a barrier."""
+    """A barrier lies between a part's reads and writes of another one's data and that part's own."""
     alone = bits_as_python(case)
     monkeypatch.setattr(state, "max_threads", lambda: 4)  # scratch memory for as many parts
     Turns(monkeypatch, ORDERS[order])

@@ -76,7 +76,7 @@ def test_within_the_surface_nothing_flows(own, cell_yield):
 
 
 def test_a_surface_that_hardens_moves_along():
-    """The modulus of the centre adds to the stiffness; the deviator ends on the surface around the centre that it has then."""
+    """The modulus of the centre adds to the stiffness; the deviator ends on the surface around the new centre."""
     cell = Cell(HARDENS, ROW, STEEP)
     rr, zz, rz, dep, final = cell.back()
     assert dep == pytest.approx(1.2e9 / (3 * 26e9 + 5e9))

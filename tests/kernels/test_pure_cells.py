@@ -1,4 +1,4 @@
-"""What a pure cell does in a step: pressure, sound, viscosity, the step that it allows, and work."""
+"""A pure cell in a step: pressure, sound, viscosity, the step that it allows, and work."""
 
 import numpy as np
 import pytest
@@ -42,8 +42,8 @@ def closed(cells: Cells, **given) -> Cells:
 
 def test_a_gas_at_rest():
     cells = closed(gas())
-    found = [getattr(cells, name)[AT] for name in ("p", "bulk", "rhobar", "solid", "cl", "qr", "qz")]
-    assert found == pytest.approx([10.0, 15.0, 2.0, 1.0, np.sqrt(7.5), 0.0, 0.0])
+    values = [getattr(cells, name)[AT] for name in ("p", "bulk", "rhobar", "solid", "cl", "qr", "qz")]
+    assert values == pytest.approx([10.0, 15.0, 2.0, 1.0, np.sqrt(7.5), 0.0, 0.0])
     assert cells.hg_coefficient[AT] == pytest.approx(0.25 * 0.1 * 2.0 * np.sqrt(7.5))
     assert cells.row_step[2:6] == pytest.approx([1e300, 0.5 / np.sqrt(7.5), 1e300, 1e300])
     assert not cells.bad.any()
@@ -51,7 +51,7 @@ def test_a_gas_at_rest():
 
 
 def test_viscosity_along_the_one_direction_that_is_pressed_together():
-    """du = -2 m/s beside cells without a difference: q = rho (2 du^2 + c |du|/2). Its slope 2 b = 4 du + c/2 sets the step."""
+    """du = -2 m/s next to cells without a difference: q = rho (2 du^2 + c |du|/2). Its slope 2 b = 4 du + c/2 sets the step."""
     cells = gas()
     cells.v[0, 4:] = -2.0
     closed(cells)
@@ -71,7 +71,7 @@ def test_a_cell_has_the_linear_viscosity_that_its_last_step_carries():
 
 
 def test_another_bound_of_the_step_is_kept():
-    """That of a contact, which stands in row_step when the cells are looked at."""
+    """For example that of a contact, which is in row_step when the cells are processed."""
     cells = closed(gas())
     cells.row_step[3] = 0.01
     limit(cells)
@@ -80,7 +80,7 @@ def test_another_bound_of_the_step_is_kept():
 
 @pytest.mark.parametrize(("along", "across"), [("u", "v"), ("v", "u")])
 def test_viscosity_along_the_strongest_compression_is_the_same_where_that_is_a_direction_of_the_mesh(along, across):
-    """And the hoop bears none of it."""
+    """And the hoop direction gets none of it."""
     mesh, own = gas(), gas()
     for cells in (mesh, own):
         velocity = getattr(cells, along)[0]
@@ -112,7 +112,7 @@ def test_shear_alone_has_no_viscosity():
     assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == (0.0, 0.0, 0.0)
 
 
-def test_what_is_not_finite_is_counted():
+def test_cells_that_are_not_finite_are_counted():
     cells = gas()
     cells.q[E, 0, *AT], cells.u[0, 3, 3] = np.nan, np.inf
     closed(cells)

@@ -1,4 +1,4 @@
-"""Where bodies are and what moves, ghosts, transmitting edges, sums along edges, a mesh that travels: on cells made by hand."""
+"""Ranges of bodies and of motion, ghosts, transmitting edges, sums along edges, a mesh that travels: cells made by hand."""
 
 import numpy as np
 import pytest
@@ -44,10 +44,10 @@ def test_cells_are_active_within_two_of_a_body():
     assert active[3].tolist() == active[9].tolist() == EMPTY
     cells.occupied[0, 6] = 2, 3
     cells.call(column_ranges.find_active_ranges)
-    assert active[6].tolist() == [2, 5]  # not beyond the box
+    assert active[6].tolist() == [2, 5]  # not outside the box
 
 
-def test_ranges_are_joined_with_those_of_the_rows_beside():
+def test_ranges_are_joined_with_those_of_the_neighbouring_rows():
     cells = Cells(nr=8, nz=8)
     cells.empty_ranges()
     cells.body_ranges[0, 0, 5], cells.body_ranges[0, 0, 6] = (8, 9), (3, 4)
@@ -146,7 +146,7 @@ def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
     assert cells.u[0, 4, [2, 6]].tolist() == cells.v[0, [2, 6], 4].tolist() == [0.0, -4.0]
     assert cells.walls[2, :, 2].tolist() == [3.0 * -4, 0.5 * 3.0 * -4 * 2]
     assert cells.walls[3, :, 6].tolist() == [3.0 * 4, 0.5 * 3.0 * 4 * 2]
-    assert not cells.walls[:2, 0].any()  # momentum is that along z
+    assert not cells.walls[:2, 0].any()  # for momentum along z
 
 
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
@@ -163,7 +163,7 @@ def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
     assert not flow[0, :, [1, 6]].any()
 
 
-def test_a_transmitting_edge_holds_with_the_impedance_of_what_is_beside_it():
+def test_a_transmitting_edge_has_the_impedance_of_the_cells_next_to_it():
     """rho c_l = 6: over the step of 0.5 s, 3 kg/s on a vertex between two cells of the edge and half of that at its ends."""
     cells, edges = Cells(), np.array([-1, 6, -1, -1])
     cells.rhobar[2:6, 2:6], cells.cl[2:6, 2:6], cells.bulk[2:6, 2:6] = 2.0, 3.0, 18.0
@@ -177,21 +177,21 @@ def test_a_transmitting_edge_holds_with_the_impedance_of_what_is_beside_it():
     assert (cells.u == before).all()
 
 
-def test_what_dashpots_take_goes_by_the_velocities_at_the_end():
-    """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, whatever changed it."""
-    cells, edges, taken = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
+def test_energy_taken_by_dashpots_follows_the_velocities_at_the_end():
+    """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, from any cause."""
+    cells, edges, energy = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
     cells.drag[1, 0, :, 3] = 2.0, 3.0
     cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0
-    cells.call(boundaries.sum_drag, transmitting=edges, held_back=taken)
-    assert taken.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
-    cells.call(boundaries.sum_drag, held_back=taken)
-    assert not taken.any()
+    cells.call(boundaries.sum_drag, transmitting=edges, held_back=energy)
+    assert energy.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
+    cells.call(boundaries.sum_drag, held_back=energy)
+    assert not energy.any()
 
 
 # ------------------------------------------------------------------------------------------- sums of what goes out
 
 
-def test_what_goes_out_and_what_comes_in_are_summed_apart():
+def test_outflow_and_inflow_are_summed_separately():
     cells = Cells(bodies=2)
     cells.edge_flux[:, 0, 1, 3], cells.edge_flux[:, 1, 1, 3] = (2.0, 3.0), (8.0, 30.0)
     cells.edge_flux[1, 0, 0, 4], cells.edge_flux[1, 1, 0, 4] = -1.0, -5.0
@@ -225,7 +225,7 @@ def test_faces_sweep_less_by_what_the_mesh_advances():
     assert np.count_nonzero(cells.own_z) == 4
 
 
-def test_what_has_faded_is_nothing():
+def test_faded_values_are_zero():
     cells = Cells()
     cells.q[:, 0, 3, 3:5] = -1e-31, 1e-29
     cells.call(following.silence)

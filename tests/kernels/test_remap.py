@@ -1,4 +1,4 @@
-"""The remap: what each advection choice keeps, and what it gives to the audit."""
+"""The remap: the quantities that each advection choice keeps, and its entries in the audit."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ GEOMETRIES = ("cylindrical", "planar")
 
 
 def box_with(**aluminium) -> str:
-    """A ball of tungsten in a box between walls, and aluminium around it, between its z and its r if any."""
+    """A ball of tungsten in a box between walls, with aluminium around it, between its z and its r if given."""
     return (
         mesh([{"to": 0.5, "cells": 8}, {"cells": 5, "ratio": 1.1}], [{"to": 0.6, "cells": 9}, {"cells": 4, "ratio": 1.15}],
              geometry="cylindrical")
@@ -38,7 +38,7 @@ def engine(text: str, *overrides: str):
 
 
 def disturbed(e, seed: int, size: float = 1.0):
-    """Random fields in every body and random velocities, still at the walls."""
+    """Random fields in every body and random velocities, zero at the walls."""
     s, g = e.state, e.grid
     random = np.random.default_rng(seed)
     inside = (slice(None), *g.inside)
@@ -58,7 +58,7 @@ def disturbed(e, seed: int, size: float = 1.0):
 
 
 def remap_only(e, share: float = 0.3):
-    """One remap by the velocities as they are: dt such that the fastest vertex crosses `share` of the smallest cell.
+    """One remap by the given velocities: dt such that the fastest vertex crosses `share` of the smallest cell.
 
     The Lagrangian step that the remap undoes changes the volumes: densities and fractions follow the swept volumes.
     """
@@ -106,7 +106,7 @@ def test_remap_conserves(choice, geometry, text):
 
 
 def test_unbounded_ke_keeps_kinetic_energy():
-    """Where nothing runs into a wall, `ke` without its bound keeps the kinetic energy."""
+    """Where no flow hits a wall, `ke` without its bound keeps the kinetic energy."""
     e = engine(WITH_VOID, 'mesh.geometry="planar"', "numerics.ke_bound=1e9", 'numerics.advection="ke"')
     disturbed(e, 4)
     e.state.u[..., : e.grid.g + 3] = e.state.u[..., -e.grid.g - 3 :] = 0.0
@@ -117,7 +117,7 @@ def test_unbounded_ke_keeps_kinetic_energy():
 
 
 def test_uniform_state_stays_uniform_in_a_vortex():
-    """Swept volumes without divergence, a body that fills the mesh: every field keeps its one value."""
+    """Swept volumes without divergence, a body that fills the mesh: every field stays uniform."""
     e = engine(in_a_box(24, box("circle", "W_alloy", z=[0.0, 1.0], energy=2.5)))
     s, g = e.state, e.grid
     for k, value in enumerate((18000.0, 5e4, 3e8, -1e8, 2e8, 0.3)):
@@ -172,7 +172,7 @@ def test_two_parcels():
         assert front == pytest.approx(u, rel=1e-14)
         assert front**2 == pytest.approx(kinetic, rel=1e-14)
     first, after, e = carried("both", lambda z: (z <= 100.0) * 1.0, 0.25, 1)
-    # energy of the mesh, two columns wide: what the velocities lost is heat
+    # energy of the mesh, two columns wide: the energy lost by the velocities is heat
     assert np.sum(e.grid.interior(e.state.e[0])) == pytest.approx(2 * 0.5 * 0.25 * 0.75, rel=1e-13)
 
 
@@ -191,8 +191,8 @@ def test_passive_velocity_by_kinetic_energy(profile, gained):
 
 
 def test_a_cell_with_a_little_of_another_body_is_not_full():
-    """Scaling a cell that is a little too full takes the small one below the cutoff: were the rest then called full, the cell
-    would count as pure and as mixed, and be deformed twice."""
+    """Scaling a cell that is a little too full takes the small body below the cutoff: if the rest were then called full, the
+    cell would count as pure and as mixed, and be deformed twice."""
     e = engine(WITH_VOID)
     s = e.state
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
@@ -207,7 +207,7 @@ def test_a_cell_with_a_little_of_another_body_is_not_full():
 
 @pytest.mark.parametrize("shares", [1.0, 2.0])
 def test_a_small_share_goes_without_a_jump(shares):
-    """None of it is left at the cutoff, all of it at twice that; masses and what was removed add up."""
+    """At the cutoff none of it remains, at twice that all of it; masses and the amount removed add up."""
     fade = remap.fade.py_func
     changes_in_proportion(lambda x: fade(x, 0.005), 0.005 * shares, 3.0)
     assert fade(0.005, 0.005) == fade(-1.0, 0.005) == fade(-1.0, 0.0) == 0.0
@@ -224,7 +224,7 @@ def test_a_small_share_goes_without_a_jump(shares):
 
 
 def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.ndarray:
-    """Mass, energy and a stress that flow through the faces of a row, one of whose cells a body fills by a share only."""
+    """Mass, energy and a stress that flow through the faces of a row in which a body fills one cell only in part."""
     columns = 12
     vof, q = np.ones((1, 5, columns)), np.zeros((5, 1, 5, columns))
     vof[0, 2, 6] = share
@@ -248,7 +248,7 @@ def test_the_second_order_goes_by_degrees_where_a_cell_is_not_full(swept, share)
     assert largest_jump(lambda filled: carried_along(filled, swept), 0.5, 1.0) < 1e-11
 
 
-def test_second_order_where_the_body_fills_the_cells_around_and_first_order_beside_others():
+def test_second_order_where_the_body_fills_the_cells_around_and_first_order_next_to_others():
     whole, part = carried_along(1.0)[0], carried_along(0.5)[0]
     first = 0.2 * (3.0 + np.sin(np.arange(12)))
     assert np.abs(whole[3:10] - first[2:9]).max() > 1e-3

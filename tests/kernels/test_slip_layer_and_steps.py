@@ -1,4 +1,4 @@
-"""The slip layer, the step of a row and its cause, and the energies that are farthest off: on cells made by hand."""
+"""The slip layer, the step of a row and its cause, and the energies farthest out of range: on cells made by hand."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ VISCOSITY = {"viscosity_linear": 0.5, "viscosity_quadratic": 1.3}
 
 
 def zoned() -> Cells:
-    """A hard body in the columns 2 and 3, a boundary layer and a slip layer of 1 m each beside it."""
+    """A hard body in columns 2 and 3, with a boundary layer and a slip layer of 1 m each next to it."""
     cells = Cells(nr=6, nz=4, bodies=2)
     cells.vof[1, :, 2:4], cells.vof[0, :, 4:8] = 1.0, 1.0
     cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, hard_threshold=0.5, hard_bodies=np.array([False, True]),
@@ -43,7 +43,7 @@ def test_the_surface_in_a_mixed_cell_lies_where_its_fraction_says():
 @pytest.mark.parametrize(("treatment", "rz", "after"), [(FLUID, 50.0, (0, 0, 0)), (SHEAR, 50.0, (-20, 5, 12)),
                                                         (SHEAR, -50.0, (-20, 5, -12)), (SHEAR, 3.0, (-20, 5, 3))])
 def test_soft_material_of_the_slip_layer_loses_its_shear(treatment, rz, after):
-    """Friction of 0.1 bears 0.1 (100 + 20) Pa of the shear beside a wall along z."""
+    """Friction of 0.1 bears 0.1 (100 + 20) Pa of the shear next to a wall along z."""
     cells = zoned()
     cells.q[SRR], cells.q[SZZ], cells.q[SRZ], cells.pm[...] = -20.0, 5.0, rz, 100.0
     cells.call(sliding.cut_shear, shear=treatment, friction=0.1,
@@ -71,8 +71,8 @@ def test_the_row_of_the_least_step_and_of_what_is_not_finite():
 
 @pytest.mark.parametrize(("u", "v", "cause"), [(1.0, 0.0, "sound"), (60.0, 0.0, "radial velocity"),
                                                (0.0, -60.0, "axial velocity")])
-def test_what_sets_the_step(u, v, cause):
-    """Sound of 10 m/s crosses half a cell in 0.05 s, 60 m/s a whole one in less; a velocity that is even changes no volume."""
+def test_causes_of_the_step(u, v, cause):
+    """Sound of 10 m/s crosses half a cell in 0.05 s, 60 m/s a whole one in less; a uniform velocity changes no volume."""
     cells = Cells()
     cells.rhobar[3, 3:5], cells.cl[3, 3], cells.cl[3, 4] = 1.0, 9.0, 10.0
     cells.u[...], cells.v[...], cells.least_row[0] = u, v, 3
@@ -91,23 +91,23 @@ def test_a_cell_that_is_pressed_together_sets_the_step():
 
 def test_energies_that_are_farthest_beyond_reach():
     """A body may have -2 to 40 J/kg and 10 more for every unit of plastic strain."""
-    cells, found = Cells(), np.zeros((2, 3))
+    cells, farthest = Cells(), np.zeros((2, 3))
     cells.vof[0, 3, 2:6] = 1.0, 1.0, 1.0, 0.001
     cells.q[E, 0, 3, 2:6], cells.q[EP, 0, 3, 2:6] = (45.0, 50.0, -5.0, 1e9), (0.0, 2.0, 0.0, 0.0)
     gas = ideal_gas
     given = {"m": 0, "sliver": 0.01, "lowest": -2.0, "highest": 40.0, "plastic": 10.0, "most_strain": 0.8, "model": gas.ID,
              "memory": INTERNAL, "shear": 0.0, "chill": 1.0,
-             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "found": found}  # fmt: skip
+             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "found": farthest}  # fmt: skip
     cells.q[RHO, 0, 3, 2:6] = 1.0
     cells.call(thermodynamics.worst_energies, warm=False, **given)
     elastic = 45.0 * 0.4 / (2 * 1.4)  # p^2/(2 K rho) of the gas, p = 0.4 rho e and K = 1.4 p
-    assert found.tolist() == [[pytest.approx(5.0 - elastic), 3, 2], [3.0, 3, 4]]
+    assert farthest.tolist() == [[pytest.approx(5.0 - elastic), 3, 2], [3.0, 3, 4]]
     cells.call(thermodynamics.worst_energies, warm=True, **given)
-    assert found[1].tolist() == [5.0, 3, 4]  # it began warm, and is at 0 K
+    assert farthest[1].tolist() == [5.0, 3, 4]  # it was warm at the start, and is at 0 K
     cells.q[E, 0, 3, 4] = -0.9
     cells.call(thermodynamics.worst_energies, warm=True, **given)
-    assert found[1, 0] <= 0.0  # by no more than `chill`
+    assert farthest[1, 0] <= 0.0  # at most by `chill`
     cells.q[SRR, 0, 3, 3], given["shear"], cells.q[E, 0, 3, 2] = 20.0, 4.0, 0.0
     cells.q[E, 0, 3, 3] = 70.0  # 22 beyond, of which the stress in the cell is worth 10 + 50
     cells.call(thermodynamics.worst_energies, warm=True, **given)
-    assert found[0, 0] == pytest.approx(22.0 - 70.0 * 0.4 / (2 * 1.4) - 3 * 20.0**2 / (6 * 4.0))
+    assert farthest[0, 0] == pytest.approx(22.0 - 70.0 * 0.4 / (2 * 1.4) - 3 * 20.0**2 / (6 * 4.0))

@@ -1,4 +1,4 @@
-"""Material that heat has expanded beyond `failure.strength_cutoff` is no solid any more."""
+"""Material that heat has expanded beyond `failure.strength_cutoff` is no longer solid."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The remap, kernel by kernel, on cells made by hand: whatever moves, moves by one face of one row."""
+"""The remap, kernel by kernel, on cells made by hand: all motion is through one face of one row."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from hydro2d.mesh.fields import DMG, FAILED, RHO, SRR, E
 from tests.kernels.cells import Cells
 
 NO_GAS = np.zeros(1, dtype=bool)
-#: (dj, di), the cell that a volume comes from, the one that it goes to, and the array that holds what the faces sweep
+#: (dj, di), the cell that a volume comes from, the one that it goes to, and the array of the swept volumes
 WAYS = [(0, 1, (3, 3), (3, 4), "fr"), (1, 0, (3, 3), (4, 3), "fz")]
 
 
@@ -34,8 +34,8 @@ def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
 
 
 @pytest.mark.parametrize("first", [True, False])
-def test_a_cell_that_is_turned_inside_out_is_told_with_its_body(first):
-    """The first of a row that a body is in; void may be swept away, and a cell of no volume is no cell."""
+def test_a_cell_that_is_turned_inside_out_is_reported_with_its_body(first):
+    """The first such cell of a row with a body in it; void may be swept away, and a cell of zero volume does not count."""
     cells = Cells(bodies=2)
     cells.vof[:, 3, 4], cells.vof[:, 3, 5], cells.vof[0, 4, 2] = (0.2, 0.7), (0.6, 0.4), 1.0
     cells.fr[3, 3:7] = 2.0, 0.5, -0.5, -3.0
@@ -55,8 +55,8 @@ def test_nothing_but_void_flows_in_at_an_edge():
 
 
 @pytest.mark.parametrize(("dj", "di", "source", "target", "face"), WAYS, ids=["r", "z"])
-def test_a_mixed_cell_gives_what_lies_at_its_face(dj, di, source, target, face):
-    """A cell filled by half, from the side that is away from the face: of six tenths at the face the body has one."""
+def test_a_mixed_cell_gives_the_material_at_its_face(dj, di, source, target, face):
+    """A cell half full, on the side away from the face: the body has one of the six tenths at the face."""
     cells = Cells()
     along = np.arange(8) - 3
     cells.vof[0] = np.clip(0.5 - along, 0.0, 1.0)[:, None] if dj else np.clip(0.5 - along, 0.0, 1.0)[None, :]
@@ -119,7 +119,7 @@ def test_two_parts_share_the_fluxes_between_them():
 
 
 def column(*orders: int) -> list:
-    """What a sweep along z makes of a full column, by one part or by two parts in an order; every face sweeps a tenth."""
+    """A full column after a sweep along z, by one part or by two parts in an order; every face sweeps a tenth."""
     cells, chance = Cells(nr=1, nz=8), np.random.default_rng(7)
     cells.vof[...], cells.q[...] = 1.0, chance.uniform(1.0, 1.2, cells.q.shape)
     cells.fz[3:10], cells.pre[...] = 0.1, 1.0
@@ -141,7 +141,7 @@ def test_two_parts_do_what_one_does_to_the_last_bit(orders):
     assert column(*orders) == column()
 
 
-def test_what_flows_over_the_edge_of_the_mesh_is_kept():
+def test_flow_over_the_edge_of_the_mesh_is_kept():
     cells, given = carried(0, 1, (3, 5), (3, 6), "fr")
     cells.call(remap.sweep_r, **given)
     assert cells.edge_flux[1, :, 0, 3].tolist() == [0.5, 5.0]
@@ -151,15 +151,15 @@ def test_what_flows_over_the_edge_of_the_mesh_is_kept():
     assert cells.edge_flux[1, :, 0, 3].tolist() == [0.5, 5.0]
 
 
-def test_what_has_failed_stays_so_and_bears_no_deviator():
+def test_failed_material_stays_failed_and_bears_no_deviator():
     cells, given = carried(*WAYS[0])
     cells.q[DMG, 0, 3, 3] = FAILED
     cells.call(remap.sweep_r, **given)
     assert cells.q[[DMG, SRR], 0, 3, 4].tolist() == cells.q[[DMG, SRR], 0, 3, 3].tolist() == [FAILED, 0.0]
 
 
-def test_what_is_too_little_to_divide_by_has_no_energy():
-    """A worn rod left 1e-305 of a cell: its energy per mass was infinite, and so was the energy that was tidied away."""
+def test_a_mass_too_small_to_divide_by_has_no_energy():
+    """A worn rod left 1e-305 of a cell: its energy per mass was infinite, and so was the energy tidied away."""
     cells, given = carried(*WAYS[0])
     cells.vof[...] *= 1e-310
     cells.flux_volume[...] *= 1e-310
@@ -186,7 +186,7 @@ def tidied(*fractions: float) -> Cells:
     return cells
 
 
-def test_what_is_below_the_cutoff_goes_with_all_that_it_has():
+def test_a_body_below_the_cutoff_is_removed_with_all_its_contents():
     cells = tidied(0.5, 5e-4)
     assert cells.vof[:, 3, 3].tolist() == [0.5, 0.0]
     assert not cells.q[:, 1, 3, 3].any()
@@ -204,7 +204,7 @@ def test_void_below_the_cutoff_closes_and_a_full_cell_is_no_longer_mixed():
     assert cells.mixed_count[3] == 0
 
 
-def test_what_is_above_twice_the_cutoff_stays():
+def test_a_body_above_twice_the_cutoff_stays():
     cells = tidied(0.5, 0.002)
     assert cells.vof[:, 3, 3].tolist() == [0.5, 0.002]
     assert not cells.removed.any()
@@ -214,7 +214,7 @@ def test_what_is_above_twice_the_cutoff_stays():
 
 
 def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) -> Cells:
-    """Cells of 1 kg through which 0.2 kg flow; what moves along z at 1 m/s has what stands still behind it."""
+    """Cells of 1 kg through which 0.2 kg flow; a mass at rest follows the one that moves along z at 1 m/s."""
     cells = Cells(nr=8, nz=8)
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.flux_mass[...] = 0.2
@@ -227,7 +227,7 @@ def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) ->
 
 @pytest.mark.parametrize(("dj", "di"), [(0, 1), (1, 0)], ids=["r", "z"])
 @pytest.mark.parametrize(("advection", "after"), [(MOMENTUM, 0.8), (KE, np.sqrt(0.8)), (BOTH, 0.8)])
-def test_what_flows_into_a_vertex_takes_the_velocity_from_where_it_was(dj, di, advection, after):
+def test_flow_into_a_vertex_brings_the_velocity_of_its_origin(dj, di, advection, after):
     """Momentum 1 + 0.2 (0 - 1) kg m/s and kinetic energy (1 + 0.2 (0 - 1))/2 J of 1 kg."""
     cells = swept(advection, dj, di)
     along = cells.v[0, :, 6] if dj else cells.v[0, 6, :]
@@ -239,7 +239,7 @@ def test_what_flows_into_a_vertex_takes_the_velocity_from_where_it_was(dj, di, a
 
 @pytest.mark.parametrize("side", [0, 1], ids=["low", "high"])
 @pytest.mark.parametrize(("dj", "di"), [(0, 1), (1, 0)], ids=["r", "z"])
-def test_what_flows_into_an_edge_that_only_pushes_is_taken_there_if_it_goes_beyond(dj, di, side):
+def test_flow_beyond_an_edge_that_only_pushes_stops_there(dj, di, side):
     """The vertex where 0.2 kg come in moves at 0.8 m/s: into the mesh from its low edge, and beyond its high one."""
     pushing = np.full(4, -1)
     pushing[2 * dj + side] = 7
@@ -249,8 +249,8 @@ def test_what_flows_into_an_edge_that_only_pushes_is_taken_there_if_it_goes_beyo
     assert (cells.momentum_sums[4, 7] > 0.5) == bool(dj and side)
 
 
-def test_what_rests_on_an_edge_that_only_pushes_rests_there_whatever_flows_in():
-    """Only forces lift it: the 0.2 kg come from what moves into the mesh, and the edge takes their momentum."""
+def test_a_vertex_at_rest_on_an_edge_that_only_pushes_stays_at_rest():
+    """Only forces lift it: the 0.2 kg come from matter that moves into the mesh, and the edge takes their momentum."""
     cells = Cells(nr=8, nz=8)
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.flux_mass[...] = 0.2

@@ -1,4 +1,4 @@
-"""A row of pure cells: those that yield, and no other, return as each would alone."""
+"""A row of pure cells: those that yield, and no others, return as each would alone."""
 
 import math
 
@@ -52,7 +52,7 @@ class Row:
         return q[:, 0, 0]
 
     def alone(self) -> np.ndarray:
-        """The same, cell by cell."""
+        """`yields`, cell by cell."""
         q = self.q[:, 0, 0].copy()
         for i in range(FIRST, FIRST + self.columns):
             size, t, p = abs(self.scratch[1, 0, i]), self.tm[0, 0, i], self.pm[0, 0, i]
@@ -77,10 +77,10 @@ def test_a_row_is_its_cells(name, columns):
     row.scratch[1, 0, FIRST + 1::7] *= -1.0  # cells of low density
     row.tm[0, 0, FIRST + 2::6] = 2500.0  # melted cells
     row.scratch[0, 0, FIRST + 3::9] = 0.0  # cells without a modulus
-    found, expected = row.yields(), row.alone()
-    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-300)
-    assert columns < 8 or (found[EP] > row.q[EP, 0, 0]).sum() > columns // 4
-    np.testing.assert_array_equal(found[EP] > row.q[EP, 0, 0], expected[EP] > row.q[EP, 0, 0])
+    result, expected = row.yields(), row.alone()
+    np.testing.assert_allclose(result, expected, rtol=1e-9, atol=1e-300)
+    assert columns < 8 or (result[EP] > row.q[EP, 0, 0]).sum() > columns // 4
+    np.testing.assert_array_equal(result[EP] > row.q[EP, 0, 0], expected[EP] > row.q[EP, 0, 0])
 
 
 def test_cells_below_the_least_flow_stress_keep_every_bit():
@@ -97,8 +97,8 @@ def test_a_nan_reaches_the_stress_of_its_cell_alone(what):
     place = {"trial": row.scratch[1, 0], "strain": row.q[EP, 0, 0], "T": row.tm[0, 0]}[what]
     i = FIRST + int(np.argmax(row.scratch[1, 0, FIRST:FIRST + 20]))
     place[i] = math.nan
-    found = row.yields()
-    assert np.isnan(found[DEVIATOR, i]).all()
-    assert np.isnan(found[EP, i])
-    others = np.arange(found.shape[1]) != i
-    np.testing.assert_array_equal(found[:, others], clean[:, others])
+    result = row.yields()
+    assert np.isnan(result[DEVIATOR, i]).all()
+    assert np.isnan(result[EP, i])
+    others = np.arange(result.shape[1]) != i
+    np.testing.assert_array_equal(result[:, others], clean[:, others])

@@ -10,7 +10,7 @@ import eos.dispatch
 import hydro2d
 import strength.dispatch
 
-#: loaded before any model of these tests is: the kernels of the other tests in this process have hydro2d's models alone
+#: loaded before any model of these tests: the kernels of the other tests in this process have only hydro2d's models
 KERNELS = eos.dispatch, strength.dispatch
 
 VOCE = '''\
@@ -143,7 +143,7 @@ time = "1 us"
 
 
 def python(text: str, folder: Path, *path: Path) -> str:
-    """What a process of its own prints, in a folder, with further folders of packages."""
+    """Output of a process of its own, in a folder, with further folders of packages."""
     root = Path(hydro2d.__file__).resolve().parent.parent
     variables = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (root, *path)))}
     command = [sys.executable, "-c", textwrap.dedent(text)]

@@ -24,7 +24,7 @@ HEATING = fitting.Heating(100.0, 7830.0 * 477.0)
 
 
 def made(name, values, heating=None, group=0.0):
-    """Points that a law gives exactly: three rates, four temperatures, five strains."""
+    """Points that follow a law exactly: three rates, four temperatures, five strains."""
     grid = np.array(np.meshgrid([0.0, 0.02, 0.05, 0.1, 0.2], [1e-3, 30.0, 2000.0], [298.0, 400.0, 550.0, 800.0])).reshape(3, -1)
     points = fitting.Points(*grid, np.ones(grid.shape[1]), np.full(grid.shape[1], group))
     stress = fitting.computed(fitting.law(name), values, points, heating)
@@ -36,10 +36,10 @@ def made(name, values, heating=None, group=0.0):
 def test_made_up_points_give_their_law_back(name, heating):
     law, values = fitting.law(name), LAWS[name]
     given = {key: value for key, value in values.items() if key not in law.free}
-    found = fitting.fit(law, made(name, values, heating), given, heating=heating)
-    assert found.largest < 1e-6
-    assert found.constants[0.0] == pytest.approx(values, rel=1e-3)
-    assert set(found.errors[0.0]) == set(law.free)
+    fitted = fitting.fit(law, made(name, values, heating), given, heating=heating)
+    assert fitted.largest < 1e-6
+    assert fitted.constants[0.0] == pytest.approx(values, rel=1e-3)
+    assert set(fitted.errors[0.0]) == set(law.free)
 
 
 def test_errors_of_the_constants_are_those_of_the_scatter():
@@ -48,12 +48,12 @@ def test_errors_of_the_constants_are_those_of_the_scatter():
     noise = np.random.default_rng(1).normal(0.0, 0.02, len(points))
     points = fitting.Points(points.strain, points.rate, points.temperature, points.stress * (1.0 + noise), points.group)
     given = {key: value for key, value in STEEL.items() if key != "yield_stress"} | {"hardening": 0.0}
-    found = fitting.fit(fitting.law("johnson-cook"), points, given)
-    error = found.errors[0.0]["yield_stress"] / found.constants[0.0]["yield_stress"]
-    assert error == pytest.approx(found.rms / math.sqrt(len(points)), rel=0.05)
+    fitted = fitting.fit(fitting.law("johnson-cook"), points, given)
+    error = fitted.errors[0.0]["yield_stress"] / fitted.constants[0.0]["yield_stress"]
+    assert error == pytest.approx(fitted.rms / math.sqrt(len(points)), rel=0.05)
 
 
-def test_groups_share_what_they_are_told_to_share():
+def test_groups_share_the_chosen_constants():
     hard = STEEL | {"yield_stress": 1.5e9, "hardening": 0.9e9}
     soft, other = made("johnson-cook", STEEL, group=38.0), made("johnson-cook", hard, group=49.0)
     cold = other.chosen(other.temperature < 350.0)  # alone, these do not determine the thermal exponent
@@ -63,13 +63,13 @@ def test_groups_share_what_they_are_told_to_share():
     law = fitting.law("johnson-cook")
     with pytest.raises(DeckError, match="the points do not determine thermal_exponent"):
         fitting.fit(law, cold, given)
-    found = fitting.fit(law, both, given, shared=["thermal_exponent"])
-    assert found.constants[38.0] == pytest.approx(STEEL, rel=1e-3)
-    assert found.constants[49.0] == pytest.approx(hard, rel=1e-3)
+    fitted = fitting.fit(law, both, given, shared=["thermal_exponent"])
+    assert fitted.constants[38.0] == pytest.approx(STEEL, rel=1e-3)
+    assert fitted.constants[49.0] == pytest.approx(hard, rel=1e-3)
 
 
 def test_a_test_that_is_fast_heats_itself():
-    """Against rho c dT = w Y d(ep): the softening at a strain of 0.2 is that of the temperature that `curves.along` reaches."""
+    """Against rho c dT = w Y d(ep): the softening at a strain of 0.2 is that of the temperature from `curves.along`."""
     points = made("johnson-cook", STEEL, HEATING)
     cool = made("johnson-cook", STEEL)
     slow, fast = points.rate < 100.0, (points.rate > 100.0) & (points.strain == 0.2) & (points.temperature == 298.0)
@@ -160,7 +160,7 @@ def test_the_command(tmp_path, capsys):
 
 #: measured flow stress of 4340 steel, MPa: Rockwell C, strain rate in 1/s, temperature of the test in K, and the stresses at
 #: plastic strains of 0, 0.05 and 0.1 (Banerjee's collection for arXiv cond-mat/0510330: Johnson & Cook 1985, Larson & Nunes
-#: 1961, Lee & Yeh 1997). The largest difference from them that the fits have, Johnson-Cook and Zerilli-Armstrong, follows.
+#: 1961, Lee & Yeh 1997). Then the largest differences of the fits from them, Johnson-Cook and Zerilli-Armstrong.
 MEASURED = [
     (32, 1.1, 298.0, (865.6, 1003.29, 1067.08), 0.06, 0.11),
     (32, 570.0, 298.0, (818.593, 1058.87, 1162.32), 0.11, 0.13),
@@ -183,14 +183,14 @@ def test_the_librarys_steels_against_measurements(hardness, rate, temperature, s
         values, heating = material.strength.values, fitting.heating_of(material, 100.0)
         model = STRENGTH_MODELS[material.strength.name]
         row = model.row(values)
-        found, _ = curves.along(lambda ep, T, model=model, row=row: model.flow_stress(ep, rate, T, 0.0, 1.0, row), temperature,
-                                heating.warming(rate), [0.0, 0.05, 0.1][: len(stresses)], fitting.STEP)
-        assert found / 1e6 == pytest.approx(np.array(stresses), rel=tolerance), variant
+        stress, _ = curves.along(lambda ep, T, model=model, row=row: model.flow_stress(ep, rate, T, 0.0, 1.0, row), temperature,
+                                 heating.warming(rate), [0.0, 0.05, 0.1][: len(stresses)], fitting.STEP)
+        assert stress / 1e6 == pytest.approx(np.array(stresses), rel=tolerance), variant
         confidence = material.strength.numbers["yield_stress" if variant is None else "thermal_stress"].confidence
         assert confidence == "fitted"
 
 
-#: the file of points of docs/how-to/fit-a-strength-model.md; what a fit of a hardness has beside `--heated-from "100 /s"`
+#: the file of points of docs/how-to/fit-a-strength-model.md; arguments of a hardness, in addition to `--heated-from "100 /s"`
 POINTS = toml.problems_folder() / "materials" / "flow_stress_4340.txt"
 FITS = [
     (32, "johnson-cook", {}, 0.044, 0.108),
@@ -211,9 +211,9 @@ def test_the_librarys_steels_are_the_fits_of_the_page(hardness, model, fixed, rm
     points = points.chosen((points.group == hardness) & (points.temperature >= 200.0) & (points.temperature <= 800.0)
                            if hardness == 38 else points.group == hardness)  # fmt: skip
     law, base = fitting.law(model), library.load("steel_4340")
-    found = fitting.fit(law, points, fitting.from_material(law, base) | fixed, heating=fitting.heating_of(base, 100.0))
-    assert (round(found.rms, 3), round(found.largest, 3)) == (rms, largest)
+    fitted = fitting.fit(law, points, fitting.from_material(law, base) | fixed, heating=fitting.heating_of(base, 100.0))
+    assert (round(fitted.rms, 3), round(fitted.largest, 3)) == (rms, largest)
     kept = library.load(f"steel_4340_Rc{hardness}", None if model == "johnson-cook" else model).strength.values
-    constants = found.constants[float(hardness)]
+    constants = fitted.constants[float(hardness)]
     assert {name: kept[name] for name in law.free} == pytest.approx({name: constants[name] for name in law.free}, rel=3e-3,
                                                                      abs=1e-9)  # fmt: skip

@@ -65,7 +65,7 @@ def test_every_material_makes_rows(name):
     strength.DAMAGE_MODELS[material.damage.name].row(material.damage.values)
 
 
-#: molar mass, kg/mol, by the first letters of a metal's name; Poisson's ratio where it is not that of most metals
+#: molar mass, kg/mol, by the first letters of a metal's name; Poisson's ratio where it differs from that of most metals
 MOLAR_MASS = {"Al": 0.027, "W_": 0.180, "tungsten": 0.1838, "copper": 0.0635, "steel": 0.0558, "iron": 0.0558,
               "tantalum": 0.1809, "lead": 0.2072, "uranium": 0.238, "U_": 0.238}
 POISSON = {"uranium": (0.18, 0.25), "U_": (0.22, 0.28), "lead": (0.38, 0.45)}
@@ -98,7 +98,7 @@ def test_metals_are_metals():
 
 
 def test_every_metal_has_a_tensile_strength():
-    """By default, or as the variant `spall` where older results were computed without one; a benchmark says what it has."""
+    """By default, or as the variant `spall` where older results were computed without one; benchmarks have their own."""
     for name in set(metals()) - {"copper_bar_227"}:
         material = library.load(name)
         if not material.has_strength:
@@ -161,18 +161,18 @@ def test_the_numbers_of_the_study():
     assert W.strength.values["pressure_coefficient"] == 1.03e-11
 
 
-def test_the_sintered_tungsten_says_what_is_recalled_and_what_is_taken_over():
+def test_the_sintered_tungsten_names_recalled_and_adopted_constants():
     material, W = library.load("W_sintered"), library.load("W_alloy")
     recalled = {key: n.value for key, n in material.strength.numbers.items() if n.confidence == "recalled"}
     assert recalled == {
         "yield_stress": 1197e6, "hardening": 580e6, "hardening_exponent": 0.05, "rate_coefficient": 0.025,
         "thermal_exponent": 1.9, "melt_temperature": 1752.0,
     }  # fmt: skip
-    taken = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
-    taken += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
-    taken += [(material.fracture_pressure, W.fracture_pressure)]
-    assert len(taken) == 6
-    for number, other in taken:
+    adopted = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
+    adopted += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
+    adopted += [(material.fracture_pressure, W.fracture_pressure)]
+    assert len(adopted) == 6
+    for number, other in adopted:
         assert number.value == other.value
         assert "W_alloy" in number.source
     row = strength.STRENGTH_MODELS["johnson-cook"].row(material.strength.values)
@@ -206,18 +206,18 @@ def test_unknown_names():
 
 
 def of_body(material, own=""):
-    """The deck whose rod is of a material, and its own tables of materials."""
+    """A deck whose rod is of a material, and its own tables of materials."""
     return deck.loads(TEXT.removesuffix("[materials.A]\n").replace('material = "A"', f'material = "{material}"') + own)
 
 
 def test_a_body_of_a_variant():
-    """As in commands; the resolved deck has its numbers and is read as it stands."""
+    """As in commands; the resolved deck has its numbers and can be read again as it is."""
     name = "W_alloy:cv-printed:strain-failure"
-    found = of_body(name)
-    material = found.materials[name]
+    loaded = of_body(name)
+    material = loaded.materials[name]
     assert (material.name, material.eos.values["specific_heat"], material.damage.values["D1"]) == (name, 1430.5, 1.5)
-    again = deck.loads(found.to_toml())
-    assert again.to_toml() == found.to_toml()
+    again = deck.loads(loaded.to_toml())
+    assert again.to_toml() == loaded.to_toml()
     assert again.materials[name].eos.values == material.eos.values
     assert library.load(name) == material
 
@@ -303,9 +303,9 @@ def test_strength_takes_what_the_eos_has():
     ],
 )
 def test_mistakes_in_materials(text, line, fragment):
-    found = message(text + "\n")
-    assert found.startswith(f"deck.toml:{line}: materials.")
-    assert fragment in found
+    error = message(text + "\n")
+    assert error.startswith(f"deck.toml:{line}: materials.")
+    assert fragment in error
 
 
 def test_a_library_name_without_based_on_says_so():
@@ -343,7 +343,7 @@ def test_bodies_that_join_share_a_slot():
     assert library.resolve(deck.loads(text + 'based_on = "Al7039"\n')).names == ("a",)
 
 
-def test_what_a_model_refuses_is_a_deck_error():
+def test_a_refusal_by_a_model_is_a_deck_error():
     text = 'based_on = "Al5083"\nstrength.poisson_ratio = 0.7\n'
     with pytest.raises(deck.DeckError, match="material A: power-law: poisson_ratio = 0.7"):
         library.resolve(with_material(text))

@@ -1,4 +1,4 @@
-"""Models from outside: how decks name them, when they come too late for the kernels, and models of packages."""
+"""Models from outside: how decks name them, models that come too late for the kernels, and models of packages."""
 
 import json
 import textwrap
@@ -25,7 +25,7 @@ def folder(tmp_path):
 # ------------------------------------------------------------------------------------------------ decks
 
 
-def test_a_deck_names_a_file_beside_it_and_carries_its_text(folder, monkeypatch):
+def test_a_deck_names_a_file_next_to_it_and_carries_its_text(folder, monkeypatch):
     monkeypatch.chdir("/")
     loaded = deck.load(folder / "shot.toml")
     model = loaded.materials["Al5083"].strength
@@ -41,7 +41,7 @@ def test_a_deck_names_a_file_beside_it_and_carries_its_text(folder, monkeypatch)
     assert run.models_from_outside(again) == [outside.from_text(VOCE, "my_model.py", "strength").about()]
 
 
-def test_the_file_of_an_included_deck_is_beside_that(folder):
+def test_the_file_of_an_included_deck_is_next_to_it(folder):
     (folder / "below").mkdir()
     (folder / "below" / "shot.toml").write_text('include = "../shot.toml"\nstop.time = "2 us"\n')
     assert deck.load(folder / "below" / "shot.toml").materials["Al5083"].strength.name == "voce"
@@ -56,8 +56,8 @@ def test_a_file_of_the_command_line_is_in_the_working_folder_and_replaces_the_te
     plain = DECK.replace('file = "my_model.py"', 'model = "elastic-plastic"')
     assert deck.loads(plain, chosen, folder=folder).materials["Al5083"].strength.name == "other"
     resolved = deck.load(folder / "shot.toml").to_toml()
-    found = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
-    assert (found.name, found.file) == ("other", "other.py")
+    loaded = deck.loads(resolved, chosen, folder=folder).materials["Al5083"].strength
+    assert (loaded.name, loaded.file) == ("other", "other.py")
 
 
 STUDY = """
@@ -69,8 +69,8 @@ name = "law"
 """
 
 
-def test_a_file_of_a_study_is_beside_the_study(folder, tmp_path_factory, monkeypatch):
-    """That of an override of the command line is in the working folder, for a study as for a deck."""
+def test_a_file_of_a_study_is_next_to_the_study(folder, tmp_path_factory, monkeypatch):
+    """The file of an override on the command line is in the working folder, for a study as for a deck."""
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     for place, name in ((folder, "study"), (elsewhere, "command")):
         (place / "law.py").write_text(VOCE.replace('"voce"', f'"{name}"'))
@@ -88,9 +88,9 @@ def test_a_model_replaces_the_whole_part_and_numbers_are_laid_over_it(folder):
 soft = { based_on = "Al5083", strength = { yield_stress = "100 MPa" } }
 plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_modulus = "1 GPa", yield_stress = "1 MPa" } }
 """
-    found = deck.loads(DECK + further, folder=folder).materials
-    assert (found["soft"].strength.name, found["soft"].strength.values["yield_stress"]) == ("voce", 1e8)
-    assert (found["plain"].strength.name, found["plain"].strength.code) == ("elastic-plastic", "")
+    loaded = deck.loads(DECK + further, folder=folder).materials
+    assert (loaded["soft"].strength.name, loaded["soft"].strength.values["yield_stress"]) == ("voce", 1e8)
+    assert (loaded["plain"].strength.name, loaded["plain"].strength.code) == ("elastic-plastic", "")
 
 
 @pytest.mark.parametrize(
@@ -124,8 +124,8 @@ def test_a_restart_with_another_text_is_refused(folder):
 def test_its_flow_stress_can_be_drawn(folder):
     from hydro2d.materials import curves
 
-    found = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=100 MPa"]).materials["Al5083"]
-    stresses, _ = curves.flow_stress(found, 1.0, [0.0, 0.1], isothermal=True)
+    loaded = deck.load(folder / "shot.toml", ["materials.Al5083.strength.saturation=100 MPa"]).materials["Al5083"]
+    stresses, _ = curves.flow_stress(loaded, 1.0, [0.0, 0.1], isothermal=True)
     assert stresses == pytest.approx([240e6, 240e6 + 1e8 * (1 - 0.36787944)], rel=1e-7)
 
 
@@ -182,13 +182,13 @@ LATE = """
 """
 
 
-def test_a_model_that_comes_after_the_kernels_is_told_when_it_is_used(folder):
-    told = python(LATE, folder).splitlines()
-    assert len(told) == 2
+def test_a_model_that_comes_after_the_kernels_is_reported_when_it_is_used(folder):
+    output = python(LATE, folder).splitlines()
+    assert len(output) == 2
     kernels = "the kernels of this process were loaded without the strength model voce of my_model.py"
-    assert told[0].startswith(f"material Al5083: {kernels}")
-    assert "hydro2d.register" in told[1]
-    assert "start a new process" in told[1]
+    assert output[0].startswith(f"material Al5083: {kernels}")
+    assert "hydro2d.register" in output[1]
+    assert "start a new process" in output[1]
 
 
 CHOSEN = """
@@ -210,8 +210,8 @@ CHOSEN = """
 """
 
 
-def test_only_what_sees_the_model_is_compiled_anew(folder):
-    """The cache of kernels that do not choose among strength models is the one of runs without models from outside."""
+def test_only_code_that_sees_the_model_is_compiled_anew(folder):
+    """Kernels that do not choose among strength models use the cache of runs without models from outside."""
     assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "voce", "True", "240000000.0", "False", "0"]
 
 
@@ -222,8 +222,8 @@ PHASES = """
 """
 
 
-def test_phases_that_see_the_model_are_kept_apart(folder):
-    """They took turns in one place: each deck with a model of its own, and each without, compiled them anew."""
+def test_phases_that_see_the_model_are_kept_separately(folder):
+    """They used to replace each other: every deck with another model, or with none, compiled them anew."""
     load = 'from hydro2d.deck import deck; deck.load("shot.toml")\n'
     without, given = python(PHASES, folder).split(), python(load + textwrap.dedent(PHASES), folder).split()
     assert [a == b for a, b in zip(without, given, strict=True)] == [False, False, True, True]
@@ -238,12 +238,12 @@ LOADED = """
 """
 
 
-def test_what_comes_before_a_deck_does_not_load_the_kernels(tmp_path):
+def test_steps_before_a_deck_do_not_load_the_kernels(tmp_path):
     assert python(LOADED, tmp_path) == "set()\n"
 
 
 def test_workers_take_over_the_models_of_a_study(folder):
-    """A worker loads the kernels with its first case, and has the models of all others by then."""
+    """A worker loads the kernels with its first case, and by then has the models of all other cases."""
     (folder / "b.py").write_text(VOCE.replace('"voce"', '"b"'))
     models = json.dumps([(VOCE, "my_model.py", "strength"), ((folder / "b.py").read_text(), "b.py", "strength")])
     text = f"""
@@ -267,7 +267,7 @@ def test_workers_take_over_the_models_of_a_study(folder):
 
 @pytest.fixture
 def package(tmp_path):
-    """A distribution with a model, which a folder of the path holds."""
+    """A distribution with a model, in a folder of the path."""
     site = tmp_path / "site"
     (site / "my_models").mkdir(parents=True)
     (site / "my_models" / "__init__.py").write_text("")
@@ -301,20 +301,20 @@ def test_a_package_gives_models_by_name(folder, package):
         print("voce" in deck.schema()["$defs"]["Strength"]["properties"]["model"]["enum"])
         print("status", call(["check-model", "voce"]))
     """
-    told = python(text, folder, package)
-    assert told.startswith("my_models.voce (my-models 1.2)\n")
-    assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in told
-    assert "the entry point is called another and the model voce; the names must be the same" in told
-    assert 'unknown strength model "voze"; did you mean "voce"?' in told
-    assert "  voce                 strength model from the package my-models" in told
-    assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in told
-    assert "\nTrue\n" in told
-    assert told.endswith("voce: all checks passed\nstatus 0\n")
+    output = python(text, folder, package)
+    assert output.startswith("my_models.voce (my-models 1.2)\n")
+    assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in output
+    assert "the entry point is called another and the model voce; the names must be the same" in output
+    assert 'unknown strength model "voze"; did you mean "voce"?' in output
+    assert "  voce                 strength model from the package my-models" in output
+    assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in output
+    assert "\nTrue\n" in output
+    assert output.endswith("voce: all checks passed\nstatus 0\n")
 
 
 # ------------------------------------------------------------------------------------------------ a run
 
-#: hydro2d's own models as files, and what a run with them leaves
+#: hydro2d's own models as files, and the results of a run with them
 AS_FILES = """
     import hashlib, sys
     from pathlib import Path

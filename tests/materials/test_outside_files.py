@@ -1,4 +1,4 @@
-"""Models from outside: what their files must be, and what a check of them finds."""
+"""Models from outside: requirements on their files, and the results of checking them."""
 
 import hashlib
 import json
@@ -16,14 +16,14 @@ from tests.materials.made_models import GAS, STRAIN, VOCE, python
 @pytest.mark.parametrize(("text", "part"), [(VOCE, "strength"), (GAS, "eos"), (STRAIN, "damage")])
 def test_a_file_says_what_it_is_a_model_of(tmp_path, text, part):
     (tmp_path / "model.py").write_text(text)
-    found = outside.read(tmp_path / "model.py")
-    assert (found.kind.part, found.file, found.text) == (part, "model.py", text)
-    assert found.module.ID >= outside.FIRST_ID
-    assert found.about()["sha256"] == hashlib.sha256(text.encode()).hexdigest()
+    model = outside.read(tmp_path / "model.py")
+    assert (model.kind.part, model.file, model.text) == (part, "model.py", text)
+    assert model.module.ID >= outside.FIRST_ID
+    assert model.about()["sha256"] == hashlib.sha256(text.encode()).hexdigest()
 
 
 def test_the_id_follows_from_the_text_alone(tmp_path):
-    """Processes that meet models in another order, or under other names of files, compile the same."""
+    """Processes that load models in another order, or under other file names, compile the same code."""
     (tmp_path / "a.py").write_text(VOCE)
     (tmp_path / "b.py").write_text(VOCE)
     assert outside.read(tmp_path / "a.py").module is outside.read(tmp_path / "b.py").module
@@ -100,9 +100,9 @@ CHECK = "from hydro2d.cli.main import call; print(call(['check-model', 'model.py
 @pytest.mark.parametrize("text", [VOCE, GAS, STRAIN])
 def test_check_model_passes_a_good_one(tmp_path, text):
     (tmp_path / "model.py").write_text(text)
-    told = python(CHECK, tmp_path)
-    assert told.endswith("all checks passed\n0\n")
-    assert "FAILED" not in told
+    output = python(CHECK, tmp_path)
+    assert output.endswith("all checks passed\n0\n")
+    assert "FAILED" not in output
 
 
 @pytest.mark.parametrize(
@@ -118,14 +118,14 @@ def test_check_model_passes_a_good_one(tmp_path, text):
 def test_check_model_finds_what_is_wrong(tmp_path, text, old, new, said):
     assert old in text
     (tmp_path / "model.py").write_text(text.replace(old, new))
-    told = python(CHECK, tmp_path)
-    assert "  FAILED " in told
-    assert said in told
-    assert told.endswith("failed\n2\n")
+    output = python(CHECK, tmp_path)
+    assert "  FAILED " in output
+    assert said in output
+    assert output.endswith("failed\n2\n")
 
 
 def test_check_model_needs_an_example(tmp_path):
     (tmp_path / "model.py").write_text(VOCE.replace("EXAMPLE", "EXAMPLES"))
-    told = python(CHECK, tmp_path)
-    assert "needs EXAMPLE, parameters in SI to try it with" in told
-    assert "\n2\n" in told
+    output = python(CHECK, tmp_path)
+    assert "needs EXAMPLE, parameters in SI to try it with" in output
+    assert "\n2\n" in output

@@ -1,4 +1,4 @@
-"""Tables of the SESAME type 301: reading, what is refused, writing; decks that name them; the commands."""
+"""Tables of the SESAME type 301: reading, refusals, writing; decks that name them; the commands."""
 
 import json
 import subprocess
@@ -50,8 +50,8 @@ def test_units_and_order():
     PLAIN + " RECORD     TYPE =  401     NWDS =        2\n 1.0 nonsense\n",
 ])
 def test_other_records_and_free_energies_change_nothing(text):
-    found, plain = sesame.read(text), sesame.read(PLAIN)
-    assert all((vars(found)[name] == array).all() for name, array in vars(plain).items())
+    table_read, plain = sesame.read(text), sesame.read(PLAIN)
+    assert all((vars(table_read)[name] == array).all() for name, array in vars(plain).items())
 
 
 @pytest.mark.parametrize(("old", "new", "words"), [
@@ -93,7 +93,7 @@ def aluminium(number=21):
                                 tabulate.temperatures(298.0, 12000.0, number))
 
 
-def test_what_is_written_is_read_again():
+def test_a_written_table_is_read_again():
     table = aluminium()
     again = sesame.read(sesame.write(table))
     for name, array in vars(table).items():
@@ -115,7 +115,7 @@ def test_a_table_gives_density_and_temperature_of_the_model():
 
 
 @pytest.mark.parametrize("name", ["Al_porous", "TNT"])
-def test_what_has_memory_is_not_tabulated(name):
+def test_models_with_memory_are_not_tabulated(name):
     with pytest.raises(DeckError, match=f"material {name}: .* cannot be tabulated: its pressure depends on internal variables"):
         tabulate.of_material(library.load(name), np.array([1e3, 2e3]), np.array([0.0, 300.0]))
 
@@ -164,7 +164,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_a_deck_names_a_table_beside_it_and_carries_its_text(folder, monkeypatch):
+def test_a_deck_names_a_table_next_to_it_and_carries_its_text(folder, monkeypatch):
     monkeypatch.chdir("/")
     loaded = deck.load(folder / "shot.toml")
     text = (folder / "al.301").read_text()

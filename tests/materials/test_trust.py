@@ -1,4 +1,4 @@
-"""The code that a stranger's run carries is not run by what only reads the run."""
+"""The code carried by a stranger's run is not executed by commands that only read the run."""
 
 import tomllib
 from dataclasses import replace
@@ -20,7 +20,7 @@ SHOT = "problems/cth_nose_shape/hemi_5083_1086.toml"
 
 @pytest.fixture
 def mark(tmp_path):
-    """The file that the planted code makes."""
+    """The file that the planted code creates."""
     return tmp_path / "was run"
 
 
@@ -40,7 +40,7 @@ def strange(finished, mark):
     return finished
 
 
-def test_what_reads_a_run_runs_nothing(strange, mark, tmp_path, capsys):
+def test_commands_that_read_a_run_execute_none_of_its_code(strange, mark, tmp_path, capsys):
     run, picture = str(strange), str(tmp_path / "a.png")
     for command in (
         ["report", run, "--out", str(tmp_path / "report")],
@@ -57,13 +57,13 @@ def test_what_reads_a_run_runs_nothing(strange, mark, tmp_path, capsys):
     assert "1.09" in said or "1086" in said
 
 
-def test_what_python_reads_runs_nothing(strange, mark):
+def test_reading_a_run_in_python_executes_none_of_its_code(strange, mark):
     assert len(hydro2d.open_run(strange).fields.time) == len(hydro2d.open_run(strange).dumps)
     hydro2d.open_study(strange).table()
-    found = record.read(layout.load(strange).cases[0])
-    assert found.velocity == 1086.0
-    assert found.setup.rod == "W_alloy"
-    assert found.problems == []
+    stored = record.read(layout.load(strange).cases[0])
+    assert stored.velocity == 1086.0
+    assert stored.setup.rod == "W_alloy"
+    assert stored.problems == []
     assert not mark.exists()
 
 
@@ -97,8 +97,8 @@ def test_a_deck_in_a_run_names_no_file(strange, mark, tmp_path):
     (tmp_path / "evil.py").write_text(deck["materials"]["W_alloy"]["strength"].pop("code"))
     deck["materials"]["W_alloy"]["strength"] = {"file": str(tmp_path / "evil.py")}
     (strange / "deck.toml").write_text(toml.dumps(deck))
-    found = record.read(layout.load(strange).cases[0])
-    assert "names a file of code" in found.problems[0]
+    stored = record.read(layout.load(strange).cases[0])
+    assert "names a file of code" in stored.problems[0]
     assert not mark.exists()
 
 
@@ -109,9 +109,9 @@ def test_numbers_that_code_would_have_checked(strange):
     with pytest.raises(decks.DeckError, match="gamma-two needs reference_density"):
         decks.loads(toml.dumps(deck), trust=False)
     deck["materials"]["Al5083"]["eos"]["reference_density"] = 1.2
-    found = decks.loads(toml.dumps(deck), trust=False).materials["Al5083"]
-    assert found.reference_density == 1.2
-    assert found.as_deck()["eos"] == deck["materials"]["Al5083"]["eos"]
+    loaded = decks.loads(toml.dumps(deck), trust=False).materials["Al5083"]
+    assert loaded.reference_density == 1.2
+    assert loaded.as_deck()["eos"] == deck["materials"]["Al5083"]["eos"]
     deck["materials"]["Al5083"]["eos"]["reference_density"] = "1.2 kg"
     with pytest.raises(decks.DeckError):
         decks.loads(toml.dumps(deck), trust=False)
@@ -123,8 +123,8 @@ def test_variables_of_unknown_models_are_found_by_their_names(tmp_path):
     shape = (2, 3)
     fields = {"Volume Fraction for a": np.ones(shape), "Volume Fraction for b of a": np.zeros(shape),
               "Softness of a": np.full(shape, 2.0), "Back Pull rr of b of a [Pa]": np.full(shape, 3.0)}  # fmt: skip
-    found = datasets.of_state(vtk.Dump(np.arange(4.0), np.arange(3.0), fields, 0.0))
-    assert set(found) == {"volume_fraction", "softness", "back_pull_rr"}
-    assert found.back_pull_rr.attrs["units"] == "Pa"
-    np.testing.assert_array_equal(found.back_pull_rr.sel(body="b of a"), 3.0)
-    assert np.isnan(found.back_pull_rr.sel(body="a")).all()
+    data = datasets.of_state(vtk.Dump(np.arange(4.0), np.arange(3.0), fields, 0.0))
+    assert set(data) == {"volume_fraction", "softness", "back_pull_rr"}
+    assert data.back_pull_rr.attrs["units"] == "Pa"
+    np.testing.assert_array_equal(data.back_pull_rr.sel(body="b of a"), 3.0)
+    assert np.isnan(data.back_pull_rr.sel(body="a")).all()

@@ -1,4 +1,4 @@
-"""The kinds of edges: what each says of itself, and the numbers that kernels get."""
+"""The kinds of edges: their descriptions, and the numbers that kernels get."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
 from hydro2d.mesh.sinks import SINKS
 from tests.sources.test_heating import TEXT
 
-#: mirrors, holds, opens, supplies, drives, transmits, pushes
+#: mirrors, fixes, opens, supplies, drives, transmits, pushes
 FLAGS = {
     "axis": (True, True, False, False, False, False, False),
     "anvil": (True, False, True, False, False, False, True),
@@ -25,16 +25,16 @@ PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
 
 
 def of(kind, **values):
-    """Conditions with this kind at every edge that may be of it, and walls elsewhere."""
+    """Conditions with this kind at every edge that allows it, and walls elsewhere."""
     return BoundaryConditions(tuple(BY_NAME[kind if edge in BY_NAME[kind].edges else "wall"](**values) for edge in EDGES))
 
 
 @pytest.mark.parametrize("kind", [kind.name for kind in KINDS])
 def test_flags(kind):
     values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
-    found = of(kind, **values)
+    conditions = of(kind, **values)
     flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits", "pushes"
-    assert tuple(found.having(flag)[0] for flag in flags) == FLAGS[kind]
+    assert tuple(conditions.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 
 def test_the_axis_is_an_inner_edge_alone():
@@ -42,24 +42,24 @@ def test_the_axis_is_an_inner_edge_alone():
     assert "axis" not in {*words("r_max"), *words("z_min"), *words("z_max")}
 
 
-def test_every_sink_is_told():
+def test_every_sink_is_described():
     assert [kind.name for kind in KINDS if not (kind.sink in SINKS or kind.sink_meaning)] == []
 
 
 def test_a_piston_moves_by_its_table():
-    found = of("piston", piston=PISTON)
-    assert found.velocity.tolist() == [0.0] * 4
-    held = found.velocity
+    conditions = of("piston", piston=PISTON)
+    assert conditions.velocity.tolist() == [0.0] * 4
+    velocity = conditions.velocity
     for time, speed in ((0.5e-6, 50.0), (1e-6, 100.0), (2e-6, 25.0), (9e-6, -50.0)):
-        found.drive(time)
-        assert held == pytest.approx([speed] * 4, rel=1e-12)
-    assert found.sinks == ["piston"]
+        conditions.drive(time)
+        assert velocity == pytest.approx([speed] * 4, rel=1e-12)
+    assert conditions.sinks == ["piston"]
     assert of("wall").sinks == []
     assert made("z_min", {"z_min": "piston", "z_min_piston": PISTON}).speeds() == (0.0, 100.0, -50.0)
 
 
-def test_what_moves_with_an_edge_crosses_the_cell_beside_it():
-    """The piston is at 50 m/s after 0.5 us and at 75 m/s after 1.33 us, and at 100 m/s between; widths of 1 to 4 mm."""
+def test_matter_that_moves_with_an_edge_crosses_the_cell_next_to_it():
+    """The piston is at 50 m/s after 0.5 us, at 75 m/s after 1.33 us, and at 100 m/s in between; widths of 1 to 4 mm."""
     widths, still = [3e-3, 2e-3, 1e-3, 4e-3], of("wall")
     assert still.least_crossing(widths, 0.0, 1.0)[0] == np.inf
     assert of("velocity", velocity=-20.0).least_crossing(widths, 0.0, 1e-9) == (1e-3 / 20.0, "z_min")
@@ -85,8 +85,8 @@ def test_wrong_edges(overrides, words):
 
 
 def test_the_words_of_a_deck_become_edges():
-    found = deck.loads(TEXT, ['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "0.1 km/s"]]'])
-    conditions = BoundaryConditions.of(found.boundaries.model_dump())
+    loaded = deck.loads(TEXT, ['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "0.1 km/s"]]'])
+    conditions = BoundaryConditions.of(loaded.boundaries.model_dump())
     assert [edge.name for edge in conditions.edges] == ["wall", "wall", "piston", "outflow"]
     conditions.drive(0.25e-6)
     np.testing.assert_allclose(conditions.velocity, [0.0, 0.0, 25.0, 0.0], rtol=1e-12)

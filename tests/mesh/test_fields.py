@@ -1,4 +1,4 @@
-"""The field table and what follows from it."""
+"""The field table and what depends on it."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def test_the_state_has_a_view_of_either_offset_of_the_centroids_which_a_restart_
     assert state.restartable()["centroid"] is state.centroid
 
 
-def test_what_has_an_offset_along_r_or_a_direction_of_r_changes_its_sign_in_a_mirror():
+def test_offsets_along_r_and_components_of_r_change_sign_in_a_mirror():
     odd = {field.symbol for field in fields.FIELDS if field.parity < 0}
     assert odd == {"srz", "centroid_r", "qrz", "sig_rz", "u", "u0"}
 
@@ -89,8 +89,8 @@ def test_rows_make_sense(field):
     assert field.least < field.most
 
 
-def test_what_a_body_carries():
-    """Beside the density: all bodies their energy, those with strength deviators and strain, those with damage that too."""
+def test_fields_that_a_body_carries():
+    """In addition to the density: energy for all bodies, deviators and strain for those with strength, damage likewise."""
     own = (fields.Field("spread", "", "body", "1", 1, "mass", True, "a number", initial=lambda row: 2.0 * row[0]),)
     assert fields.carried((), strength=False, damage=False) == [fields.E]
     assert fields.carried((), strength=True, damage=False) == [1, 2, 3, 4, 5]

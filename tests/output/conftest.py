@@ -1,4 +1,4 @@
-"""What the tests of output share."""
+"""Fixtures for the tests of output."""
 
 import pytest
 

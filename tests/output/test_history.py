@@ -1,4 +1,4 @@
-"""The history is whole, carries units, and opens in xarray."""
+"""The history is complete, carries units, and opens in xarray."""
 
 import h5py
 import numpy as np
@@ -110,8 +110,8 @@ def test_xarray_opens_thousands_of_stations(tmp_path):
     with xarray.open_dataset(tmp_path / "history.h5", engine="h5netcdf") as data:
         assert data["gauge_pressure_Pa"].dims == ("time", "gauge")
         assert data["gauge_pressure_Pa"].attrs["units"] == "Pa"
-        found = data["gauge_pressure_Pa"].sel(gauge="p2999", time=1e-6)
-        assert float(found) == names.index("gauge_p2999_pressure_Pa") + 0.25
+        value = data["gauge_pressure_Pa"].sel(gauge="p2999", time=1e-6)
+        assert float(value) == names.index("gauge_p2999_pressure_Pa") + 0.25
 
 
 def test_more_columns_than_an_attribute_of_64_kib_refers_to(tmp_path):
@@ -122,7 +122,7 @@ def test_more_columns_than_an_attribute_of_64_kib_refers_to(tmp_path):
 
 
 def test_a_file_with_a_dataset_for_each_column_of_a_station(tmp_path):
-    """As files of earlier versions have them."""
+    """Files of earlier versions have this form."""
     names = [f"gauge_wall_{key}" for key in KEYS]
     with h5py.File(tmp_path / "history.h5", "w") as file:
         for name in ("time", *names):

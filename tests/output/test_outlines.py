@@ -1,4 +1,4 @@
-"""Outlines of what is narrower than a cell, in pictures, files and pages; beside those of what is not."""
+"""Outlines of features narrower than a cell, in pictures, files and pages, next to those of wider ones."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def test_a_foil_has_its_place_and_its_thickness(front, thickness):
     assert ends(lines, 0) == pytest.approx((0.0, 12.2), abs=0.02)
 
 
-def test_a_tube_stands_where_it_is():
+def test_a_tube_is_outlined_in_place():
     lines = dumped(shape="box", r=["5.1 mm", "5.3 mm"], z=["3 mm", "9 mm"]).outlines("thin")
     assert len(lines) == 1
     assert ends(lines, 0) == pytest.approx((5.1, 5.3), abs=0.01)

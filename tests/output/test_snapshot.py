@@ -97,8 +97,8 @@ def test_latest_falls_back(tmp_path):
     snapshot.write(tmp_path / "restart.h5", sample(1.0))
     snapshot.write(tmp_path / "restart.h5", sample(2.0))
     os.truncate(tmp_path / "restart.h5", 1000)
-    found, problems = snapshot.read_latest(tmp_path)
-    assert found.arrays["u"][0, 0, 0] == 1.0
+    latest, problems = snapshot.read_latest(tmp_path)
+    assert latest.arrays["u"][0, 0, 0] == 1.0
     assert len(problems) == 1
 
 

@@ -1,4 +1,4 @@
-"""VTK's own readers give back what the state holds."""
+"""VTK's own readers give back the contents of the state."""
 
 import errno
 import os
@@ -142,8 +142,8 @@ for write in (lambda: vtk.write_grid(Path("a.vtr"), edges, edges, [("a", values)
 
 
 @pytest.mark.parametrize("most", [0, 10, 1000, 10_000])
-def test_no_room_is_told_in_one_line_and_not_by_vtk(tmp_path, most):
-    """A file may not grow beyond so many bytes, which is what a full disk does to it; what is printed goes through pipes."""
+def test_a_lack_of_space_is_reported_in_one_line_and_not_by_vtk(tmp_path, most):
+    """A limit on the size of a file acts like a full disk; printed output goes through pipes."""
     command = [sys.executable, "-c", FULL.format(most=most)]
     done = subprocess.run(command, cwd=tmp_path, text=True, capture_output=True, timeout=120, check=False,
                           env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})  # fmt: skip
@@ -153,7 +153,7 @@ def test_no_room_is_told_in_one_line_and_not_by_vtk(tmp_path, most):
 
 
 @pytest.mark.parametrize("keep", [100, 1000])
-def test_a_damaged_file_is_told_in_one_line_and_not_by_vtk(tmp_path, moved, capfd, keep):
+def test_a_damaged_file_is_reported_in_one_line_and_not_by_vtk(tmp_path, moved, capfd, keep):
     path = Series(tmp_path).dump(moved)
     path.write_bytes(path.read_bytes()[:keep])
     for read in (vtk.read_grid, vtk.pyvista_grid):
@@ -162,8 +162,8 @@ def test_a_damaged_file_is_told_in_one_line_and_not_by_vtk(tmp_path, moved, capf
     assert "".join(capfd.readouterr()) == ""
 
 
-def test_a_full_disk_is_told_by_its_name():
-    """By the system's number, from which a study knows the reason."""
+def test_a_full_disk_is_named():
+    """By the system's error number, from which a study knows the reason."""
     from vtkmodules.vtkCommonMisc import vtkErrorCode
 
     for code in (errno.ENOSPC, vtkErrorCode.OutOfDiskSpaceError):

@@ -62,16 +62,16 @@ def test_mean_stress_without_softening_is_the_mean_of_the_power_law():
 
 
 def test_a_molten_target_has_done_with_it():
-    """Where the strain melts the steel the mean falls as one over the strain: no more heat is taken up."""
+    """Once the strain melts the steel, the mean falls as one over the strain: no more heat is absorbed."""
     far, farther = (effective_flow_stress(**STEEL_4340, strain=strain) for strain in (200.0, 400.0))
     assert far / farther == pytest.approx(2.0, rel=1e-3)
 
 
 @given(st.floats(300.0, 4000.0), st.floats(2000.0, 20000.0), st.floats(2000.0, 10000.0), st.floats(0.2e9, 3e9))
 def test_nondimensional_velocity(velocity, rod, target, stress):
-    found = nondimensional_velocity(velocity, rod, target, stress)
-    assert found == pytest.approx((rod / target) ** -0.07 * (rod * velocity**2 / stress) ** 0.2, rel=1e-12)
-    assert nondimensional_velocity(2.0 * velocity, rod, target, 4.0 * stress) == pytest.approx(found, rel=1e-12)
+    value = nondimensional_velocity(velocity, rod, target, stress)
+    assert value == pytest.approx((rod / target) ** -0.07 * (rod * velocity**2 / stress) ** 0.2, rel=1e-12)
+    assert nondimensional_velocity(2.0 * velocity, rod, target, 4.0 * stress) == pytest.approx(value, rel=1e-12)
 
 
 @given(st.floats(100.0, 5000.0), st.floats(1.01, 2.0))
@@ -103,15 +103,15 @@ def collapsed(velocities):
 
 def test_coefficients_are_the_fit_to_walker_anderson():
     x, y = collapsed(np.linspace(700.0, 3000.0, 24))
-    found = fit(x, y)
-    assert vars(found) == pytest.approx(vars(COLLAPSED), abs=2e-4)
+    fitted = fit(x, y)
+    assert vars(fitted) == pytest.approx(vars(COLLAPSED), abs=2e-4)
     miss = y - np.array([COLLAPSED.at(each) for each in x])
     assert math.sqrt(np.mean(miss**2)) < 0.0145
     assert np.abs(miss).max() < 0.037
 
 
 def test_the_reading_of_the_exponents_collapses_best(monkeypatch):
-    """With the density's power of the other sign, or the two powers exchanged, the scatter is over three times as wide."""
+    """With the opposite sign of the density's power, or the two powers exchanged, the scatter is over three times as wide."""
     def scatter(density_power, velocity_power):
         monkeypatch.setattr(anderson_riegel, "DENSITY_POWER", density_power)
         monkeypatch.setattr(anderson_riegel, "VELOCITY_POWER", velocity_power)
@@ -126,8 +126,8 @@ def test_the_reading_of_the_exponents_collapses_best(monkeypatch):
 def test_fit_finds_a_curve_again():
     truth = Curve(0.1, 1.4, 2.5, 1.3)
     x = np.linspace(0.5, 2.5, 15)
-    found = fit(x, [truth.at(each) for each in x])
-    assert vars(found) == pytest.approx(vars(truth), rel=1e-6)
+    fitted = fit(x, [truth.at(each) for each in x])
+    assert vars(fitted) == pytest.approx(vars(truth), rel=1e-6)
     with pytest.raises(InputError, match="four points"):
         fit([1.0, 2.0], [1.0, 2.0])
 
@@ -139,9 +139,9 @@ def test_model_with_the_stress_and_from_johnson_and_cook():
     names = {"yield_stress": "johnson_cook_a", "hardening": "johnson_cook_b", "exponent": "johnson_cook_n",
              "rate_coefficient": "johnson_cook_c", "thermal_exponent": "johnson_cook_m"}  # fmt: skip
     parameters = {f"target.{names.get(name, name)}": value for name, value in STEEL_4340.items()}
-    found = MODEL(1500.0, {"rod.density": 17600.0, "rod.length": 0.1, **parameters})
-    assert found["effective_flow_stress"] == pytest.approx(effective_flow_stress(**STEEL_4340), rel=1e-12)
-    assert found["depth"] > given_stress["depth"]
+    result = MODEL(1500.0, {"rod.density": 17600.0, "rod.length": 0.1, **parameters})
+    assert result["effective_flow_stress"] == pytest.approx(effective_flow_stress(**STEEL_4340), rel=1e-12)
+    assert result["depth"] > given_stress["depth"]
 
 
 def test_wrong_input():

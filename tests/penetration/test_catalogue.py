@@ -1,4 +1,4 @@
-"""What every analytic model keeps to, whoever wrote it."""
+"""Rules that every analytic model obeys."""
 
 import contextlib
 import functools
@@ -46,7 +46,7 @@ def test_names_are_unique_and_every_module_is_listed():
 
 
 def test_import_needs_nothing_heavy():
-    """What a page of a model needs is there at once; scipy and pint are imported where they are used."""
+    """The page of a model has its data at once; scipy and pint are imported where they are used."""
     heavy = set("scipy numba matplotlib pint h5py pydantic".split())
     script = f"import sys; from hydro2d.penetration import catalogue; print(sorted({heavy!r} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
@@ -146,12 +146,12 @@ def test_an_impossible_velocity_is_refused(model, velocity):
 
 
 def outcome(model: Model, velocity: float, values: dict | None = None) -> str:
-    """"numbers", or the message of the InputError; anything else that is raised goes on."""
+    """"numbers", or the message of the InputError; any other exception propagates."""
     try:
-        found = model(velocity, values or values_of(model))
+        result = model(velocity, values or values_of(model))
     except InputError as error:
         return str(error)
-    numbers = [found[entry.name] for entry in model.outputs if entry.unit != ""]
+    numbers = [result[entry.name] for entry in model.outputs if entry.unit != ""]
     assert not any(map(math.isnan if values else lambda number: not math.isfinite(number), numbers))
     return "numbers"
 
@@ -170,14 +170,14 @@ def test_small_and_large_velocities_give_numbers_or_one_message(model, velocity)
     assert "\n" not in outcome(model, velocity)
 
 
-#: numbers from nothing to everything; the short list is that of every run of the tests
+#: numbers from nothing to everything; every run of the tests uses the short list
 SOME, ALL = (1e-30, 1e-6, 1e6, 1e30), (1e-300, 1e-30, 1e-18, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e18, 1e30, 1e300)
-#: the longest that a model may take over one shot, s; a shot takes milliseconds, a rigid body in soft soil ten seconds
+#: the longest time that a model may take for one shot, s; a shot takes milliseconds, a rigid body in soft soil ten seconds
 PATIENCE = 60.0
 
 
 def survives(model: Model, numbers: tuple[float, ...]) -> int:
-    """Every input at every number, and the velocity: numbers or one message, in time. Returns how many were tried."""
+    """Every input at every number, and the velocity: numbers or one message, in time. Returns the number of trials."""
     names = [None, *(entry.name for entry in model.inputs if not entry.choices)]
     for name, number in itertools.product(names, numbers):
         values = values_of(model) if name is None else {**values_of(model), name: number}
@@ -225,7 +225,7 @@ def test_a_rod_without_end_is_refused_at_once():
     ("forrestal", {"nose.entry": "resisted", "cavity.a": 1e5}),  # it stops before its nose is inside
 ])
 def test_a_motion_ends_where_the_model_says(name, change):
-    """From the touch at the impact velocity to the depth and the duration of the model; slower and deeper all the way."""
+    """From contact at the impact velocity to the depth and the duration of the model; slower and deeper all the way."""
     model, values = catalogue.MODELS[name], values_of(catalogue.MODELS[name]) | change
     speed = model.example.velocity
     motion, end = model.moves(speed, values), model(speed, values)
@@ -235,7 +235,7 @@ def test_a_motion_ends_where_the_model_says(name, change):
     assert (np.diff(motion.time) >= 0.0).all()
     assert (np.diff(motion.depth) >= 0.0).all()
     assert (np.diff(motion.velocity) <= 1e-9 * speed).all()
-    if motion.length is None:  # a rigid rod: its depth is what its velocity makes of the time
+    if motion.length is None:  # a rigid rod: its depth is the integral of its velocity
         steps = np.diff(motion.time) * 0.5 * (motion.velocity[1:] + motion.velocity[:-1])
         assert np.cumsum(steps)[-1] == pytest.approx(motion.depth[-1], rel=2e-3)
     else:

@@ -41,7 +41,7 @@ def test_quasi_static_coefficients(solid, printed, tolerance):
      (CHEN_LI_6061, 1200.0, 1.133), (CHEN_LI_6061, 1200.0, 1.136)],
 )  # fmt: skip
 def test_dynamic_coefficients_within_a_percent(solid, velocity, printed):
-    """The spread of the points of the fit moves B by more than this; ours is even in velocity."""
+    """The spread of the points of the fit moves B by more than this; our fit is even in velocity."""
     assert coefficients(solid, velocity).b == pytest.approx(printed, rel=0.01)
 
 
@@ -51,8 +51,8 @@ def test_dynamic_coefficients_within_a_percent(solid, velocity, printed):
      (CHEN_LI_7075, 1200.0, 4.4218, 1.0947), (LUK_6061, 500.0, 4.2452, 1.1791)],
 )  # fmt: skip
 def test_the_numbers_of_the_page(solid, velocity, a, b):
-    found = coefficients(solid, velocity)
-    assert (round(found.a, 4), round(found.b, 4)) == (a, b)
+    fitted = coefficients(solid, velocity)
+    assert (round(fitted.a, 4), round(fitted.b, 4)) == (a, b)
 
 
 @pytest.mark.parametrize(
@@ -62,10 +62,10 @@ def test_the_numbers_of_the_page(solid, velocity, a, b):
 )  # fmt: skip
 def test_perfect_plasticity_against_two_independent_solutions(velocity, similarity, lagrangian, front):
     """Stress in GPa from a similarity solution (read off by interpolation) and from a one-dimensional Lagrangian code."""
-    found = expansion(velocity, PERFECT)
-    assert found.stress == pytest.approx(similarity * 1e9, rel=2e-4)
-    assert found.stress == pytest.approx(lagrangian * 1e9, rel=2e-3)
-    assert found.front == pytest.approx(front, rel=2e-4)
+    solution = expansion(velocity, PERFECT)
+    assert solution.stress == pytest.approx(similarity * 1e9, rel=2e-4)
+    assert solution.stress == pytest.approx(lagrangian * 1e9, rel=2e-3)
+    assert solution.front == pytest.approx(front, rel=2e-4)
 
 
 @pytest.mark.parametrize(
@@ -73,12 +73,12 @@ def test_perfect_plasticity_against_two_independent_solutions(velocity, similari
                              (992.0769596563617, 4.095585445706903e9), (1820.2574474770772, 10.525241502469540e9)],
 )  # fmt: skip
 def test_the_whole_curve_of_the_independent_solution(velocity, stress):
-    """At the velocities that it was computed for the two agree to seven digits."""
+    """At the velocities for which it was computed the two agree to seven digits."""
     assert expansion(velocity, PERFECT).stress == pytest.approx(stress, rel=2e-7)
 
 
 def test_rate_dependent_coefficients_are_not_reproduced():
-    """6061-T6511 in print: A = 5.0394, B = 0.9830; no theory without rate effects comes near. It stays in the page."""
+    """6061-T6511 in print: A = 5.0394, B = 0.9830; no theory without rate effects comes near. The page keeps it."""
     assert quasi_static(CHEN_LI_6061) < 4.5
     assert coefficients(CHEN_LI_6061, 1200.0).b > 1.1
 

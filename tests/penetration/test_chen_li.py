@@ -25,8 +25,8 @@ SHOT = dict(
 )  # fmt: skip
 def test_depth_with_chen_and_lis_coefficients(velocity, depth):
     """mm, computed independently from the closed form with A = 4.407, B = 1.133."""
-    found = chen_li.evaluate(velocity, rod_mass=0.023, rod_strength=5e9, **SHOT)
-    assert found["depth"] * 1e3 == pytest.approx(depth, rel=1e-9)
+    result = chen_li.evaluate(velocity, rod_mass=0.023, rod_strength=5e9, **SHOT)
+    assert result["depth"] * 1e3 == pytest.approx(depth, rel=1e-9)
 
 
 @settings(max_examples=40, deadline=None)

@@ -1,4 +1,4 @@
-"""Christman-Gehring: a rod less one diameter, and the crater of that one."""
+"""Christman-Gehring: a rod less one diameter, and the crater of that diameter."""
 
 import math
 
@@ -14,8 +14,8 @@ ROD = {"rod_density": 7830.0, "rod_diameter": 0.005, "target_density": 2785.0}
 
 @given(st.floats(1.0, 25.0), st.floats(1e-4, 0.05))
 def test_depth_is_that_of_the_primary_phase_and_the_crater(aspect, crater):
-    found = cg.depth(rod_length=0.005 * aspect, crater=crater, **ROD)
-    assert found == pytest.approx((0.005 * aspect - 0.005) * math.sqrt(7830.0 / 2785.0) + crater, rel=1e-12)
+    result = cg.depth(rod_length=0.005 * aspect, crater=crater, **ROD)
+    assert result == pytest.approx((0.005 * aspect - 0.005) * math.sqrt(7830.0 / 2785.0) + crater, rel=1e-12)
     assert cg.depth(rod_length=0.005, crater=crater, **ROD) == crater
 
 
@@ -40,10 +40,10 @@ def test_the_printed_coefficient_in_consistent_units_makes_craters_too_small():
 
 def test_the_model_prefers_a_measured_crater():
     values = {"rod.density": 7830.0, "rod.length": 0.05, "rod.diameter": 0.005, "target.density": 2785.0}
-    found = cg.MODEL(4000.0, {**values, "crater.depth_one": 0.012})
-    assert found["crater_depth"] == 0.012
-    assert found["depth"] == pytest.approx(found["primary_depth"] + 0.012)
-    assert found["primary_depth"] == pytest.approx(0.045 * math.sqrt(7830.0 / 2785.0))
+    result = cg.MODEL(4000.0, {**values, "crater.depth_one": 0.012})
+    assert result["crater_depth"] == 0.012
+    assert result["depth"] == pytest.approx(result["primary_depth"] + 0.012)
+    assert result["primary_depth"] == pytest.approx(0.045 * math.sqrt(7830.0 / 2785.0))
     assert cg.MODEL(4000.0, {**values, "target.hardness": 1.5e9})["crater_depth"] == pytest.approx(
         cg.crater_depth(4000.0, hardness=1.5e9, **ROD))
     with pytest.raises(InputError, match="needs target.hardness"):

@@ -110,7 +110,7 @@ def test_depth_rises_with_velocity_and_falls_with_friction(shape, velocity, mass
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("solve", [deep, entering])
 def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, solve):
-    """Work by quadrature of force over depth; the velocity at a depth from what a slower rod still does."""
+    """Work by quadrature of force over depth; the velocity at a depth from the depth that a slower rod still reaches."""
     nose, velocities = Nose(shape, 7.11e-3, friction=0.05), np.linspace(0.0, 781.0, 4001)
     total = solve(781.0, STEEL, nose, ALUMINIUM)[0]
     if solve is entering:
@@ -159,8 +159,8 @@ SHOT = dict(
 
 def test_evaluate_takes_coefficients_from_the_target_where_none_are_given():
     elastic = dict(target_youngs_modulus=68.9e9, target_poisson_ratio=1.0 / 3.0, target_hardening_exponent=0.051)
-    found = forrestal.evaluate(781.0, nose_entry="ignored", **{**SHOT, **elastic, "cavity_a": None, "cavity_b": None})
-    assert (found["cavity_a"], found["cavity_b"]) == (pytest.approx(4.4082, rel=1e-5), pytest.approx(1.1255, rel=1e-4))
+    result = forrestal.evaluate(781.0, nose_entry="ignored", **{**SHOT, **elastic, "cavity_a": None, "cavity_b": None})
+    assert (result["cavity_a"], result["cavity_b"]) == (pytest.approx(4.4082, rel=1e-5), pytest.approx(1.1255, rel=1e-4))
     assert forrestal.evaluate(0.0, nose_entry="ignored", **SHOT)["depth"] == 0.0
     assert forrestal.evaluate(0.0, nose_entry="resisted", **SHOT)["depth"] == 0.0
 

@@ -48,8 +48,8 @@ def test_limits_of_the_shots_of_the_nose_shape_study():
     """Rods of 9.779 cm (hemisphere) and 10.1346 cm (ogive) into 5083 and 7039: 25.55, 25.04, 26.48 and 25.95 cm."""
     for length, target, expected in ((9.779, 2660.0, 25.55), (9.779, 2770.0, 25.04), (10.1346, 2660.0, 26.48),
                                      (10.1346, 2770.0, 25.95)):
-        found = length * hydro.depth_over_length(3000.0, rod_density=18160.0, target_density=target)
-        assert round(found, 2) == expected
+        depth = length * hydro.depth_over_length(3000.0, rod_density=18160.0, target_density=target)
+        assert round(depth, 2) == expected
 
 
 def test_equal_densities():

@@ -40,9 +40,9 @@ def test_fit_finds_the_constants_of_exact_shots(a, p, V50):
     """Shots that perforated, and one below the limit that did not."""
     velocities = V50 * np.array([0.98, 1.01, 1.03, 1.06, 1.1, 1.2, 1.4, 1.7])
     left = [lj.residual_velocity(v, limit_velocity=V50, a=a, p=p) for v in velocities]
-    found = lj.fit(velocities, left)
-    assert (found.a, found.p, found.limit_velocity) == pytest.approx((a, p, V50), rel=1e-5)
-    assert found.shots == 8
+    fitted = lj.fit(velocities, left)
+    assert (fitted.a, fitted.p, fitted.limit_velocity) == pytest.approx((a, p, V50), rel=1e-5)
+    assert fitted.shots == 8
     fixed = lj.fit(velocities, left, p=p)
     assert (fixed.a, fixed.limit_velocity) == pytest.approx((a, V50), rel=1e-6)
     assert fixed.p == p
@@ -53,20 +53,20 @@ def test_fit_of_scattered_shots_is_a_minimum():
     velocities = np.linspace(920.0, 1700.0, 15)
     exact = np.array([lj.residual_velocity(v, limit_velocity=900.0, a=0.93, p=2.7) for v in velocities])
     left = exact + rng.normal(0.0, 8.0, 15)
-    found = lj.fit(velocities, left)
+    fitted = lj.fit(velocities, left)
 
     def squares(a, p, V50):
         values = {"limit_velocity": V50, "a": a, "p": p}
         return sum((lj.residual_velocity(v, **values) - r) ** 2 for v, r in zip(velocities, left, strict=True))
 
-    best = squares(found.a, found.p, found.limit_velocity)
-    assert found.standard_error == pytest.approx(math.sqrt(best / 12.0), rel=1e-9)
+    best = squares(fitted.a, fitted.p, fitted.limit_velocity)
+    assert fitted.standard_error == pytest.approx(math.sqrt(best / 12.0), rel=1e-9)
     assert best <= squares(0.93, 2.7, 900.0)
     for nudge in (0.999, 1.001):
-        assert squares(found.a * nudge, found.p, found.limit_velocity) > best
-        assert squares(found.a, found.p * nudge, found.limit_velocity) > best
-        assert squares(found.a, found.p, found.limit_velocity * nudge) > best
-    assert abs(found.limit_velocity - 900.0) < 20.0
+        assert squares(fitted.a * nudge, fitted.p, fitted.limit_velocity) > best
+        assert squares(fitted.a, fitted.p * nudge, fitted.limit_velocity) > best
+        assert squares(fitted.a, fitted.p, fitted.limit_velocity * nudge) > best
+    assert abs(fitted.limit_velocity - 900.0) < 20.0
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Luk & Piekutowski (1991): their tables and statements beside the recovered equations."""
+"""Luk & Piekutowski (1991): their tables and statements against the recovered equations."""
 
 import math
 
@@ -38,9 +38,9 @@ INTO_ALUMINIUM, INTO_STEEL = (STEEL_ROD, ALUMINIUM), (TUNGSTEN_ROD, STEEL)
     (INTO_STEEL, 2070.0, 10.72, 10.766), (INTO_STEEL, 2460.0, 13.17, 13.208), (INTO_STEEL, 3010.0, 16.48, 16.525),
 ])  # fmt: skip
 def test_cavity_diameters_of_tables_2_and_3(pair, velocity, printed, ours):
-    found = 1e3 * penetrate(*pair, velocity).cavity_diameter
-    assert found == pytest.approx(printed, rel=0.01)
-    assert found == pytest.approx(ours, abs=6e-4)
+    computed = 1e3 * penetrate(*pair, velocity).cavity_diameter
+    assert computed == pytest.approx(printed, rel=0.01)
+    assert computed == pytest.approx(ours, abs=6e-4)
 
 
 @pytest.mark.parametrize(("velocity", "printed", "tolerance"), [(2070.0, 41.2, 0.01), (2460.0, 47.3, 0.01)])
@@ -56,10 +56,10 @@ def test_depths_of_table_3(velocity, printed, tolerance):
     (INTO_ALUMINIUM, 3090.0, None, 85.13, 112.7),
 ])  # fmt: skip
 def test_depths_that_are_not_reproduced(pair, velocity, critical, ours, printed):
-    """The page has both numbers; the primary stage does not bring the difference, the recovered secondary stage does."""
-    found = 1e3 * penetrate(*pair, velocity, critical).depth
-    assert found == pytest.approx(ours, abs=0.02)
-    assert abs(found / printed - 1.0) > 0.08
+    """The page has both numbers; the primary stage does not give the difference, the recovered secondary stage does."""
+    computed = 1e3 * penetrate(*pair, velocity, critical).depth
+    assert computed == pytest.approx(ours, abs=0.02)
+    assert abs(computed / printed - 1.0) > 0.08
 
 
 def test_critical_velocities():
@@ -71,15 +71,15 @@ def test_critical_velocities():
 
 def test_the_printed_critical_velocity_for_steel_is_that_of_the_largest_eta():
     heads = [at_velocity(*INTO_STEEL, v) for v in np.linspace(1650.0, 1900.0, 251)]
-    assert max(heads, key=lambda found: found.thinning).rod == pytest.approx(1739.0, abs=1.5)
+    assert max(heads, key=lambda head: head.thinning).rod == pytest.approx(1739.0, abs=1.5)
 
 
 @pytest.mark.parametrize(("pair", "printed", "ours"), [(INTO_ALUMINIUM, 3200.0, 3169.6), (INTO_STEEL, 2200.0, 2182.7)])
 def test_ejecta_turn_round(pair, printed, ours):
-    found = reversal_velocity(*pair)
-    assert found == pytest.approx(printed, rel=0.01)
-    assert found == pytest.approx(ours, abs=0.1)
-    assert penetrate(*pair, found - 20.0).first.ejecta < 0.0 < penetrate(*pair, found + 20.0).first.ejecta
+    reversal = reversal_velocity(*pair)
+    assert reversal == pytest.approx(printed, rel=0.01)
+    assert reversal == pytest.approx(ours, abs=0.1)
+    assert penetrate(*pair, reversal - 20.0).first.ejecta < 0.0 < penetrate(*pair, reversal + 20.0).first.ejecta
 
 
 @pytest.mark.parametrize(("pair", "printed", "fastest"), [(INTO_ALUMINIUM, 6500.0, 1714.2), (INTO_STEEL, 5000.0, 1220.8)])
@@ -98,28 +98,28 @@ def test_duration_of_the_primary_stage():
 def test_the_primary_stage_against_its_differential_equations():
     from scipy.integrate import solve_ivp
 
-    found = penetrate(*INTO_STEEL, 2460.0)
-    assert found.regime == "consumed"
+    shot = penetrate(*INTO_STEEL, 2460.0)
+    assert shot.regime == "consumed"
 
     def slopes(_, y):
         length, v, _ = y
         u = at_velocity(*INTO_STEEL, v).penetration
         return [-(v - u), -TUNGSTEN_ROD.strength / (TUNGSTEN_ROD.density * length), u]
 
-    done = solve_ivp(slopes, (0.0, found.duration), [TUNGSTEN_ROD.length, 2460.0, 0.0], rtol=1e-9, atol=1e-12)
+    done = solve_ivp(slopes, (0.0, shot.duration), [TUNGSTEN_ROD.length, 2460.0, 0.0], rtol=1e-9, atol=1e-12)
     assert done.y[0, -1] == pytest.approx(0.5 * TUNGSTEN_ROD.diameter, rel=1e-5)
-    assert done.y[1, -1] == pytest.approx(found.last.rod, rel=1e-5)
-    assert done.y[2, -1] == pytest.approx(found.primary, rel=1e-5)
+    assert done.y[1, -1] == pytest.approx(shot.last.rod, rel=1e-5)
+    assert done.y[2, -1] == pytest.approx(shot.primary, rel=1e-5)
 
 
 @settings(max_examples=25, deadline=None)
 @given(st.floats(2000.0, 3400.0))
 def test_a_head_keeps_the_conservation_laws(velocity):
-    """Equations (9) to (11) and (3) as printed, from the head alone: not by the rearranged forms that it was found with."""
+    """Equations (9) to (11) and (3) as printed, from the head alone: not by the rearranged forms used to find it."""
     rod, target = INTO_ALUMINIUM
-    found = at_velocity(rod, target, velocity)
-    v, u, ve = found.rod, found.penetration, found.ejecta
-    area, ejecta, mushroom = rod.area, rod.area * found.thinning, rod.area * found.spread
+    head = at_velocity(rod, target, velocity)
+    v, u, ve = head.rod, head.penetration, head.ejecta
+    area, ejecta, mushroom = rod.area, rod.area * head.thinning, rod.area * head.spread
     push = mushroom * (ALUMINIUM.a * ALUMINIUM.strength + 0.5 * ALUMINIUM.b * ALUMINIUM.density * u * u)
     flux = rod.density * area * (v - u)
     assert flux == pytest.approx(rod.density * ejecta * (ve + u), rel=1e-9)
@@ -151,10 +151,10 @@ GIVEN = dict(MODEL.example.values)
 
 
 def test_model():
-    found = MODEL(2660.0, GIVEN)
-    assert 1e3 * found["cavity_diameter"] == pytest.approx(10.36, rel=0.01)
-    assert found["regime"] == "slowed"
-    assert found["depth"] == pytest.approx(sum(found[f"{part}_depth"] for part in ("primary", "rod", "ejecta", "growth")))
+    result = MODEL(2660.0, GIVEN)
+    assert 1e3 * result["cavity_diameter"] == pytest.approx(10.36, rel=0.01)
+    assert result["regime"] == "slowed"
+    assert result["depth"] == pytest.approx(sum(result[f"{part}_depth"] for part in ("primary", "rod", "ejecta", "growth")))
 
 
 def test_the_transition_is_the_least_velocity_or_the_one_given():

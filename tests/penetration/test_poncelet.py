@@ -40,7 +40,7 @@ def test_closed_forms_solve_the_equation_of_motion(velocity, b):
 
 
 def test_the_fit_of_the_review_and_its_small_velocity_limit():
-    """Constants of Fig. 12; so little drag that eq. (5) is within 5 % up to 1959 m/s."""
+    """Constants of Fig. 12; drag so small that eq. (5) is within 5 % up to 1959 m/s."""
     assert poncelet.depth_over_length(1000.0, **STEEL) == pytest.approx(1.99315, rel=1e-5)
     limit = poncelet.small_velocity_limit(a=STEEL["a"], b=STEEL["b"])
     assert limit == pytest.approx(1959.07, rel=1e-5)
@@ -84,24 +84,24 @@ def test_fit_finds_the_constants_of_exact_shots():
 
 
 def test_fit_of_measured_shots_is_a_minimum():
-    found = poncelet.fit(VELOCITIES, DEPTHS, rod_density=7810.0)
-    assert (found.a, found.b) == pytest.approx((1.4299e9, 3393.0), rel=1e-3)
+    fitted = poncelet.fit(VELOCITIES, DEPTHS, rod_density=7810.0)
+    assert (fitted.a, fitted.b) == pytest.approx((1.4299e9, 3393.0), rel=1e-3)
 
     def squares(a, b):
         return sum((poncelet.depth_over_length(v, rod_density=7810.0, a=a, b=b) - d) ** 2
                    for v, d in zip(VELOCITIES, DEPTHS, strict=True))
 
-    best = squares(found.a, found.b)
-    assert found.standard_error == pytest.approx(math.sqrt(best / 5.0), rel=1e-9)
+    best = squares(fitted.a, fitted.b)
+    assert fitted.standard_error == pytest.approx(math.sqrt(best / 5.0), rel=1e-9)
     for factor in (0.98, 1.02):
-        assert squares(factor * found.a, found.b) > best
-        assert squares(found.a, factor * found.b) > best
+        assert squares(factor * fitted.a, fitted.b) > best
+        assert squares(fitted.a, factor * fitted.b) > best
 
 
 def test_fit_keeps_drag_from_being_negative():
-    found = poncelet.fit([300.0, 600.0, 900.0], [0.1, 0.5, 1.4], rod_density=7850.0)
-    assert found.b >= 0.0
-    assert found.a > 0.0
+    fitted = poncelet.fit([300.0, 600.0, 900.0], [0.1, 0.5, 1.4], rod_density=7850.0)
+    assert fitted.b >= 0.0
+    assert fitted.a > 0.0
 
 
 @pytest.mark.parametrize(

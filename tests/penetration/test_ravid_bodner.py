@@ -84,7 +84,7 @@ def test_flow_grows_with_depth():
 @given(st.floats(1.0, 3000.0))
 @settings(max_examples=20, deadline=None)
 def test_energy_is_accounted_for(velocity):
-    """Kinetic energy of rod and flow at the end, and the plastic work by quadrature, are the impact's energy."""
+    """Kinetic energy of rod and flow at the end plus the plastic work by quadrature equals the impact's energy."""
     stage = first_stage(velocity, **SHOT)
     mass = math.pi * 0.005**2 * 0.050 * 7750.0
     work = math.pi * 0.005**3 * 0.4e9 * quad(lambda x: flow(x).pressure, 0.0, stage.depth / 0.005, epsrel=1e-7)[0]
@@ -112,7 +112,7 @@ def test_depth_and_velocity_rise_with_the_impact(velocity, factor):
 
 
 def test_slow_impact_is_uniformly_decelerated():
-    """x = M V^2/(2 pi R^2 p0 Y) and t = 2 x/V where the resistance has not changed yet."""
+    """x = M V^2/(2 pi R^2 p0 Y) and t = 2 x/V while the resistance has not changed yet."""
     stage = first_stage(0.1, **SHOT)
     expected = 7750.0 * 0.050 * 0.1**2 / (2.0 * flow(0.0).pressure * 0.4e9)
     assert stage.depth == pytest.approx(expected, rel=1e-4)
@@ -120,10 +120,10 @@ def test_slow_impact_is_uniformly_decelerated():
 
 
 def test_a_thin_plate_bulges_at_once():
-    found = MODEL(500.0, {**VALUES, "target.thickness": 0.001})
-    assert found["regime"] == "reaches stage two"
-    assert found["depth"] == 0.0
-    assert found["stage_velocity"] < 500.0
+    result = MODEL(500.0, {**VALUES, "target.thickness": 0.001})
+    assert result["regime"] == "reaches stage two"
+    assert result["depth"] == 0.0
+    assert result["stage_velocity"] < 500.0
 
 
 @pytest.mark.parametrize("name", sorted(VALUES))

@@ -22,7 +22,7 @@ def test_energy_is_accounted_for(velocity, V50, plug):
 
 @given(speed, limit, ratio)
 def test_shear_work_is_that_of_the_limit_and_the_collision_is_inelastic(velocity, V50, plug):
-    """Above V50 the plug takes the same work at all velocities, and the collision what momentum alone tells."""
+    """Above V50 the plug takes the same work at all velocities, and the collision follows from momentum alone."""
     parts = ri.energy_budget(V50 + velocity, mass=1.0, limit_velocity=V50, plug_mass_ratio=plug)
     assert parts.shear == pytest.approx(0.5 * V50**2 / (1.0 + plug), rel=1e-12)
     together = (V50 + velocity) / (1.0 + plug)
@@ -42,9 +42,9 @@ def test_plug_of_a_cylinder_is_eq_22():
     """(1 + (rho_t/rho_p)(d/D)^2 (T/L))^-1 sqrt(V^2 - V50^2), for T/L = 0.29 and d/D of 1 and 1.4."""
     for widening in (1.0, 1.4):
         plug = ri.plug_mass_ratio(**CYLINDER, target_thickness=0.29 * 0.02, plug_diameter=widening * 0.02)
-        found = ri.residual_velocity(950.0, limit_velocity=250.0, plug_mass_ratio=plug)
+        result = ri.residual_velocity(950.0, limit_velocity=250.0, plug_mass_ratio=plug)
         expected = math.sqrt(950.0**2 - 250.0**2) / (1.0 + 7890.0 / 7830.0 * widening**2 * 0.29)
-        assert found == pytest.approx(expected, rel=1e-12)
+        assert result == pytest.approx(expected, rel=1e-12)
     assert ri.plug_mass_ratio(**CYLINDER, target_thickness=0.0058) == pytest.approx(7890.0 / 7830.0 * 0.29, rel=1e-12)
 
 
@@ -55,9 +55,9 @@ def test_a_thin_plate_is_left_as_without_a_plug():
 
 
 def test_piercing_is_a_hyperbola():
-    found = ri.PIERCING(1000.0, {"plate.limit_velocity": 600.0})
-    assert found["residual_velocity"] == pytest.approx(800.0)
-    assert found["residual_over_limit"] == pytest.approx(math.sqrt((1000.0 / 600.0) ** 2 - 1.0))
+    result = ri.PIERCING(1000.0, {"plate.limit_velocity": 600.0})
+    assert result["residual_velocity"] == pytest.approx(800.0)
+    assert result["residual_over_limit"] == pytest.approx(math.sqrt((1000.0 / 600.0) ** 2 - 1.0))
     assert ri.PIERCING(600.0, {"plate.limit_velocity": 600.0})["regime"] == "stopped"
 
 

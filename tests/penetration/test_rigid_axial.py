@@ -68,7 +68,7 @@ def orders(errors):
 
 
 def test_first_order_in_time():
-    """Against the closed form of the same rings: N2 as the rings have it."""
+    """Against the closed form for the same rings: N2 as given by the rings."""
     rings = nose_surface("hemispherical", DIAMETER, rings=20)
     whole = math.pi * DIAMETER**2 / 4.0
     n2 = np.sum(rings.normal_z**3 * rings.area) / whole
@@ -80,7 +80,7 @@ def test_first_order_in_time():
 
 
 def test_second_order_in_the_rings():
-    """Depth with a small time step, its own error taken out by extrapolation."""
+    """Depth with a small time step, its own error removed by extrapolation."""
     exact = deep(781.0, MASS, forrestal.Nose("hemispherical", DIAMETER), Target(PRINTED.static, PRINTED.dynamic))[0]
     errors = []
     for count in (3, 6, 12):
@@ -138,7 +138,7 @@ def test_nothing_pushes_before_the_rod_is_in_and_all_of_it_when_it_is():
 
 
 def test_a_static_pressure_on_a_flat_nose_is_exact():
-    """Constant force: M V^2/2F, whatever the step."""
+    """Constant force: M V^2/2F, for any step."""
     rings = nose_surface("flat", DIAMETER, rings=3)
     exact = 0.5 * MASS * 500.0**2 / (1e9 * math.pi * DIAMETER**2 / 4.0)
     for dt in (1e-6, 3e-7):
@@ -168,7 +168,7 @@ def test_a_rod_at_rest_is_refused():
 
 
 def test_sums_are_those_of_the_rings():
-    """The force by the running sums is that of equation 3, ring by ring, for all three terms, half immersed, in any order."""
+    """The force by the running sums equals equation 3, ring by ring, for all three terms, half immersed, in any order."""
     rings = nose_surface("ogival", DIAMETER, rings=40)
     turned = Surface(*(getattr(rings, field)[::-1] for field in ("z", "r", "azimuth", "normal_z", "normal_r", "area")))
     v = 700.0 * rings.normal_z

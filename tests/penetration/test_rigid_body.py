@@ -26,7 +26,7 @@ def plate(thickness: float) -> Layer:
 
 @pytest.fixture(scope="module")
 def rod():
-    """Coarse: what is tested here does not depend on the number of facets, or the test says so."""
+    """Coarse: these tests do not depend on the number of facets unless they say so."""
     return projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=12)
 
 
@@ -73,7 +73,7 @@ def test_an_open_surface_is_no_body():
 
 
 def test_free_precession_is_the_exact_solution(rod):
-    """In the body's frame the transverse spin turns at (1 - I_a/I_t) omega_1: steps of any length land on it."""
+    """In the body's frame the transverse spin turns at (1 - I_a/I_t) omega_1: exactly, for steps of any length."""
     axial, transverse = rod.moments
     spin = np.array([300.0, 0.0, 2000.0])
     momentum = spin * [transverse, transverse, axial]
@@ -83,8 +83,8 @@ def test_free_precession_is_the_exact_solution(rod):
     time = 200 * 1.7e-4
     phase = (axial / transverse - 1.0) * 2000.0 * time
     expected = [300.0 * math.cos(phase), 300.0 * math.sin(phase), 2000.0]
-    found = rotation.matrix(motion.attitude).T @ motion.momentum / [transverse, transverse, axial]
-    assert found == pytest.approx(expected, rel=1e-10, abs=1e-8)
+    computed = rotation.matrix(motion.attitude).T @ motion.momentum / [transverse, transverse, axial]
+    assert computed == pytest.approx(expected, rel=1e-10, abs=1e-8)
     assert motion.momentum == pytest.approx(momentum, rel=0)
     assert motion.position == pytest.approx(time * motion.velocity, rel=1e-12)
 
@@ -156,9 +156,9 @@ def test_load_is_the_sum_over_the_facets(ogive, friction):
         sliding = v - (v @ n) * n
         push = -pressure * area * (n + friction * sliding / np.linalg.norm(sliding))
         force, torque = force + push, torque + np.cross(x, push)
-    found = load(ogive, target, friction, 7.0, depth, inward, velocity, spin)
-    assert found[0] == pytest.approx(force, rel=1e-10)
-    assert found[1] == pytest.approx(torque, rel=1e-10)
+    computed = load(ogive, target, friction, 7.0, depth, inward, velocity, spin)
+    assert computed[0] == pytest.approx(force, rel=1e-10)
+    assert computed[1] == pytest.approx(torque, rel=1e-10)
 
 
 def test_only_facets_inside_a_layer_feel_it(rod):
@@ -192,7 +192,7 @@ def test_depths_of_a_spherical_nose(velocity, depth):
 @pytest.mark.parametrize("friction", [0.0, 0.08])
 @pytest.mark.parametrize("nose", ["hemispherical", "ogival", "conical", "flat"])
 def test_along_the_axis_it_is_the_one_dimensional_model(nose, friction):
-    """The same rings, step, order of operations and stop: depth and time agree to round-off."""
+    """Rings, step, order of operations and stop are the same: depth and time agree to round-off."""
     body = projectile(nose, MASS, DIAMETER, LENGTH, rings=40, shank_rings=4, sectors=6)
     surface, pressure = nose_surface(nose, DIAMETER, rings=40), rigid_axial.Pressure(A * STRENGTH, B * DENSITY)
     axial = rigid_axial.penetrate(surface, MASS, 821.0, pressure, friction=friction, time_step=3e-7)
@@ -235,7 +235,7 @@ def test_no_pitch_stays_on_the_axis(rod):
 
 
 def test_oblique_to_its_axis_but_not_to_its_flight_stays_on_the_axis_to_round_off():
-    """Obliquity in the fixed frame alone: deep in a layer, nothing knows where the faces are."""
+    """Obliquity in the fixed frame only: deep in a layer, the positions of the faces do not matter."""
     body = projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=12)
     target = stack([HALF_SPACE])
     motion = launch(body, 800.0, 0.0, 0.0, 0.0, 0.7)
@@ -260,7 +260,7 @@ def test_energy_never_grows(rod, angles, friction):
 
 
 def test_depth_does_not_depend_on_the_azimuth_of_pitch():
-    """Exactly for turns by whole sectors' symmetry; in between the facets are seen differently, at second order."""
+    """Exact for turns by whole sectors, by symmetry; in between the facets differ, at second order."""
     body = projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=16)
     total = math.radians(4.0)
     depths, drifts = [], []
@@ -283,14 +283,14 @@ def test_pitch_and_yaw_mirror(rod):
 
 
 def test_a_layer_cut_in_two_is_the_same_layer(rod):
-    """A face between equal layers is nowhere: same bits."""
+    """A face between equal layers has no effect: same bits."""
     one = penetrate(rod, [plate(0.03)], 800.0, pitch=0.05, obliquity=0.2)
     two = penetrate(rod, [plate(0.015), plate(0.015)], 800.0, pitch=0.05, obliquity=0.2)
     assert np.array_equal(one.history, two.history)
 
 
 def test_perforation_leaves_what_the_work_leaves(ogive):
-    """Along the axis at constant pressure (B = 0) the plate costs A Y pi a^2 T, whatever the nose."""
+    """Along the axis at constant pressure (B = 0) the plate costs A Y pi a^2 T, for any nose."""
     layer = Layer(0.02, DENSITY, STRENGTH, A, 0.0)
     shot = penetrate(ogive, [layer], 800.0, time_step=1e-7)
     cost = A * STRENGTH * math.pi * (DIAMETER / 2) ** 2 * 0.02
@@ -321,7 +321,7 @@ def test_obliquity_and_friction_cost_depth(rod):
     assert penetrate(rod, [HALF_SPACE], 400.0, time_step=2e-7, friction=0.1).depth < straight
 
 
-# --- the door
+# --- the interface to users
 
 GIVEN = {
     "rod.mass": MASS, "rod.diameter": DIAMETER, "rod.length": LENGTH, "target.density": DENSITY, "target.strength": STRENGTH,
@@ -330,9 +330,9 @@ GIVEN = {
 
 
 def test_model():
-    found = MODEL(821.0, GIVEN)
-    assert found["regime"] == "embedded"
-    assert found["depth"] == pytest.approx(0.10928, rel=5e-4)
+    result = MODEL(821.0, GIVEN)
+    assert result["regime"] == "embedded"
+    assert result["depth"] == pytest.approx(0.10928, rel=5e-4)
     assert MODEL(821.0, {**GIVEN, "target.thickness": 0.02})["regime"] == "perforated"
 
 

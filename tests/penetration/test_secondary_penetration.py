@@ -1,4 +1,4 @@
-"""Debris of an eroding rod: its velocity, and from which impact velocity on it penetrates."""
+"""Debris of an eroding rod: its velocity, and the impact velocity above which it penetrates."""
 
 import math
 
@@ -19,15 +19,15 @@ stress = st.floats(3e8, 8e9)
 
 @pytest.mark.parametrize(("resistance", "printed"), [(2.15e9, 1250.0), (2.35e9, 1400.0)])
 def test_onset_into_7020(resistance, printed):
-    """1.25 to 1.40 km/s: within 1 % with 17.3 g/cm^3, the density of the review's class of alloys."""
+    """1.25 to 1.40 km/s: within 1 % with 17.3 g/cm^3, the density of this class of alloys in the review."""
     assert secondary.onset_velocity(rod_density=17300.0, resistance=resistance, **INTO_7020) == pytest.approx(printed, rel=0.01)
 
 
 def test_onset_into_7020_depends_on_the_density_of_the_rod():
     for rod_density, low, high in ((17000.0, 1269.9, 1410.1), (17300.0, 1249.5, 1388.5), (17600.0, 1229.9, 1367.7)):
         for resistance, expected in ((2.15e9, low), (2.35e9, high)):
-            found = secondary.onset_velocity(rod_density=rod_density, resistance=resistance, **INTO_7020)
-            assert found == pytest.approx(expected, abs=0.05)
+            result = secondary.onset_velocity(rod_density=rod_density, resistance=resistance, **INTO_7020)
+            assert result == pytest.approx(expected, abs=0.05)
 
 
 @given(density, stress, density, stress)
@@ -55,7 +55,7 @@ def test_debris_of_a_light_weak_rod_flies_back(one, other, weak, strong, velocit
 
 
 def test_limits_of_the_debris():
-    """A rigid rod sheds none; without penetration it flies back; far above, (1 - mu)/(1 + mu) of the velocity goes in."""
+    """A rigid rod sheds none; without penetration debris flies back; far above, (1 - mu)/(1 + mu) of the velocity goes in."""
     strong = {"rod_density": 18160.0, "rod_strength": 3.4e9, "target_density": 2660.0, "resistance": 1.6e9}
     assert secondary.debris_velocity(1000.0, **strong) == 0.0
     weak = {**strong, "rod_strength": 1.0e9}
@@ -68,6 +68,6 @@ def test_limits_of_the_debris():
 def test_the_model_says_whether():
     values = {"rod.density": 17300.0, "rod.strength": 2.0e9, "target.density": 2800.0, "target.resistance": 2.15e9}
     assert secondary.MODEL(1240.0, values)["regime"] == "none"
-    found = secondary.MODEL(1260.0, values)
-    assert found["regime"] == "secondary penetration"
-    assert found["pressure_over_resistance"] > 1.0
+    result = secondary.MODEL(1260.0, values)
+    assert result["regime"] == "secondary penetration"
+    assert result["pressure_over_resistance"] > 1.0

@@ -1,4 +1,4 @@
-"""The surface of a projectile: exact projections, areas that are known, a closed body."""
+"""The surface of a projectile: exact projections, known areas, a closed body."""
 
 import math
 
@@ -19,7 +19,7 @@ NOSES = {
 @settings(max_examples=60, deadline=None)
 @given(**NOSES)
 def test_projections_of_a_nose_sum_to_its_section(shape, crh, half_angle, rings):
-    """To round-off, whatever the number of rings; and all normals are unit vectors that point ahead."""
+    """To round-off, for any number of rings; and all normals are unit vectors that point ahead."""
     nose = nose_surface(shape, 0.02, crh, half_angle, rings)
     assert np.sum(nose.axial_area) == pytest.approx(math.pi * 1e-4, rel=1e-13)
     assert np.all(nose.normal_z > 0.0)
@@ -46,8 +46,8 @@ def test_every_ring_lies_on_the_nose(shape, crh, half_angle, rings):
 )
 def test_areas_are_those_of_geometry(shape, half_angle, area):
     """In sections of the rod."""
-    found = np.sum(nose_surface(shape, 0.02, half_angle=half_angle, rings=7).area)
-    assert found == pytest.approx(area * math.pi * 1e-4, rel=1e-13)
+    total = np.sum(nose_surface(shape, 0.02, half_angle=half_angle, rings=7).area)
+    assert total == pytest.approx(area * math.pi * 1e-4, rel=1e-13)
 
 
 def test_an_ogive_of_half_a_caliber_is_the_hemisphere():

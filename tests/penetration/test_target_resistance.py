@@ -17,7 +17,7 @@ stiffness = st.floats(20.0, 1000.0)
 
 
 def rounded(pressure: float) -> float:
-    """GPa with the two decimals that the table prints."""
+    """GPa with the two decimals of the printed table."""
     return round(pressure / 1e9, 2)
 
 
@@ -51,32 +51,32 @@ def test_a_poisson_ratio_of_one_half_is_the_incompressible_solid(strength, ratio
 
 @given(yield_stress, stiffness, st.floats(0.1, 0.45))
 def test_order_of_the_forms(strength, ratio, nu):
-    """A cylinder opens more easily than a sphere, a compressible solid more than one that is not; all rise with Y and E."""
-    found = forms.evaluate(0.0, target_strength=strength, target_youngs_modulus=ratio * strength, target_poisson_ratio=nu,
-                           target_dynamic_factor=0.7)
-    assert found["cylindrical_compressible"] < found["spherical_compressible"] < found["spherical_incompressible"]
-    assert found["cylindrical_compressible"] < found["cylindrical_incompressible"] < found["spherical_incompressible"]
-    assert found["spherical_incompressible"] < found["solenoidal"]
+    """A cylinder opens more easily than a sphere, a compressible solid more easily; all rise with Y and E."""
+    result = forms.evaluate(0.0, target_strength=strength, target_youngs_modulus=ratio * strength, target_poisson_ratio=nu,
+                            target_dynamic_factor=0.7)
+    assert result["cylindrical_compressible"] < result["spherical_compressible"] < result["spherical_incompressible"]
+    assert result["cylindrical_compressible"] < result["cylindrical_incompressible"] < result["spherical_incompressible"]
+    assert result["spherical_incompressible"] < result["solenoidal"]
     stiffer = forms.evaluate(0.0, target_strength=strength, target_youngs_modulus=1.1 * ratio * strength,
                              target_poisson_ratio=nu, target_dynamic_factor=0.7)
-    assert all(stiffer[name] > value for name, value in found.items())
+    assert all(stiffer[name] > value for name, value in result.items())
 
 
-def test_a_given_resistance_is_taken():
+def test_a_given_resistance_is_used():
     assert forms.resistance_of(target_resistance=1.62e9) == 1.62e9
 
 
 def test_the_default_is_the_solenoidal_form():
-    found = forms.resistance_of(target_resistance=None, target_strength=276e6, target_youngs_modulus=70.3e9)
-    assert found == forms.solenoidal(strength=276e6, youngs_modulus=70.3e9)
-    assert found == pytest.approx(1.558e9, rel=1e-3)
+    resistance = forms.resistance_of(target_resistance=None, target_strength=276e6, target_youngs_modulus=70.3e9)
+    assert resistance == forms.solenoidal(strength=276e6, youngs_modulus=70.3e9)
+    assert resistance == pytest.approx(1.558e9, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", forms.FORMS)
 def test_a_chosen_form_is_used(name):
     values = {"target_strength": 1e9, "target_youngs_modulus": 2e11, "target_poisson_ratio": 0.3, "target_dynamic_factor": 0.7}
-    found = forms.resistance_of(target_resistance=None, target_resistance_form=name, **values)
-    assert found == forms.evaluate(0.0, **values)[name.replace("-", "_")]
+    resistance = forms.resistance_of(target_resistance=None, target_resistance_form=name, **values)
+    assert resistance == forms.evaluate(0.0, **values)[name.replace("-", "_")]
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_chosen_form_is_used(name):
         ({"target_strength": 1e9, "target_youngs_modulus": 1e8}, "is not small"),
     ],
 )
-def test_what_a_form_misses_is_named(values, message):
+def test_missing_inputs_of_a_form_are_named(values, message):
     with pytest.raises(InputError, match=message):
         forms.resistance_of(target_resistance=None, **values)
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hydro2d.penetration import hydrodynamic, tate, tate_poncelet
 from hydro2d.penetration.model import InputError
 
-#: rods of Scheffler's shots, 97.79 mm of 18 160 kg/m^3, with strengths and resistances of the order that the shots tell
+#: rods of Scheffler's shots, 97.79 mm of 18 160 kg/m^3, with strengths and resistances of the order that the shots suggest
 LENGTH = 0.09779
 INTO_5083 = {"rod_density": 18160.0, "rod_strength": 3.4e9, "target_density": 2660.0, "resistance": 1.6e9}
 INTO_7039 = {"rod_density": 18160.0, "rod_strength": 4.2e9, "target_density": 2770.0, "resistance": 2.6e9}
@@ -29,7 +29,7 @@ def depth(velocity, **pair) -> float:
 
 
 def root_of_bernoulli(v, rod_density, rod_strength, target_density, resistance) -> float:
-    """u from eq. (28) by a solver that knows no closed form."""
+    """u from eq. (28) by a solver that uses no closed form."""
     from scipy.optimize import brentq
 
     def excess(u):
@@ -54,11 +54,11 @@ def by_time(velocity, *, rod_density, rod_strength, target_density, resistance):
         return state[0] - slowest * (1.0 + 1e-9)
 
     stops.terminal = True
-    found = solve_ivp(rates, (0.0, 1.0), [velocity, LENGTH, 0.0], method="DOP853", rtol=1e-10, atol=1e-13, events=stops)
-    _, length, reached = found.y[:, -1]
+    solution = solve_ivp(rates, (0.0, 1.0), [velocity, LENGTH, 0.0], method="DOP853", rtol=1e-10, atol=1e-13, events=stops)
+    _, length, reached = solution.y[:, -1]
     if rod_strength > resistance:
         reached += length * rod_density / target_density * math.log(rod_strength / resistance)
-    return reached / LENGTH, length / LENGTH, float(found.t[-1])
+    return reached / LENGTH, length / LENGTH, float(solution.t[-1])
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_quadrature_agrees_with_integration_over_time(pair, velocity):
     ],
 )
 def test_tabulated_depths(pair, velocity, expected):
-    """Depths computed elsewhere, by a solver of its own."""
+    """Depths computed elsewhere, with an independent solver."""
     assert depth(velocity, **pair) == pytest.approx(expected, rel=1e-9)
 
 
@@ -199,7 +199,7 @@ def test_a_strong_rod_reaches_the_hydrodynamic_limit_from_above(rho_p, Rt, rho_t
 @given(density, stress, density, st.floats(500.0, 4000.0))
 @FAST
 def test_equal_strength_and_resistance(rho_p, Y, rho_t, velocity):
-    """No critical and no transition velocity: u/(v - u) is the hydrodynamic one, less the rod that is left at rest."""
+    """No critical and no transition velocity: u/(v - u) is the hydrodynamic ratio, less the rod that remains at rest."""
     track = tate.penetrate(velocity, rod_length=LENGTH, rod_density=rho_p, rod_strength=Y, target_density=rho_t, resistance=Y)
     limit = math.sqrt(rho_p / rho_t)
     assert track.regime == tate.ERODING
@@ -224,9 +224,9 @@ def test_a_very_weak_rod_is_consumed_at_its_first_velocity():
 
 def test_the_model_on_its_inputs():
     values = {"rod.density": 18160.0, "rod.length": LENGTH, "rod.strength": 2.0e9, "target.density": 2660.0}
-    found = tate.MODEL(1086.0, {**values, "target.resistance": 1.6e9})
-    assert found["depth_over_length"] == pytest.approx(3.0106895283278328, rel=1e-9)
-    assert found["regime"] == "eroding, then rigid"
+    result = tate.MODEL(1086.0, {**values, "target.resistance": 1.6e9})
+    assert result["depth_over_length"] == pytest.approx(3.0106895283278328, rel=1e-9)
+    assert result["regime"] == "eroding, then rigid"
     formed = tate.MODEL(1086.0, {**values, "target.strength": 276e6, "target.youngs_modulus": 70.3e9})
     assert formed["resistance"] == pytest.approx(1.55835e9, rel=1e-5)
     with pytest.raises(InputError, match="target.strength, target.youngs_modulus"):

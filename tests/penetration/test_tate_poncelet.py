@@ -28,15 +28,15 @@ def test_depth_rises_with_velocity_and_gives_back_its_resistance(velocity, Rt, r
 
 def test_resistances_of_two_rigid_shots():
     """Shots 4344 (1086 m/s, 44.8 cm) and 4339 (1038 m/s, 28.3 cm) of a rod of 9.779 cm: 1.64 and 2.69 GPa."""
-    found = tate_poncelet.resistance_from_depth(44.8 / 9.779, 1086.0, **INTO_5083)
-    assert found == pytest.approx(1.6403e9, rel=1e-4)
-    found = tate_poncelet.resistance_from_depth(28.3 / 9.779, 1038.0, **INTO_7039)
-    assert found == pytest.approx(2.6891e9, rel=1e-4)
+    resistance = tate_poncelet.resistance_from_depth(44.8 / 9.779, 1086.0, **INTO_5083)
+    assert resistance == pytest.approx(1.6403e9, rel=1e-4)
+    resistance = tate_poncelet.resistance_from_depth(28.3 / 9.779, 1038.0, **INTO_7039)
+    assert resistance == pytest.approx(2.6891e9, rel=1e-4)
 
 
 @pytest.mark.parametrize(("Yp", "printed"), [(3.0e9, 0.95), (4.0e9, 1.28)])
 def test_the_transition_velocities_of_figure_11_need_another_resistance(Yp, printed):
-    """1.78 GPa gives what is printed; the 1.62 GPa that is printed beside it does not."""
+    """1.78 GPa gives the printed value; the printed 1.62 GPa does not."""
     values = {"rod_strength": Yp, "target_density": 2700.0}
     assert round(tate.transition_velocity(resistance=1.78e9, **values) / 1000.0, 2) == printed
     assert round(tate.transition_velocity(resistance=1.62e9, **values) / 1000.0, 2) == {0.95: 1.01, 1.28: 1.33}[printed]
@@ -45,9 +45,9 @@ def test_the_transition_velocities_of_figure_11_need_another_resistance(Yp, prin
 def test_fit_finds_the_resistance_of_exact_shots():
     velocities = [400.0, 700.0, 1000.0]
     depths = [tate_poncelet.depth_over_length(v, resistance=1.62e9, **INTO_5083) for v in velocities]
-    found = tate_poncelet.fit(velocities, depths, **INTO_5083)
-    assert found.a == pytest.approx(1.62e9, rel=1e-9)
-    assert found.b == 1330.0
+    fitted = tate_poncelet.fit(velocities, depths, **INTO_5083)
+    assert fitted.a == pytest.approx(1.62e9, rel=1e-9)
+    assert fitted.b == 1330.0
 
 
 @given(speed, resistance)

@@ -40,10 +40,10 @@ def test_extent_of_the_plastic_flow(target, extents):
      (1.4e9, 1750.0, 1.0024), (1.4e9, 2000.0, 1.1651)],
 )  # fmt: skip
 def test_worked_depths(strength, velocity, ratio):
-    found = MODEL(velocity, {**VALUES, "target.strength": strength})
-    assert found["depth_over_length"] == pytest.approx(ratio, abs=6e-5)
-    assert found["depth"] == pytest.approx(0.1 * ratio, abs=6e-6)
-    assert found["regime"] == "eroding"
+    result = MODEL(velocity, {**VALUES, "target.strength": strength})
+    assert result["depth_over_length"] == pytest.approx(ratio, abs=6e-5)
+    assert result["depth"] == pytest.approx(0.1 * ratio, abs=6e-6)
+    assert result["regime"] == "eroding"
 
 
 @pytest.mark.parametrize(
@@ -52,10 +52,10 @@ def test_worked_depths(strength, velocity, ratio):
      (1750.0, 1114.3, 9.7775, 141.7), (2000.0, 1267.9, 10.830, 132.9)],
 )  # fmt: skip
 def test_worked_first_velocity_crater_and_duration(velocity, first, radius, duration):
-    found = MODEL(velocity, VALUES)
-    assert found["interface_velocity"] == pytest.approx(first, abs=0.06)
-    assert found["crater_radius"] == pytest.approx(1e-3 * radius, abs=1e-8)
-    assert found["duration"] == pytest.approx(1e-6 * duration, abs=0.06e-6)
+    result = MODEL(velocity, VALUES)
+    assert result["interface_velocity"] == pytest.approx(first, abs=0.06)
+    assert result["crater_radius"] == pytest.approx(1e-3 * radius, abs=1e-8)
+    assert result["duration"] == pytest.approx(1e-6 * duration, abs=0.06e-6)
 
 
 def test_erosion_ends_before_the_rod_at_high_velocity():
@@ -124,7 +124,7 @@ def test_rates_satisfy_the_printed_equations(v, share):
 
 
 def tate(velocity: float, rod: Rod, target: Target) -> float:
-    """Depth by Tate's three equations with Rt(u) = (7/3) Yt ln(alpha(u)): an own integration, over the velocity of the tail.
+    """Depth by Tate's three equations with Rt(u) = (7/3) Yt ln(alpha(u)): integrated here over the velocity of the tail.
 
     dv = -Yp/(rho_p L) dt gives d(ln L) = rho_p (v - u)/Yp dv and dP = -u rho_p L/Yp dv.
     """
@@ -177,7 +177,7 @@ def test_depth_rises_with_velocity_while_the_rod_is_rigid(velocity, factor):
 
 
 def test_hydrodynamic_limit():
-    """Long, fast rods come within 1 % of sqrt(rho_p/rho_t), and the nearer the longer and the faster they are."""
+    """Long, fast rods come within 1 % of sqrt(rho_p/rho_t): the longer and the faster, the closer."""
     limit = math.sqrt(TUNGSTEN.density / STEEL.density)
 
     def miss(velocity, diameters):
@@ -218,7 +218,7 @@ def test_a_rigid_rod_never_carries_more_than_its_strength():
 
 
 def test_transition():
-    """At its own transition velocity the rigid nose carries the rod's strength; weak rods have none, huge strengths neither."""
+    """At its own transition velocity the rigid nose carries the rod's strength; weak rods and huge strengths have none."""
     strong = replace(TUNGSTEN, strength=3.0e9)
     velocity = transition_velocity(strong, ALUMINIUM)
     assert rigid_stress(velocity, strong, ALUMINIUM) == pytest.approx(strong.strength, rel=1e-9)
@@ -272,7 +272,7 @@ def test_no_velocity():
         Rod(17600.0, 2.0e9, 323e9, 4030.0, 1.237, 0.010, -0.1)
 
 
-def test_an_unfinished_motion_is_told(monkeypatch):
+def test_an_unfinished_motion_is_reported(monkeypatch):
     monkeypatch.setattr("hydro2d.penetration.centreline.LONGEST", 1e-3)
     with pytest.raises(InputError, match="do not come to an end"):
         walker_anderson.penetrate(1500.0, TUNGSTEN, STEEL)

@@ -137,11 +137,11 @@ def test_one_calibrated_plate_predicts_the_other_of_the_review():
 
 
 def test_model():
-    found = MODEL(1500.0, VALUES)
-    assert found["regime"] == "perforated"
-    assert found["limit_velocity"] == pytest.approx(1141.4, abs=0.5)
-    assert found["strain"] == pytest.approx(0.5, rel=1e-6)
-    assert found["depth"] <= 0.060 + found["bulge"]
+    result = MODEL(1500.0, VALUES)
+    assert result["regime"] == "perforated"
+    assert result["limit_velocity"] == pytest.approx(1141.4, abs=0.5)
+    assert result["strain"] == pytest.approx(0.5, rel=1e-6)
+    assert result["depth"] <= 0.060 + result["bulge"]
     assert MODEL(1000.0, VALUES)["residual_velocity"] == 0.0
 
 

@@ -1,1 +1,1 @@
-"""The scalar functions of hydro2d.physics, one at a time, as Python: the compiled ones are held against it elsewhere."""
+"""The scalar functions of hydro2d.physics, one at a time, as Python: other tests compare the compiled ones with them."""

@@ -1,4 +1,4 @@
-"""Cells of a small mesh, and what is known of them without the code's own vectors."""
+"""Cells of a small mesh, and their properties computed without the code's own vectors."""
 
 import numpy as np
 
@@ -33,7 +33,7 @@ def polygon_volume(r: np.ndarray, z: np.ndarray, cylindrical: bool) -> float:
 
 
 def rate_of_volume(g: Grid, j: int, i: int, u: np.ndarray, v: np.ndarray) -> float:
-    """How fast cell (j, i) grows: its volume a little later less that a little earlier."""
+    """Rate of growth of cell (j, i): its volume a little later less that a little earlier."""
     r, z = corners(g, j, i)
     du, dv = 1e-4 * at_corners(j, i, u), 1e-4 * at_corners(j, i, v)
     later = polygon_volume(r + du, z + dv, g.cylindrical)

@@ -21,7 +21,7 @@ def changes_in_proportion(function: Callable[[float], object], value: float, ste
 
 
 def largest_jump(function: Callable[[float], object], low: float, high: float) -> float:
-    """Change within the last of 45 intervals between low and high, each the half of the one before that changes the more."""
+    """Change within the last of 45 intervals between low and high, each the half of the previous one with the larger change."""
     first, last = np.array(function(low)), np.array(function(high))
     for _ in range(45):
         middle = 0.5 * (low + high)

@@ -39,7 +39,7 @@ def test_with_a_steepness_of_one_the_difference_is_the_smaller(a, b):
 
 
 @pytest.mark.parametrize(("a", "b"), [(1.0, 10.0), (10.0, 1.0)])
-def test_beside_a_jump_the_difference_is_twice_the_smaller(a, b):
+def test_next_to_a_jump_the_difference_is_twice_the_smaller(a, b):
     assert limited_difference(a, b) == 2.0
     assert limited_difference(-a, -b) == -2.0
 
@@ -52,10 +52,10 @@ def test_at_an_extremum_there_is_no_difference(a, b):
 @settings(deadline=None)
 @given(DIFFERENCE, DIFFERENCE)
 def test_the_difference_is_within_twice_either_and_of_their_sign(a, b):
-    found = limited_difference(a, b)
-    assert abs(found) <= 2.0 * min(abs(a), abs(b))
-    assert found * a >= 0.0
-    assert found * b >= 0.0
+    limited = limited_difference(a, b)
+    assert abs(limited) <= 2.0 * min(abs(a), abs(b))
+    assert limited * a >= 0.0
+    assert limited * b >= 0.0
 
 
 @settings(deadline=None)
@@ -81,7 +81,7 @@ def test_a_straight_line_keeps_its_difference(a):
 
 
 def test_the_left_cell_feeds_a_flow_upwards():
-    """On a straight line of 2 per cell; what is beyond the receiver does not matter."""
+    """On a straight line of 2 per cell; values beyond the receiver do not matter."""
     assert upwind(True, 1.0, 3.0, 5.0, 99.0) == (3.0, 2.0)
 
 
@@ -103,8 +103,8 @@ def test_the_mirror_image_of_a_flow_carries_the_same(ll, l, r, rr):
 
 @settings(deadline=None)
 @given(st.booleans(), VALUE, VALUE, VALUE, VALUE, st.floats(0.0, 1.0))
-def test_what_a_face_carries_lies_between_the_cells_beside_it(up, ll, l, r, rr, part):
-    """Whatever part of the donor leaves: no new extremum."""
+def test_the_value_at_a_face_lies_between_its_cells(up, ll, l, r, rr, part):
+    """For any part of the donor that leaves: no new extremum."""
     donor, difference = upwind(up, ll, l, r, rr)
     carried = donor + 0.5 * (1.0 - part) * difference
     assert min(l, r) - 1e-9 <= carried <= max(l, r) + 1e-9
@@ -112,8 +112,8 @@ def test_what_a_face_carries_lies_between_the_cells_beside_it(up, ll, l, r, rr, 
 
 @settings(deadline=None)
 @given(st.booleans(), st.floats(-10.0, 10.0), st.floats(-10.0, 10.0), st.floats(0.0, 1.0))
-def test_a_straight_line_is_carried_at_the_middle_of_what_leaves(up, first, slope, part):
-    """Cells at -1.5, -0.5, 0.5, 1.5 around the face at 0; the part that leaves reaches from it back into the donor."""
+def test_a_straight_line_is_carried_at_the_middle_of_the_outflow(up, first, slope, part):
+    """Cells at -1.5, -0.5, 0.5, 1.5 around the face at 0; the part that leaves extends from it back into the donor."""
     donor, difference = upwind(up, *(first + slope * x for x in (-1.5, -0.5, 0.5, 1.5)))
     middle = -0.5 * part if up else 0.5 * part
     assert donor + 0.5 * (1.0 - part) * difference == pytest.approx(first + slope * middle, abs=1e-12)

@@ -1,4 +1,4 @@
-"""Where in a cell something lies that its neighbours do not place: boxes, who goes on where, and what pushes what."""
+"""Positions in a cell of a body that its neighbours do not place: boxes, continuation across cells, mutual pushing."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def piece(f, along_z, along, across, no_gap, bound, strip, high):
 
 
 def pushed(own, other, fraction, fraction_other, change):
-    """What an offset changes by as something else in the cell grows by `change`."""
+    """Change of an offset as something else in the cell grows by `change`."""
     return 0.5 * change * side_of(own, other, fraction, fraction_other)
 
 
@@ -53,13 +53,13 @@ def with_middle(f, fraction):
 
 
 def seen(f, where):
-    """The fractions of the cells that stand at where(row, column)."""
+    """The fractions of the cells at where(row, column)."""
     return tuple(f[CELLS.index(where(*cell))] for cell in CELLS)
 
 
-def about_the_middle(found, strip, high):
-    """(share, moments about the middle of the cell) of what `line_piece` and its like give."""
-    share, along, across = found
+def about_the_middle(piece, strip, high):
+    """(share, moments about the middle of the cell) from `line_piece` and similar functions."""
+    share, along, across = piece
     return np.array([share, along * strip + share * (0.5 - 0.5 * strip) * (1.0 if high else -1.0), across])
 
 
@@ -68,8 +68,8 @@ def about_the_middle(found, strip, high):
 
 @settings(deadline=None)
 @given(st.floats(-2.0, 2.0), UNIT)
-def test_a_centroid_leaves_room_for_what_it_is_of(offset, fraction):
-    """What is as wide as its fraction, with this centroid, ends in the cell; an offset that does is kept."""
+def test_a_centroid_leaves_room_for_its_piece(offset, fraction):
+    """A piece as wide as its fraction, with this centroid, ends in the cell; an offset that allows this is kept."""
     kept = within(offset, fraction)
     assert abs(kept) + 0.5 * fraction <= 0.5 + 1e-15
     assert within(kept, fraction) == kept
@@ -106,8 +106,8 @@ def test_a_slab_upright_in_its_cell_is_cut_as_it_lies(fraction, offset, strip, h
 @given(FRACTION, OFFSET, OFFSET, UNIT, st.booleans())
 def test_the_whole_cell_has_the_fraction_and_the_centroid(fraction, along, across, continues, high):
     along, across = within(along, fraction), within(across, fraction)
-    found = box_piece(fraction, along, across, continues, 1.0, high)
-    assert found == pytest.approx((fraction, fraction * along, fraction * across), abs=1e-14)
+    whole = box_piece(fraction, along, across, continues, 1.0, high)
+    assert whole == pytest.approx((fraction, fraction * along, fraction * across), abs=1e-14)
 
 
 @settings(deadline=None)
@@ -134,7 +134,7 @@ def test_mirrored_boxes_have_mirrored_pieces_to_the_bit(fraction, along, across,
 @settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, st.floats(0.01, 0.49), st.floats(0.01, 0.49))
 def test_strips_of_a_box_add_up(fraction, along, across, continues, w_low, w_high):
-    """Those at both sides and the one between, of which the larger strips at the sides have that of the smaller."""
+    """The two sides and the middle, where the larger strips at the sides contain the smaller ones."""
     def strip(width, high):
         return about_the_middle(box_piece(fraction, along, across, continues, width, high), width, high)
 
@@ -157,10 +157,10 @@ def test_a_box_is_as_short_as_can_be_where_it_ends_and_as_long_where_it_goes_on(
     assert (share, along, across) == pytest.approx((0.1, 0.1 * -0.25, 0.1 * 0.3))
 
 
-# ---------------------------------------------------------------------------------------------- who places what
+# ----------------------------------------------------------------------------------------- how neighbours place a piece
 
 
-def test_what_goes_on_in_either_of_the_next_cells_goes_on():
+def test_a_body_that_continues_in_either_neighbour_continues():
     assert goes_on(0.2, 0.0, 0.0) == 0.0
     assert goes_on(0.2, 0.05, 0.1) == 0.5
     assert goes_on(0.2, 0.1, 0.05) == 0.5
@@ -181,7 +181,7 @@ def test_a_cell_two_away_is_reached_as_far_as_the_one_between_is_fuller_than_the
         changes_in_proportion(lambda near: reached(0.3, near, 0.9), near, 1.5 / GROWING)
 
 
-def test_the_most_around_is_that_of_a_cell_beside_or_of_one_behind_a_fuller_one():
+def test_the_most_around_is_that_of_a_neighbour_or_of_one_behind_a_fuller_one():
     """On the axes and on the diagonals; the middle cell does not count itself."""
     def most(**others):
         return most_around(tuple(others.get(f"c{row}{column}", 0.2) for row, column in CELLS))
@@ -199,12 +199,12 @@ def test_the_most_around_is_that_of_a_cell_beside_or_of_one_behind_a_fuller_one(
             assert most(**{f"c{row}{column}": 0.7, f"c{other[0]}{other[1]}": 0.21 + GROWING}) == 0.21 + GROWING
 
 
-def test_what_is_not_filled_is_the_rest_of_each_cell():
+def test_the_unfilled_share_is_the_rest_of_each_cell():
     f = tuple(0.05 * k for k in range(17))
     assert rest_of(f) == tuple(1.0 - each for each in f)
 
 
-def test_one_full_cell_around_places_a_body_and_one_empty_cell_what_is_beside_it():
+def test_one_full_cell_around_places_a_body_and_one_empty_cell_the_rest():
     middle = 0.5 * (1.0 + FILLED)
     for n in (0, 1, 2, 3, 5, 6, 7, 8):
         for most, by in ((1.0, 1.0), (FILLED, 0.0), (middle, 0.5), (0.5, 0.0)):
@@ -293,12 +293,12 @@ def test_the_cells_around_say_whether_line_box_or_gap_give_the_piece(high, along
     f, bound = surround(GAP, 0.6, along_z)
     empty = goes_on(0.4, *(1.0 - each for each in beside(f, along_z)))
     share, a, c = box_piece(0.4, -1.5 * along, -1.5 * across, empty, strip, high)
-    found = piece(f, along_z, along, across, False, bound, strip, high)
-    assert found == pytest.approx((strip - share, -a, -c), abs=1e-15)
+    result = piece(f, along_z, along, across, False, bound, strip, high)
+    assert result == pytest.approx((strip - share, -a, -c), abs=1e-15)
 
 
 @pytest.mark.parametrize("high", [False, True])
-def test_beside_a_gas_void_has_no_box(high):
+def test_next_to_a_gas_void_has_no_box(high):
     """A body that fills a cell around is cut off by its line, though none is empty; one that fills none keeps its box."""
     f, bound = surround(GAP, 0.6, False)
     line = piece_of_surface(*bound, 0.6, 0.35, high)
@@ -367,7 +367,7 @@ def test_a_piece_does_not_jump_as_its_neighbours_cease_to_place_it(first, last, 
 
 
 @pytest.mark.parametrize("filled", [1.0, FILLED])
-def test_a_piece_changes_in_proportion_as_a_full_cell_beside_it_is_no_more_full(filled):
+def test_a_piece_changes_in_proportion_as_a_full_neighbour_ceases_to_be_full(filled):
     """The body lies on a full cell at the left, void is at the right: then it has no cell that it fills."""
     def pieces(share):
         f, bound = surround([[0.1, 0.0, 0.0], [share, 0.0, 0.0], [0.2, 0.0, 0.0]], 0.4, False)
@@ -379,7 +379,7 @@ def test_a_piece_changes_in_proportion_as_a_full_cell_beside_it_is_no_more_full(
 
 
 @pytest.mark.parametrize("filled", [0.0, 1.0 - FILLED])
-def test_a_piece_changes_in_proportion_as_an_empty_cell_beside_it_is_no_more_empty(filled):
+def test_a_piece_changes_in_proportion_as_an_empty_neighbour_ceases_to_be_empty(filled):
     def pieces(share):
         f, bound = surround([[1.0, 1.0, 0.9], [1.0, 1.0, share], [1.0, 1.0, 0.8]], 0.6, False)
         return piece(f, False, 0.0, 0.1, False, bound, 0.3, True)
@@ -395,13 +395,13 @@ def test_a_piece_becomes_the_strip_as_the_body_fills_the_cell(pattern):
     assert piece(f, False, 0.3, -0.2, False, bound, 0.3, True) == pytest.approx((0.3, 0.0, 0.0), abs=1e-9)
 
 
-# ------------------------------------------------------------------------------------------------- what pushes what
+# ------------------------------------------------------------------------------------------------- mutual pushing
 
 
 @settings(deadline=None)
 @given(FRACTION, UNIT, st.floats(-0.1, 0.1))
-def test_slabs_side_by_side_push_each_other_by_half_of_what_they_grow_by(fraction, share, change):
-    """Centroids that lie half of both widths apart, or further."""
+def test_slabs_side_by_side_push_each_other_by_half_of_their_growth(fraction, share, change):
+    """Centroids that are half of both widths apart, or more."""
     other = share * (1.0 - fraction)
     apart = 0.5 * (fraction + other)
     for gap in (0.0, 0.05):
@@ -418,8 +418,8 @@ def test_a_slab_amidst_another_one_stays_and_off_its_middle_it_is_pushed_in_prop
 
 @settings(deadline=None)
 @given(st.floats(0.05, 0.8), UNIT, st.floats(0.0, 1.0))
-def test_a_slab_inside_of_void_keeps_the_proportion_of_the_gaps_beside_it(fraction, share, growth):
-    """As it grows into the void, which is all else and loses what it gains."""
+def test_a_slab_inside_void_keeps_the_proportion_of_its_gaps(fraction, share, growth):
+    """As it grows into the void, which is all the rest and loses its gain."""
     void = 1.0 - fraction
     growth *= void
     low, up = share * void, (1.0 - share) * void
@@ -429,6 +429,6 @@ def test_a_slab_inside_of_void_keeps_the_proportion_of_the_gaps_beside_it(fracti
     assert 0.5 - (after + 0.5 * (fraction + growth)) == pytest.approx(up * (1.0 - growth / void), abs=1e-14)
 
 
-def test_a_push_does_not_jump_where_slabs_come_to_lie_beside_each_other():
+def test_a_push_does_not_jump_where_slabs_come_to_lie_side_by_side():
     for side in (-1.0, 1.0):
         changes_in_proportion(lambda own: pushed(own, 0.0, 0.2, 0.3, 0.1), side * 0.25, 0.21)

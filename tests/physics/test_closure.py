@@ -1,4 +1,4 @@
-"""What the bodies of a mixed cell share."""
+"""Quantities that the bodies of a mixed cell share."""
 
 import numpy as np
 import pytest
@@ -45,7 +45,7 @@ def test_bodies_of_the_same_stiffness_have_the_mean_density_by_volume():
 
 
 def test_a_stiff_body_counts_less():
-    """Half of each, one three times as stiff: weights 3/4 and 1/4. A gas beside metal has all but all of the weight."""
+    """Half of each, one three times as stiff: weights 3/4 and 1/4. A gas next to metal has almost all of the weight."""
     assert dense([(0.5, 8.0, 1.0), (0.5, 4.0, 3.0)]) == pytest.approx(7.0)
     assert dense([(0.5, 1.2, 1.4e5), (0.5, 8000.0, 1.4e11)]) == pytest.approx(1.2, rel=1e-2)
 
@@ -56,7 +56,7 @@ def test_void_does_not_change_the_density():
     assert thin == pytest.approx(full)
 
 
-def test_what_an_absent_body_has_does_not_count():
+def test_values_of_an_absent_body_do_not_count():
     present = [(0.5, 8.0, 1.0), (0.5, 4.0, 3.0)]
     assert dense([present[0], (0.0, np.nan, 0.0), present[1]]) == dense(present)
 
@@ -67,7 +67,7 @@ def test_what_an_absent_body_has_does_not_count():
 @settings(deadline=None)
 @given(st.lists(BODY, min_size=2, max_size=4), st.floats(-1e-3, -1e-6))
 def test_by_compressibility_all_bodies_rise_by_the_same_pressure(bodies, squeezed):
-    """Body m, of volume f_m, takes its share of the change and answers with K_m times its relative change."""
+    """Body m, of volume f_m, takes its share of the change and responds with K_m times its relative change."""
     shares = [softness(f, modulus, True) for f, _, modulus in bodies]
     rises = [-modulus * squeezed * share / sum(shares) / f for share, (f, _, modulus) in zip(shares, bodies, strict=True)]
     assert rises == pytest.approx([rises[0]] * len(rises), rel=1e-12)
@@ -89,7 +89,7 @@ def test_a_body_that_is_not_there_takes_nothing(tipton, modulus):
 @settings(deadline=None)
 @given(st.floats(0.0, 1.0), st.floats(-1e9, 1e11), st.floats(-1e9, 1e11), st.floats(1e9, 5e11))
 def test_relaxation_takes_its_share_of_the_way_to_the_target(relaxation, p, target, modulus):
-    """A relative change of volume x changes the pressure by -K x; what is over the target grows."""
+    """A relative change of volume x changes the pressure by -K x; a body above the target grows."""
     relaxed = p - modulus * relaxation_strain(relaxation, p, target, modulus)
     assert relaxed == pytest.approx((1.0 - relaxation) * p + relaxation * target, rel=1e-9, abs=1.0)
 

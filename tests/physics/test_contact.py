@@ -1,4 +1,4 @@
-"""Two groups that meet: face apertures, dual cells, and the rate of volume that both velocities make."""
+"""Two groups that meet: face apertures, dual cells, and the rate of volume from both velocities."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def test_a_face_seen_from_its_other_end_has_the_same_apertures(first, last):
 
 @settings(deadline=None)
 @given(LEVEL.filter(bool), LEVEL.filter(bool))
-def test_what_the_one_group_leaves_the_other_has(first, last):
+def test_one_group_has_the_rest_of_the_other(first, last):
     np.testing.assert_allclose(np.add(end_apertures(first, last), end_apertures(-first, -last)), 1.0, rtol=1e-14)
 
 
@@ -82,7 +82,7 @@ def test_a_quarter_of_the_aperture_is_a_quarter_of_the_way_to_the_hard_velocity(
 
 
 def filled(g, hard_cells):
-    """Shares of the hard and the soft group: those cells all hard, the rest soft, nothing known of ghosts."""
+    """Shares of the hard and the soft group: those cells all hard, the rest soft, ghosts unknown."""
     hard, soft, volume = np.full((3, *g.shape), np.nan)
     hard[g.inside], soft[g.inside], volume[g.inside] = 0.0, 1.0, g.volume[g.inside]
     for cell in hard_cells:
@@ -143,7 +143,7 @@ EDGES = np.array([1, 3, 1, 3])
 
 
 def meet(j, i, hard, soft):
-    """Whether groups meet in a cell, given the cells that hold something of each; beyond the mesh all is full of both."""
+    """Whether groups meet in a cell, given the cells that contain some of each; beyond the mesh all is full of both."""
     shares = np.ones((2, 4, 4))
     shares[:, 1:3, 1:3] = 0.0
     for share, cells in zip(shares, (hard, soft), strict=True):
@@ -157,7 +157,7 @@ def test_groups_meet_in_a_cell_of_both():
 
 
 @pytest.mark.parametrize(("cell", "beside"), [((1, 1), (2, 1)), ((1, 1), (1, 2)), ((2, 2), (1, 2)), ((2, 2), (2, 1))])
-def test_a_full_cell_meets_a_full_cell_of_the_other_group_beside_it(cell, beside):
+def test_a_full_cell_meets_a_full_neighbour_of_the_other_group(cell, beside):
     assert meet(*cell, {cell: 1.0}, {beside: 1.0})
     assert meet(*cell, {beside: 1.0}, {cell: 1.0})
 
@@ -177,7 +177,7 @@ def test_a_neighbour_may_have_a_gap_of_void_of_one_per_cent():
 
 
 @pytest.mark.parametrize("cell", [(1, 1), (1, 2), (2, 1), (2, 2)])
-def test_what_is_beyond_the_mesh_meets_nothing(cell):
+def test_cells_beyond_the_mesh_meet_nothing(cell):
     assert not meet(*cell, {cell: 1.0}, {})
     assert not meet(*cell, {}, {cell: 1.0})
 
@@ -186,7 +186,7 @@ def test_what_is_beyond_the_mesh_meets_nothing(cell):
 
 
 def ends(first, last, shape, at, step):
-    """A field [2, j, i] of pairs at two vertices, one `step` behind the other, nothing known elsewhere."""
+    """A field [2, j, i] of pairs at two vertices, one `step` behind the other, unknown elsewhere."""
     field = np.full((2, *shape), np.nan)
     field[:, at[0], at[1]] = first
     field[:, at[0] + step[0], at[1] + step[1]] = last
@@ -202,8 +202,8 @@ def at_face(first, last, shape, at):
 
 @settings(deadline=None)
 @given(st.lists(VELOCITY, min_size=4, max_size=4), LEVEL, LEVEL)
-def test_through_an_r_face_flows_what_each_group_carries_through_its_part(velocities, first, last):
-    """Twice the mean over the face of the velocity of whoever wets it, both linear along it."""
+def test_the_flow_through_an_r_face_is_that_of_each_group_through_its_part(velocities, first, last):
+    """Twice the mean over the face of the velocity of the group that wets it, both linear along it."""
     soft_low, hard_low, soft_high, hard_high = velocities
     u = ends((soft_low, hard_low), (soft_high, hard_high), (4, 3), (2, 1), (1, 0))
     hard, soft = (low + (high - low) * ALONG for low, high in ((hard_low, hard_high), (soft_low, soft_high)))
@@ -243,15 +243,15 @@ def test_through_a_planar_z_face_flows_what_each_group_carries_through_its_part(
 
 
 def test_each_end_of_a_face_has_its_own_aperture():
-    """The inner vertex of a z-face is the hard group's alone, the outer one the other's."""
+    """The inner vertex of a z-face belongs to the hard group alone, the outer one to the other."""
     g = small("cylindrical")
     v = ends((np.nan, 6.0), (2.0, np.nan), g.vertex_shape, (3, 3), (0, 1))
     v = np.where(np.isnan(v), 1e9, v)
-    found = face_flow_z(3, 3, BOTH, g.metrics, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
+    flow = face_flow_z(3, 3, BOTH, g.metrics, at_face(1.0, 0.0, g.vertex_shape, (3, 3)), v)
     # 6 at r = 0.1 down to 0 at 0.25 and 0 up to 2: the integrals of the linear functions over r dr
     inner = 6.0 * np.mean((1.0 - ALONG) * (0.1 + 0.15 * ALONG)) * 0.15
     outer = 2.0 * np.mean(ALONG * (0.1 + 0.15 * ALONG)) * 0.15
-    assert found == pytest.approx(inner + outer, rel=1e-6)
+    assert flow == pytest.approx(inner + outer, rel=1e-6)
 
 
 # ------------------------------------------------------------------------------------------------ rates of volume
@@ -298,7 +298,7 @@ def test_where_both_groups_move_alike_the_apertures_do_not_matter():
 
 
 def apertures_of_line(g, j, i, n_r, n_z, place):
-    """Weights on the four faces of cell (j, i) that a line in it leaves, nothing known of others."""
+    """Weights on the four faces of cell (j, i) left by a line in it, unknown elsewhere."""
     def level(row, column):
         r0, z0 = g.r[i] + place[0] * g.dr[i], g.z[j] + place[1] * g.dz[j]
         return n_r * (r0 - g.r[column]) + n_z * (z0 - g.z[row])

@@ -1,4 +1,4 @@
-"""No scalar function of physics without a test of its own."""
+"""Every scalar function of physics has a test of its own."""
 
 import ast
 from collections.abc import Iterator
@@ -19,7 +19,7 @@ POINTS = sorted(
 
 
 def touched(syntax: ast.Module, package: str = PACKAGE) -> Iterator[tuple[str, str]]:
-    """(module, function) of a package that a test file names: ``module.function`` or an import of it."""
+    """(module, function) of a package that a test file names: as ``module.function`` or by importing it."""
     modules = {}
     for node in ast.walk(syntax):
         if isinstance(node, ast.ImportFrom) and node.module == package:

@@ -1,4 +1,4 @@
-"""Where material tears, and how much void opens."""
+"""Where material fractures, and how much void opens."""
 
 import pytest
 from hypothesis import given, settings
@@ -36,7 +36,7 @@ def test_crushed_material_has_not_failed():
 @settings(deadline=None)
 @given(st.floats(1.0, 2e4), st.floats(1.0, 1.25))
 def test_the_mass_of_what_stays_has_the_density_without_tension(rho, stretched):
-    """Up to the opening allowed, here a fifth: a volume of one held the mass rho."""
+    """Up to the opening allowed, here a fifth: a volume of one contained the mass rho."""
     relaxed = stretched * rho
     assert rho / share_that_stays(rho, relaxed, 0.2) == pytest.approx(relaxed, rel=1e-12)
 
@@ -56,7 +56,7 @@ def test_where_there_is_no_tension_nothing_opens(relaxed):
     [(0.0, 0.3, 0.3), (0.5, 0.4999, 0.9999), (0.5, 0.5, FAILED), (0.0, 7.0, FAILED), (FAILED, 0.1, FAILED), (1.2, 0.1, 1.2)],
 )
 def test_damage_jumps_once_it_reaches_one(before, increment, after):
-    """As far beyond 1 as sound material is below it; what the remap has mixed stays as it is."""
+    """As far beyond 1 as sound material is below it; values mixed by the remap stay as they are."""
     assert FAILED == 2.0
     assert damaged(before, increment) == pytest.approx(after, abs=1e-15)
 

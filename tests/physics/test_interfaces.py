@@ -30,11 +30,11 @@ piece_of_surface = interfaces.piece_of_surface.py_func
 turned = interfaces.turned.py_func
 reversed_if = interfaces.reversed_if.py_func
 
-#: components of a normal that are not too small for polygons to be a fair comparison, and those that are small
+#: components of a normal large enough for a fair comparison with polygons, and small ones
 COMPONENT = st.floats(0.01, 0.99)
 SIGN = st.sampled_from([-1.0, 1.0])
 UNIT = st.floats(0.0, 1.0)
-WIDTH = st.floats(1e-9, 1.0 - 1e-9)  # a strip without width is never asked for
+WIDTH = st.floats(1e-9, 1.0 - 1e-9)  # a strip of zero width never occurs
 
 
 def cut(polygon, n1, n2, level):
@@ -115,7 +115,7 @@ def by_integration(m1, m2, alpha):
 @settings(deadline=None)
 @given(COMPONENT, COMPONENT, st.floats(0.001, 0.999))
 def test_the_centroid_below_a_line_is_that_of_an_integration(m1, m2, place):
-    """Also of a normal of any length, as in a strip."""
+    """Even for a normal of any length, as in a strip."""
     alpha = place * (m1 + m2)
     share, x, y = centroid_below(m1, m2, alpha)
     assert share == area_below(m1, m2, alpha)
@@ -148,7 +148,7 @@ def test_a_line_further_on_leaves_no_less_below(m1, alpha, more):
 @settings(deadline=None)
 @given(UNIT, st.floats(1e-9, 1.0 - 1e-9))
 def test_the_area_below_the_line_of_a_fraction_is_the_fraction(m1, fraction):
-    """To 1e-7, below which a line is taken for level."""
+    """To 1e-7, below which a line is treated as level."""
     assert area_below(m1, 1.0 - m1, line_constant(m1, 1.0 - m1, fraction)) == pytest.approx(fraction, abs=1e-7)
 
 
@@ -183,7 +183,7 @@ def test_an_empty_and_a_full_square_end_at_their_corners(m1):
 
 
 def piece_of(polygon, width, high):
-    """(share, moments) of a polygon in a strip as `line_piece` gives them; no polygon has none."""
+    """(share, moments) of a polygon in a strip as `line_piece` gives them; zero for no polygon."""
     if len(polygon) < 3:
         return 0.0, 0.0, 0.0
     share, moment_x, moment_y = moments(polygon)
@@ -250,7 +250,7 @@ def test_a_strip_of_a_level_interface():
 @pytest.mark.parametrize("high", [False, True])
 @pytest.mark.parametrize("error", [0.0, 1e-15])
 def test_a_strip_of_nothing_and_a_strip_of_all(high, error):
-    """Also where round-off makes less of nothing and more of all."""
+    """Even where round-off makes it less than nothing or more than all."""
     assert line_piece(0.4, -0.6, -error, 0.3, high) == (0.0, 0.0, 0.0)
     assert line_piece(0.4, -0.6, 1.0 + error, 0.3, high) == (0.3, 0.0, 0.0)
 
@@ -344,7 +344,7 @@ def normal_of(*bodies, dr=DR, dz=DZ):
 
 
 def test_fractions_of_bodies_add_up_row_by_row_and_then_two_cells_away():
-    """The cells two away are left and right, below and above, then those at the corners; no others count."""
+    """The cells two away are left and right, below and above, then at the corners; no others count."""
     cells = [(1, 1), (1, 2), (1, 3), (2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3), (2, 0), (2, 4), (0, 2), (4, 2),
              (0, 0), (0, 4), (4, 0), (4, 4)]
     vof = np.full((2, 5, 5), np.nan)
@@ -367,7 +367,7 @@ GRADIENT = st.floats(-0.1, 0.1).filter(lambda value: abs(value) > 1e-3)
 @settings(deadline=None)
 @given(GRADIENT, GRADIENT)
 def test_the_normal_of_a_linear_fraction_points_against_its_gradient_in_the_unit_cell(by_r, by_z):
-    """Also where the sizes of the cells differ: across cell (2, 2) it falls by 2 by_r and 0.8 by_z."""
+    """Even where the cells differ in size: across cell (2, 2) it falls by 2 by_r and 0.8 by_z."""
     fall = np.array([-2.0 * by_r, -0.8 * by_z])
     np.testing.assert_allclose(normal_of(plane(by_r, by_z)), fall / np.abs(fall).sum(), rtol=1e-10)
 
@@ -430,7 +430,7 @@ def gradient_of(f, dr=DR, dz=DZ):
 
 
 def test_every_cell_around_has_its_weight_in_youngs_difference():
-    """1 at a corner, 2 at a side; what is on the lower side counts up."""
+    """1 at a corner, 2 at a side; cells on the lower side count positively."""
     weights = np.zeros((2, 3, 3))
     for row, column in np.ndindex(3, 3):
         f = np.zeros((5, 5))
@@ -505,7 +505,7 @@ FAR = 1e3
 @settings(deadline=None)
 @given(COMPONENT, COMPONENT, SIGN, SIGN, st.booleans())
 def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, filled):
-    """A rectangle that ends in the middle cell, away from (to_r, to_z); and the same without it, where all else is filled."""
+    """A rectangle that ends in the middle cell, away from (to_r, to_z); and its complement, where all else is filled."""
     start_r, start_z = DR[:2].sum(), DZ[:2].sum()
     r = (-FAR, start_r + width * DR[2]) if to_r > 0.0 else (start_r + (1.0 - width) * DR[2], FAR)
     z = (-FAR, start_z + height * DZ[2]) if to_z > 0.0 else (start_z + (1.0 - height) * DZ[2], FAR)
@@ -530,13 +530,13 @@ def test_a_slanted_line_stays_a_line(n1, to_r, to_z, place):
 
 @pytest.mark.parametrize("cells", [5.5, 6.5, 8.5, 12.5])
 def test_a_round_nose_has_no_corners(cells):
-    """A hemisphere in (r, z): corners are chosen where edges are straight along the mesh, not where a surface turns."""
+    """A hemisphere in (r, z): corners are chosen where edges are straight along the mesh, not where a surface curves."""
     fine = (np.arange(20 * 16) + 0.5) / 20
     inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
     f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
     sizes = np.ones(20)
-    found = [surface(j, i, sums_of(f, j=j, i=i), sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18) for i in range(2, 18)]
-    assert not any(found)
+    weights = [surface(j, i, sums_of(f, j=j, i=i), sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18) for i in range(2, 18)]
+    assert not any(weights)
 
 
 def test_an_edge_that_is_not_straight_has_no_corner():
@@ -554,7 +554,7 @@ def test_a_corner_has_no_weight_in_a_cell_without_void():
         assert surface_of(f, void=share * interfaces.ROOM)[4] == pytest.approx(weight)
 
 
-def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it():
+def test_a_corner_keeps_the_fraction_and_the_proportion_of_its_neighbours():
     width, height = corner_size(0.3, 0.4, 0.6)
     assert width * height == pytest.approx(0.3)
     assert width / height == pytest.approx(0.6 / 0.4)
@@ -564,7 +564,7 @@ def test_a_corner_keeps_the_fraction_and_the_proportion_of_the_cells_beside_it()
 
 @settings(deadline=None)
 @given(COMPONENT, COMPONENT, SIGN, SIGN, st.floats(0.01, 0.99), st.booleans(), st.booleans())
-def test_a_strip_has_what_lies_in_it_of_the_corner(width, height, to_x, to_y, strip, high, filled):
+def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, high, filled):
     """A rectangle away from (to_x, to_y), or all but one that lies towards them."""
     left = 0.0 if (to_x > 0.0) == filled else 1.0 - width
     bottom = 0.0 if (to_y > 0.0) == filled else 1.0 - height
@@ -573,9 +573,9 @@ def test_a_strip_has_what_lies_in_it_of_the_corner(width, height, to_x, to_y, st
     share, along, across = piece_of(part, strip, high)
     expected = (share, along, across) if filled else (strip - share, -along, -across)
     size = (width, height) if filled else (-width, -height)
-    found = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
-    assert found == pytest.approx(expected, abs=1e-13)
-    assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == found
+    piece = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
+    assert piece == pytest.approx(expected, abs=1e-13)
+    assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == piece
 
 
 @settings(deadline=None)
@@ -590,8 +590,8 @@ def test_mirrored_corners_have_the_same_bits(width, height, n_x, n_y, strip, hig
 def test_a_strip_has_what_lies_in_it_of_the_line_as_far_as_the_corner_has_no_weight():
     line, whole = line_piece(0.3, -0.7, 0.4, 0.2, True), corner_piece(0.3, -0.7, 0.8, 0.5, 0.2, True)
     assert piece_of_surface(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
-    found = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
-    assert found == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
+    part = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
+    assert part == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
 
 
 def test_strips_of_a_square_cover_each_other():
@@ -658,7 +658,7 @@ ANGLE = rectangle((-FAR, 2.4), (-FAR, 2.5), (np.ones(5), np.ones(5)))
 
 
 def strips(f, void):
-    """What lies in strips of a tenth of the middle cell at all of its sides."""
+    """Contents of strips of a tenth of the middle cell at all of its sides."""
     n_r, n_z, width, height, weight = surface_of(f, np.ones(5), np.ones(5), void)
     return [piece_of_surface(*along, weight, f[2, 2], 0.1, high) for high in (False, True)
             for along in ((n_r, n_z, width, height), (n_z, n_r, height, width))]
@@ -683,7 +683,7 @@ def test_a_corner_goes_as_its_edge_bends(change):
 
 
 def halfway(first, second, decision):
-    """The share of the second of two patterns from which on the decision is another."""
+    """The share of the second of two patterns at which the decision changes."""
     low, high = 0.0, 1.0
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -710,7 +710,7 @@ def slanted(level):
 
 def test_a_line_becomes_a_corner_little_by_little():
     line = slanted(4.6)
-    line[2, 0], line[0, 2] = line[2, 1], line[1, 2]  # the edges go on straight
+    line[2, 0], line[0, 2] = line[2, 1], line[1, 2]  # the edges continue straight
 
     def mixed(share):
         return strips((1.0 - share) * ANGLE + share * line, 0.5)
@@ -721,7 +721,7 @@ def test_a_line_becomes_a_corner_little_by_little():
 
 
 @pytest.mark.parametrize("beside", [0.0, interfaces.THIN])
-def test_a_corner_goes_where_nothing_of_it_is_beside(beside):
+def test_a_corner_vanishes_where_its_neighbours_have_none_of_it(beside):
     def thin(share):
         f = np.zeros((5, 5))
         f[:2, :2], f[2, 2], f[:2, 2], f[2, :2] = 1.0, 0.3, 0.005, max(share, 0.0)
@@ -734,7 +734,7 @@ def test_a_corner_goes_where_nothing_of_it_is_beside(beside):
 @settings(deadline=None, max_examples=200)
 @given(st.integers(0, 10**6), st.sampled_from(["corners", "lines", "noise"]), st.sampled_from(["corners", "lines", "noise"]))
 def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
-    """Between two patterns, also of corners at other places, filled and empty ones.
+    """Between two patterns, including corners at other places, and full and empty cells.
 
     The steepest slope is that of the weight, 4/ALIKE, which makes 4e-9 of round-off.
     """
@@ -761,11 +761,11 @@ def test_the_area_below_a_line_does_not_know_when_it_is_level(tilt):
         changes_in_proportion(lambda m1: area_below(abs(m1), 1.0 - abs(m1), alpha), tilt, 1.0)  # noqa: B023
 
 
-def test_nested_interfaces_keep_within_what_there_is():
-    """Below stand the bodies before, above what is left of the strip and of the cell."""
+def test_nested_interfaces_keep_within_their_bounds():
+    """The lower bound is that of the bodies before, the upper one the rest of the strip and of the cell."""
     nested = interfaces.nested.py_func
-    assert nested(0.15, 0.1, 0.2, 0.5, 0.4) == 0.15  # nothing stands in its way
+    assert nested(0.15, 0.1, 0.2, 0.5, 0.4) == 0.15  # no bound applies
     assert nested(0.05, 0.1, 0.2, 0.5, 0.4) == 0.1  # no less than the bodies before
     assert nested(0.39, 0.1, 0.2, 0.5, 0.4) == pytest.approx(0.3)  # no more than they and this body
     assert nested(0.45, 0.1, 0.9, 1.0, 0.4) == 0.4  # no more than the strip
-    assert nested(0.1, 0.1, 0.5, 0.9, 0.4) == pytest.approx(0.3)  # only a tenth of the cell is left for what comes after
+    assert nested(0.1, 0.1, 0.5, 0.9, 0.4) == pytest.approx(0.3)  # only a tenth of the cell is left for later bodies

@@ -165,7 +165,7 @@ def test_a_cell_that_grows_loses_volume_at_a_negative_rate(geometry):
 
 
 @pytest.mark.parametrize(("geometry", "sideways"), [("cylindrical", 0.5), ("planar", 1.0)])
-def test_what_gives_sideways_what_it_takes_along_the_axis_loses_no_volume(geometry, sideways):
+def test_radial_growth_that_balances_axial_shortening_keeps_the_volume(geometry, sideways):
     g = small(geometry)
     r, z = np.meshgrid(g.r, g.z)
     for j, i in CELLS:

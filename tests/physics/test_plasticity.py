@@ -1,4 +1,4 @@
-"""What deviators do, how they return to the yield surface, and when there are none."""
+"""Deviators: their power, their return to the yield surface, and where there are none."""
 
 import numpy as np
 import pytest
@@ -54,12 +54,12 @@ def test_dense_material_that_has_not_failed_carries_stress(damage):
 
 
 @pytest.mark.parametrize("rho", [2540.0, 2000.0, 1.0])
-def test_what_is_as_thin_as_the_bound_carries_none(rho):
+def test_material_as_thin_as_the_bound_carries_none(rho):
     assert carries_no_stress(0.0, rho, 2540.0)
 
 
 @pytest.mark.parametrize("damage", [1.0, 1.0000001])
-def test_what_has_failed_carries_none(damage):
+def test_failed_material_carries_none(damage):
     assert carries_no_stress(damage, 2700.0, 2540.0)
 
 
@@ -87,7 +87,7 @@ def test_a_melt_forgets_its_back_stress_and_no_other_cell_does():
 
 
 @pytest.mark.parametrize(("modulus", "fluid"), [(26e9, False), (1e-300, False), (0.0, True), (-1.0, True), (np.nan, False)])
-def test_what_has_no_shear_modulus_is_a_fluid(modulus, fluid):
+def test_material_without_a_shear_modulus_is_a_fluid(modulus, fluid):
     assert is_fluid(modulus) == fluid
 
 

@@ -26,7 +26,7 @@ def turned(rr, zz, rz, spin):
 
 
 def strained(drr, dzz, dtt, drz):
-    """The deviator that strain makes of none."""
+    """The deviator that strain makes from zero."""
     return turn_and_strain(0.0, 0.0, 0.0, 0.0, 2.0 * G, drr, dzz, dtt, drz)
 
 
@@ -100,7 +100,7 @@ def test_shear_is_g_times_the_angle():
 @settings(deadline=None)
 @given(STRAIN, STRAIN, STRAIN, STRAIN)
 def test_a_strain_without_change_of_volume_makes_two_g_times_itself(drr, dzz, drz, spin):
-    """Of no stress a rotation makes none: the strain is added after it and is not turned."""
+    """Without stress the rotation does nothing: the strain is added after it and is not turned."""
     new = turn_and_strain(0.0, 0.0, 0.0, spin, 2.0 * G, drr, dzz, -(drr + dzz), drz)
     assert new == pytest.approx((2.0 * G * drr, 2.0 * G * dzz, 2.0 * G * drz), rel=1e-12, abs=1e-4)
 

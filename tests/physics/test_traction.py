@@ -1,4 +1,4 @@
-"""What one body does in a cell that a surface cuts: its strain across the surface, and when void shuts or pulls."""
+"""One body in a cell that a surface cuts: its strain across the surface, and void that closes or pulls."""
 
 from math import sqrt
 
@@ -96,7 +96,7 @@ def test_the_pressure_at_half_the_step_does_not_jump_with_the_pull(p, pull):
 
 
 def test_wide_void_lets_go_of_a_pressure_without_a_jump():
-    """Bodies under more than void takes: all that is left of it up to WIDE, half of that half way on, nothing at twice it."""
+    """Bodies under more pressure than void takes: the rest stays up to WIDE, half of it half way on, none at twice WIDE."""
     def left(void):
         return half_pressure(4.0 * WIDE, 1.0, 0.0, void, 0.0)
 
@@ -145,7 +145,7 @@ def test_a_body_that_flows_along_its_surface_keeps_its_volume(strain):
 @settings(deadline=None)
 @given(st.floats(-1e-2, 1e-2), st.floats(-1.0, 1.0), st.floats(1.0, 3.0), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_a_plastic_body_meets_the_traction(beside, share, beyond, p, target):
-    """Any deviator on the yield surface or strained beyond it, any part of it along the normal."""
+    """Any deviator on the yield surface or strained beyond it, with any part of it along the normal."""
     size = 2.0 / 3.0 * (beyond * Y) ** 2
     along = share * sqrt(2.0 / 3.0 * size)
     e, grown, _ = strain_across(p * Y, target * Y, K, G, Y, size, along, beside, 1.0)
@@ -169,8 +169,8 @@ def test_a_fluid_goes_to_the_pressure_at_any_surface(weight):
 @pytest.mark.parametrize(("p", "grown"), [(K, MOST_GROWTH), (-K, -MOST_GROWTH)])
 @pytest.mark.parametrize("weight", [0.0, 0.5, 1.0])
 def test_no_body_grows_by_more_than_a_tenth(p, grown, weight):
-    e, found, _ = strain_across(p, 0.0, K, G, Y, 0.0, 0.0, 0.01, weight)
-    assert found == pytest.approx(grown)
+    e, growth, _ = strain_across(p, 0.0, K, G, Y, 0.0, 0.0, 0.01, weight)
+    assert growth == pytest.approx(grown)
     assert e == pytest.approx(grown - 0.01)
 
 
@@ -211,7 +211,7 @@ def test_an_elastic_body_gives_way_by_its_two_moduli(weight):
     assert softer == pytest.approx(weight / (K + weight * 4.0 / 3.0 * G) + (1.0 - weight) / K, rel=1e-12)
 
 
-def test_what_a_body_grows_by_does_not_jump_with_the_weight():
+def test_growth_does_not_jump_with_the_weight():
     for weight in (0.0, 1e-12, 0.5):
         changes_in_proportion(lambda weight: strain_across(0.02, 0.0, 1.0, 0.5, 0.05, 0.06, -0.1, 0.01, weight)[:2], weight,
                               1.0, sides=(1.0,))

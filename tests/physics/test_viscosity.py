@@ -29,7 +29,7 @@ RATE = st.just(0.0) | SLOPE
 
 @pytest.mark.parametrize("slopes", [(-3.0, -3.0, -3.0), (1.0, 2.0, 3.0), (3.0, 2.0, 1.0), (5.0, 4.0, 6.0)])
 def test_a_smooth_slope_is_smooth(slopes):
-    """Linear and parabolic velocities, and what is steeper on both sides."""
+    """Linear and parabolic velocities, and those steeper on both sides."""
     assert smoothness(*slopes) == 1.0
 
 
@@ -39,7 +39,7 @@ def test_a_slope_that_turns_is_not_smooth(slopes):
 
 
 @pytest.mark.parametrize("slopes", [(0.0, 2.0, 2.0), (2.0, 2.0, 0.0), (0.0, 2.0, 0.0), (2.0, 0.0, 2.0), (-2.0, 0.0, -2.0)])
-def test_beside_no_slope_nothing_is_smooth(slopes):
+def test_next_to_a_zero_slope_nothing_is_smooth(slopes):
     """The foot of a shock and its head: one side is level."""
     assert smoothness(*slopes) == 0.0
 
@@ -75,7 +75,7 @@ def test_smoothness_does_not_know_the_unit_or_the_sign_of_the_velocity(left, cen
 
 @settings(deadline=None)
 @given(DIFFERENCE, SLOPE, DIFFERENCE, st.floats(0.0, 1e3))
-def test_more_slope_beside_does_not_make_a_slope_less_smooth(left, centre, right, more):
+def test_a_steeper_neighbour_does_not_make_a_slope_less_smooth(left, centre, right, more):
     steeper = right + more if centre > 0.0 else right - more
     assert smoothness(left, centre, steeper) >= smoothness(left, centre, right)
 
@@ -167,7 +167,7 @@ def test_without_shear_it_is_a_direction_of_the_mesh_to_the_last_bit(rr, zz, exp
     assert strongest_compression(rr, zz, 0.0) == expected
 
 
-def test_what_is_compressed_alike_on_all_sides_has_a_direction():
+def test_uniform_compression_has_a_direction():
     rate, n_r, n_z = strongest_compression(-1.0, -1.0, 0.0)
     assert rate == -1.0
     assert hypot(n_r, n_z) == pytest.approx(1.0)

@@ -10,7 +10,7 @@ from hydro2d.physics import waves
 step_limits = waves.step_limits.py_func
 impedances = waves.impedances.py_func
 
-#: a cell of 1 by 2 mm in which all is slow: the first and the last vertex of a row are those of other cells
+#: a slow cell of 1 by 2 mm: the first and the last vertex of a row belong to other cells
 CELL = {
     "ub": [9e9, 1.0, 1.0, 9e9],
     "ut": [9e9, 1.0, 1.0, 9e9],
@@ -38,7 +38,7 @@ def limits(**changed) -> dict[str, float]:
 
 
 def changed_by(**changed) -> set[str]:
-    """Which bounds are others than those of CELL."""
+    """The bounds that differ from those of CELL."""
     before, after = limits(), limits(**changed)
     return {cause for cause in before if after[cause] != before[cause]}
 
@@ -101,9 +101,9 @@ def test_along_the_axis_only_the_motion_through_the_mesh_counts(name, end):
 def test_a_cell_at_rest_in_the_mesh_is_bound_by_sound_alone():
     still = {name: row(0.0, 0.0) for name in ("ub", "ut", "vb", "vt")}
     with np.errstate(divide="ignore"):
-        found = limits(**still)
-    assert min(found, key=found.get) == "sound"
-    assert min(bound for cause, bound in found.items() if cause != "sound") >= 1e300
+        bounds = limits(**still)
+    assert min(bounds, key=bounds.get) == "sound"
+    assert min(bound for cause, bound in bounds.items() if cause != "sound") >= 1e300
 
 
 def test_the_advective_share_bears_on_both_velocities():
@@ -152,7 +152,7 @@ def test_a_modulus_below_zero_by_round_off_is_none():
 
 
 def test_a_cell_with_void_has_a_longitudinal_impedance_alone():
-    """Its bulk modulus is 0, which must not be taken for a solid that is all shear."""
+    """Its bulk modulus is 0, which must not be taken for a solid with shear only."""
     assert impedances_of(RHO, C_LONG, 0.0) == (pytest.approx(RHO * C_LONG), 0.0)
 
 
@@ -164,7 +164,7 @@ def test_sound_and_a_shock_cross_a_length():
 
 
 def test_a_shock_crosses_less_of_a_cell():
-    """From a thousandth of rho c_l^2 on, and by half at the half of that; a courant below shock_courant holds as it is."""
+    """From a thousandth of rho c_l^2 on, and by half at half of that; a courant below shock_courant is kept."""
     shocked = waves.SHOCKED * RHO * C_LONG**2
     shares = [waves.share_crossed.py_func(0.7, 0.5, RHO, C_LONG, q) for q in (0.0, 0.5 * shocked, shocked, 9.0 * shocked)]
     assert shares == pytest.approx([0.7, 0.6, 0.5, 0.5])

@@ -1,1 +1,1 @@
-"""The programs and results that lie beside the decks in problems."""
+"""The programs and results next to the decks in problems."""

@@ -1,4 +1,4 @@
-"""The page of all experiments has what is kept."""
+"""The page of all experiments shows the kept results."""
 
 from problems.validation import against_experiments as against
 from problems.validation.against_experiments import Row
@@ -7,17 +7,17 @@ from tests.rules import source
 
 def test_the_page_has_every_line_of_the_tables():
     lines = (source.ROOT / "docs/explanation/validation.md").read_text(encoding="utf-8").splitlines()
-    told = against.tables()
-    assert len(told) > 55
-    assert [line for line in told if line not in lines] == []
+    printed = against.tables()
+    assert len(printed) > 55
+    assert [line for line in printed if line not in lines] == []
 
 
-def test_what_was_chosen_stands_apart():
-    told = "\n".join(against.tables()).split("\n\n")
-    assert len(told) == 3
+def test_sets_with_choices_are_separate():
+    tables = "\n".join(against.tables()).split("\n\n")
+    assert len(tables) == 3
     for each in against.SETS:
-        assert (f"| {each.name} |" in told[1]) == each.predicted
-        assert (f"| {each.name} |" in told[2]) != each.predicted
+        assert (f"| {each.name} |" in tables[1]) == each.predicted
+        assert (f"| {each.name} |" in tables[2]) != each.predicted
         assert each.predicted == each.chosen.startswith("nothing")
 
 

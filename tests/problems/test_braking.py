@@ -1,4 +1,4 @@
-"""What brakes a rod in its first 90 us: how a run is read, and the tables of the page."""
+"""The forces that brake a rod in its first 90 us: how a run is read, and the tables of the page."""
 
 import numpy as np
 import pytest
@@ -18,8 +18,8 @@ def test_stresses_are_means_over_the_rods_own_section():
     axial, lateral = np.full((20, 2), 9e9), np.full((20, 2), 9e9)
     axial[5:10] = 1e9, 3e9
     lateral[5:10] = 0.5e9, 0.0
-    found = braking.section(r_edges, z_edges, fraction, axial, lateral)
-    assert found == pytest.approx(((1.0 * 1e9 + 1.5 * 3e9) / 2.5, 1.0 * 0.5e9 / 2.5))
+    stresses = braking.section(r_edges, z_edges, fraction, axial, lateral)
+    assert stresses == pytest.approx(((1.0 * 1e9 + 1.5 * 3e9) / 2.5, 1.0 * 0.5e9 / 2.5))
     with pytest.raises(ValueError, match="no rod on the axis"):
         braking.section(r_edges, z_edges, 0.0 * fraction, axial, lateral)
 
@@ -35,7 +35,7 @@ def lengths(rod, cells):
     return [float(row["length_mm"]) for row in braking.kept("first_90us") if (row["rod"], row["cells"]) == (rod, cells)]
 
 
-def test_what_the_page_says_of_the_meshes():
+def test_statements_of_the_page_on_the_meshes():
     """A rod that the force does not overcome is as long on every mesh; one that it does is shorter on the finer ones."""
     for rod, most in (("undeformable", 0.1), ("plastic", 0.1), ("no-rate", 0.25)):
         assert np.ptp([float(np.median(lengths(rod, cells))) for cells in ("8.5", "12.5", "16.5")]) < most
@@ -43,7 +43,7 @@ def test_what_the_page_says_of_the_meshes():
     assert np.ptp(lengths("sintered", "12.5")) > 0.3
 
 
-def test_what_the_page_says_of_the_force():
+def test_statements_of_the_page_on_the_force():
     """It grows by some per cent over 500 m/s, in either plate, and more so less the pressure on the flank."""
     for plate, share, borne in (("5083", 1.07, 1.19), ("7039", 1.05, 1.23)):
         here = [row for row in braking.kept("nose_force") if row["plate"] == plate]
@@ -56,9 +56,9 @@ def test_what_the_page_says_of_the_force():
 def test_kept_rows_are_cases_of_their_study(study):
     plan = cases.plan(source.PROBLEMS / f"cth_nose_shape/{study}.toml", quiet=True)
     labels, kept = braking.STUDIES[study], braking.kept(study)
-    found = [(*(row[label] for label in labels), row["member"]) for row in kept]
-    assert len(set(found)) == len(found) > 0
-    assert set(found) <= {(*(case.values[label] for label in labels), str(case.member)) for case in plan.cases}
+    cases_kept = [(*(row[label] for label in labels), row["member"]) for row in kept]
+    assert len(set(cases_kept)) == len(cases_kept) > 0
+    assert set(cases_kept) <= {(*(case.values[label] for label in labels), str(case.member)) for case in plan.cases}
 
 
 def test_a_directory_of_another_study_is_refused(tmp_path, capsys):

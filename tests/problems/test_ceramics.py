@@ -1,4 +1,4 @@
-"""The decks of ceramics: what was kept of their runs, the tables that their page shows, and how dwell is read."""
+"""The decks of ceramics: the kept results, the tables of their page, and how dwell is read."""
 
 from statistics import median
 from types import SimpleNamespace
@@ -33,11 +33,11 @@ def efficiencies(cells):
 
 
 def depths(cells, ceramic, thickness):
-    """Depths of the members of a case, mm, the least first."""
+    """Depths of the members of a case, mm, in ascending order."""
     return sorted(float(row["depth_mm"]) for row in read.cases(TILES)[cells, ceramic, thickness])
 
 
-def test_what_the_page_says_of_the_tiles():
+def test_statements_of_the_page_on_the_tiles():
     """Alumina 1.1 to 1.2, boron carbide 4 to 5; the reference is 12 % below Odermatt's fit."""
     coarse = efficiencies("5.5")
     assert {round(coarse["alumina_995", each], 1) for each in (10, 20, 30)} == {1.1, 1.2}
@@ -45,7 +45,7 @@ def test_what_the_page_says_of_the_tiles():
     assert read.references(TILES)["5.5"] / 38.7 == pytest.approx(0.875, abs=0.005)
 
 
-def test_what_the_page_says_of_chance_and_the_mesh():
+def test_statements_of_the_page_on_chance_and_the_mesh():
     """One member of boron carbide stops early; finer meshes are within the others. Steel changes by more than chance."""
     least, *others = depths("5.5", "boron_carbide", "20.0")
     assert (least, others[0], others[-1]) == pytest.approx((21.3, 24.2, 25.4), abs=0.05)
@@ -55,11 +55,11 @@ def test_what_the_page_says_of_chance_and_the_mesh():
         fine, coarse = (efficiencies(each)["alumina_995", 20] for each in (cells, "5.5"))
         assert fine / coarse == pytest.approx(1.01, abs=0.005)
     for ceramic, thickness in (("steel", "20.0"), ("alumina_995", "10.0")):
-        found = depths("5.5", ceramic, thickness)
-        assert found[-1] - found[0] < 0.2
+        values = depths("5.5", ceramic, thickness)
+        assert values[-1] - values[0] < 0.2
 
 
-def test_what_the_page_says_of_the_transition():
+def test_statements_of_the_page_on_the_transition():
     """Without a cover the interface stands still at 0.8 and 0.9 km/s, creeps at 1.0, and penetrates from 1.2 km/s on."""
     assert max(INTERFACE["bare", 800], INTERFACE["bare", 900]) < 5.0
     assert 50.0 < INTERFACE["bare", 1000] < 200.0 < INTERFACE["bare", 1200]
@@ -71,11 +71,11 @@ def test_what_the_page_says_of_the_transition():
     assert ratios[1] < dwell.BOUNDS[0]
 
 
-def test_what_the_page_says_of_the_members():
+def test_statements_of_the_page_on_the_members():
     """Without a cover it stands still at 0.9 km/s, and creeps by chance at 1.0; with it, two velocities differ by more."""
-    found = {case: sorted(int(row["u_m_s"]) for row in rows)
-             for case, rows in kept.grouped(MEMBERS, ("face", "velocity_m_s")).items()}
-    ends = {case: (speeds[0], speeds[-1]) for case, speeds in found.items()}
+    velocities = {case: sorted(int(row["u_m_s"]) for row in rows)
+                  for case, rows in kept.grouped(MEMBERS, ("face", "velocity_m_s")).items()}
+    ends = {case: (speeds[0], speeds[-1]) for case, speeds in velocities.items()}
     assert ends["bare", "900"] == (2, 3)
     assert ends["bare", "1000"] == (37, 176)
     assert ends["bare", "1000"][0] < 135 < ends["bare", "1000"][1]
@@ -108,14 +108,14 @@ def test_how_dwell_is_read(monkeypatch, tmp_path, capsys):
     history["rod_length_m"] = 40e-3 - 300.0 * time
     with pytest.raises(ValueError, match="the rod is worn by 15.0 mm only"):
         dwell.of_run(tmp_path)
-    assert dwell.main([str(tmp_path)]) == 0  # it is told, and others go on
+    assert dwell.main([str(tmp_path)]) == 0  # it is reported, and other runs are read
     out, err = capsys.readouterr()
     assert out.splitlines() == [",".join(dwell.COLUMNS)]
     assert "the rod is worn by 15.0 mm only" in err
 
 
 def test_a_run_that_goes_on_is_refused(monkeypatch, tmp_path):
-    """Its largest depth so far is no depth."""
+    """Its largest depth so far is not a final depth."""
     monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: SimpleNamespace(summary={}))
     with pytest.raises(ValueError, match="has not ended"):
         read.of_run(tmp_path)

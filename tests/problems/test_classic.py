@@ -1,4 +1,4 @@
-"""The classic shots: what was kept of them, the table that their page shows, and the defaults that follow from it."""
+"""The classic shots: the kept results, the table of their page, and the defaults that follow from it."""
 
 import json
 from types import SimpleNamespace
@@ -69,36 +69,36 @@ def case(directory, shot, advection, status="done", clipped=0.0, fault="", **sum
     directory.mkdir()
     (directory / "deck.toml").write_text('title = "a shot"\n')
     sinks = {"advection": {"energy_J": -0.04}, "ke_bound": {"energy_J": clipped}}
-    told = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault,
+    data = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault,
             "faults": [fault] if fault else [], "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}  # fmt: skip
-    (directory / "summary.json").write_text(json.dumps(told))
-    return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status, summary=told,
+    (directory / "summary.json").write_text(json.dumps(data))
+    return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status, summary=data,
                            directory=directory)  # fmt: skip
 
 
 @pytest.fixture
 def study(tmp_path, monkeypatch):
     bodies = {"block": {"velocity_m_s": 151.26}}
-    found = [
+    records = [
         case(tmp_path / "a", "block_in_hole", "both", bodies=bodies),
         case(tmp_path / "b", "block_in_hole", "ke", bodies=bodies, clipped=1.2, fault="cutoff has removed 3 % of it (k)"),
         case(tmp_path / "c", "crater", "ke", "unphysical", 0.9, "ke_bound has removed 2.2 % of it (k; limit 2 %); a remedy"),
         case(tmp_path / "d", "crater", "both", "running"),
     ]
-    monkeypatch.setattr(table.layout, "read", lambda directory: SimpleNamespace(cases=found))
+    monkeypatch.setattr(table.layout, "read", lambda directory: SimpleNamespace(cases=records))
     return tmp_path
 
 
 def test_a_study_is_read_and_kept(study, capsys):
     file = study / "kept.csv"
     assert table.main([str(study), "--keep", str(file)]) == 0
-    told = capsys.readouterr().out
-    assert told.splitlines()[2:] == [
+    output = capsys.readouterr().out
+    assert output.splitlines()[2:] == [
         "| block_in_hole | velocity of the block, m/s | 200 | none | 151.3, 2.9 %, **not trusted: cutoff** |  | 151.3, 0.1 % |",
         "| crater | depth of the crater, mm | 13 or a little more | none | **unphysical after 9.0 us: ke_bound** |  |  |",
     ]
     assert table.main([str(file)]) == 0
-    assert capsys.readouterr().out == told
+    assert capsys.readouterr().out == output
 
 
 def test_nothing_to_read(tmp_path, capsys):

@@ -1,4 +1,4 @@
-"""problems/sliding/drag.py on histories whose force is known."""
+"""problems/sliding/drag.py on histories with a known force."""
 
 import json
 import math
@@ -31,19 +31,19 @@ def wrote(directory, time, speed, depth):
 
 @pytest.fixture
 def steady(tmp_path):
-    """A rod that loses 1.5 m/s in every microsecond, written once in each until 43 us."""
+    """A rod that loses 1.5 m/s in every microsecond, with a row for each until 43 us."""
     time = np.arange(44) * 1e-6
     return wrote(tmp_path / "steady", time, SPEED - 1.5e6 * time, SPEED * time - 0.75e6 * time**2)
 
 
 def test_constant_force(steady):
-    found = measure(steady)
+    measured = measure(steady)
     mass = model_deck.read(steady / reading.DECK).values["rod.mass"].value
-    assert [row["time"] for row in found["rows"]] == pytest.approx([5e-6, 15e-6, 25e-6, 35e-6])
-    assert [row["speed"] for row in found["rows"]] == pytest.approx([SPEED - 1.5e6 * t for t in (5e-6, 15e-6, 25e-6, 35e-6)])
-    assert [row["force"] for row in found["rows"]] == pytest.approx([mass * 1.5e6 / (math.pi * RADIUS**2)] * 4)
-    assert found["mean"] == pytest.approx(found["rows"][0]["force"])
-    assert not found["ended"]
+    assert [row["time"] for row in measured["rows"]] == pytest.approx([5e-6, 15e-6, 25e-6, 35e-6])
+    assert [row["speed"] for row in measured["rows"]] == pytest.approx([SPEED - 1.5e6 * t for t in (5e-6, 15e-6, 25e-6, 35e-6)])
+    assert [row["force"] for row in measured["rows"]] == pytest.approx([mass * 1.5e6 / (math.pi * RADIUS**2)] * 4)
+    assert measured["mean"] == pytest.approx(measured["rows"][0]["force"])
+    assert not measured["ended"]
 
 
 def test_rigid_rod_of_the_model(tmp_path):
@@ -56,10 +56,10 @@ def test_rigid_rod_of_the_model(tmp_path):
     time = np.linspace(0.0, duration, 1000)
     speed = math.sqrt(2.0 * target.static / target.dynamic) * np.tan(rate * (duration - time))
     travelled = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time))])
-    found = measure(wrote(tmp_path / "rigid", time, speed, travelled))
-    assert [row["force"] for row in found["rows"]] == pytest.approx([row["cavity"] for row in found["rows"]], rel=1e-3)
-    assert found["depth"] == pytest.approx(found["cavity_depth"], rel=1e-4)
-    assert found["cavity_depth"] == pytest.approx(depth, rel=1e-4)
+    measured = measure(wrote(tmp_path / "rigid", time, speed, travelled))
+    assert [row["force"] for row in measured["rows"]] == pytest.approx([row["cavity"] for row in measured["rows"]], rel=1e-3)
+    assert measured["depth"] == pytest.approx(measured["cavity_depth"], rel=1e-4)
+    assert measured["cavity_depth"] == pytest.approx(depth, rel=1e-4)
 
 
 def test_the_shot_asks_for_2_31_gpa(steady):

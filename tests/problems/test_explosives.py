@@ -1,4 +1,4 @@
-"""The decks of explosives: what was kept of their runs, the table that their page shows, and Gurney's formulas."""
+"""The decks of explosives: the kept results, the table of their page, and Gurney's formulas."""
 
 import pytest
 
@@ -22,7 +22,7 @@ def test_every_run_of_a_deck_was_kept():
                                                           for name in ("TNT", "comp_B")), ("against_a_wall", "TNT")}
 
 
-def test_what_the_page_says_of_the_differences():
+def test_statements_of_the_page_on_the_differences():
     """Gurney within 5 %, cylinder walls 2 to 4.5 % slow, the wall's pressure within half a per cent."""
     off = {row["quantity"]: [] for row in KEPT}
     for row in KEPT:

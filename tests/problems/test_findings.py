@@ -1,4 +1,4 @@
-"""The tables of the nose-shape study from kept rows, and the pages that have them."""
+"""The tables of the nose-shape study from kept rows, and the pages that show them."""
 
 from dataclasses import replace
 
@@ -17,45 +17,45 @@ def made(shot, depth, scheme="ke", loss=2.0, member=0):
 
 
 @pytest.fixture
-def found():
+def schemes():
     return findings.grouped([
         made(SHOTS[0], 44.0), made(SHOTS[0], 46.0, member=1), made(SHOTS[1], 20.0, loss=60.0), made(SHOTS[2], None),
         made(SHOTS[0], 40.0, "momentum"), made(SHOTS[0], 41.0, "momentum", member=1), made(SHOTS[1], 30.0, "momentum", 12.0),
     ])  # fmt: skip
 
 
-def test_depths_of_every_way_to_compute(found):
-    assert findings.depths(found, "hemispherical") == [
+def test_depths_of_every_way_to_compute(schemes):
+    assert findings.depths(schemes, "hemispherical") == [
         "| sliding, failure, advection | 5083, 1086 m/s | 5083, 1200 m/s |", "|---|---|---|",
         "| experiment | 44.8 cm | 20.0 cm |",
         "| contact, P, ke | 45.0 (44.0 to 46.0), 2.0 % | 20.0, 60 % |",
         "| contact, P, momentum | 40.5 (40.0 to 41.0), 2.0 % | 30.0, 12 % |",
     ]  # fmt: skip
-    assert findings.depths(found, "ogival")[-1] == "| contact, P, ke | perforated, 2.0 % |"
+    assert findings.depths(schemes, "ogival")[-1] == "| contact, P, ke | perforated, 2.0 % |"
     doubtful = replace(made(SHOTS[0], 44.0), trusted=False)
     assert findings.depths(findings.grouped([doubtful]), "hemispherical")[-1] == "| contact, P, ke | 44.0†, 2.0 % |"
     assert rigid_rod.mixed([doubtful]) == ["", "† 1 run with a fault in the audit, such as too much energy lost."]
     assert findings.depths({}, "ogival") == ["No ogival rod has been run yet."]
 
 
-def test_schemes_are_compared_shot_by_shot(found):
+def test_schemes_are_compared_shot_by_shot(schemes):
     """40.5 +- 0.5 against 45 +- 1 cm; a shot with one run has no error, and neither has the mean then."""
-    assert findings.difference(found["contact", "P", "momentum"][rigid_rod.Shot.named(SHOTS[0])],
-                               found["contact", "P", "ke"][rigid_rod.Shot.named(SHOTS[0])]) == pytest.approx((-10.0, 2.48452))
-    assert findings.compared(found, "hemispherical", "advection")[2:] == [
+    assert findings.difference(schemes["contact", "P", "momentum"][rigid_rod.Shot.named(SHOTS[0])],
+                               schemes["contact", "P", "ke"][rigid_rod.Shot.named(SHOTS[0])]) == pytest.approx((-10.0, 2.48452))
+    assert findings.compared(schemes, "hemispherical", "advection")[2:] == [
         "| contact, P | momentum | -10.0 ± 2.5 % | +50.0 % | +20.0 % |"]
-    assert findings.compared(found, "hemispherical", "sliding")[2:] == [], "all rows are of one choice"
+    assert findings.compared(schemes, "hemispherical", "sliding")[2:] == [], "all rows are of one choice"
 
 
-def test_what_each_way_has_right(found):
-    head, _, *rows = findings.scores(found)
+def test_scores_of_each_scheme(schemes):
+    head, _, *rows = findings.scores(schemes)
     assert head.startswith("| sliding, failure, advection | shots |")
     assert [row.split(" | ")[:3] for row in rows] == [
         ["| contact, P, ke", "3", "4 of 4 (60 to 100 %)"], ["| contact, P, momentum", "2", "2 of 3 (25 to 92 %)"]]  # fmt: skip
 
 
-def test_the_figure_has_a_dot_for_every_run(found):
-    first = findings.draw(found).axes[0]
+def test_the_figure_has_a_dot_for_every_run(schemes):
+    first = findings.draw(schemes).axes[0]
     dots = [line for line in first.lines if line.get_marker() in ("o", "^") and line.get_alpha() == 0.6]
     assert sum(len(line.get_xdata()) for line in dots) == 6
 

@@ -1,4 +1,4 @@
-"""Hugoniot temperatures: the kept tables are those that the command gives, and the page shows them."""
+"""Hugoniot temperatures: the kept tables are those of the command, and the page shows them."""
 
 import pytest
 
@@ -36,7 +36,7 @@ def differences(quantity, *metals):
     return [float(row["difference_percent"]) for row in of_metals]
 
 
-def test_what_the_pages_say_of_the_differences():
+def test_statements_of_the_pages_on_the_differences():
     """15 % too hot where melting begins, pressures within 17 %, iron more than half off, melts 36 % too hot, 11 % at 0 GPa."""
     rows = {(row["material"], row["at_GPa"]): float(row["difference_percent"]) for row in BESIDE if row["at_GPa"]}
     assert (rows["Al6061_T6", "125"], rows["copper_OFHC", "237"]) == (15.0, 16.0)
@@ -51,14 +51,14 @@ def test_what_the_pages_say_of_the_differences():
 def test_a_state_obeys_the_jump_conditions():
     """P = rho0 (c0 + s u) u and rho0/rho = 1 - u/U for Steinberg's aluminium; the temperature does not fall."""
     metal = hugoniot.Metal("Al6061_T6")
-    found = []
+    temperatures = []
     for u in (500.0, 2000.0, 4000.0):
         eta, T, p = metal.behind(u)
         speed = 5240.0 + 1.4 * u
         assert p == pytest.approx(2703.0 * speed * u, rel=1e-9)
         assert eta == pytest.approx(speed / (speed - u), rel=1e-9)
         assert metal.state(p) == pytest.approx((eta, T), rel=1e-6)
-        found.append(T)
-    assert found == sorted(found)
+        temperatures.append(T)
+    assert temperatures == sorted(temperatures)
     eta, T = metal.state(metal.melts_at())
     assert hugoniot.melting.temperature(eta, metal.line) == pytest.approx(T, rel=1e-6)

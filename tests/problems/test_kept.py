@@ -1,4 +1,4 @@
-"""Files of results beside the studies."""
+"""Files of results next to the studies."""
 
 import pytest
 
@@ -11,9 +11,9 @@ def test_a_file_that_was_written_is_read(tmp_path):
     cases = [{"law": "a", "depth_cm": 1.5, "case": "a_1"}, {"case": "b, 1", "depth_cm": 2}]
     kept.write(path, ["law", "depth_cm", "case"], cases)
     assert path.read_bytes() == b'law,depth_cm,case\na,1.5,a_1\n,2,"b, 1"\n'
-    found = kept.read(path, ["case", "depth_cm"], lambda row: row, None)
-    assert found == [{"law": "a", "depth_cm": "1.5", "case": "a_1"}, {"law": "", "depth_cm": "2", "case": "b, 1"}]
-    assert [kept.labels(row, ["depth_cm"]) for row in found] == [{"law": "a"}, {}]
+    rows = kept.read(path, ["case", "depth_cm"], lambda row: row, None)
+    assert rows == [{"law": "a", "depth_cm": "1.5", "case": "a_1"}, {"law": "", "depth_cm": "2", "case": "b, 1"}]
+    assert [kept.labels(row, ["depth_cm"]) for row in rows] == [{"law": "a"}, {}]
 
 
 def test_a_file_without_a_column_is_none(tmp_path):
@@ -23,11 +23,11 @@ def test_a_file_without_a_column_is_none(tmp_path):
         kept.rows(path, ["case", "time_us", "depth_cm"])
 
 
-def test_members_are_told_by_their_median_and_ends():
+def test_members_are_shown_by_their_median_and_range():
     rows = [{"length_mm": text, "u_m_s": text[:2]} for text in ("96.53", "96.74", "96.60", "9.10")]
     assert kept.told(rows[:3], "length_mm") == "96.60 (96.53 to 96.74)"
     assert kept.told(rows[:1], "length_mm") == "96.53"
-    assert kept.told([*rows, {"length_mm": "97.1"}], "length_mm") == "96.60 (9.10 to 97.1)"  # in order as numbers
+    assert kept.told([*rows, {"length_mm": "97.1"}], "length_mm") == "96.60 (9.10 to 97.1)"  # sorted as numbers
     assert kept.told(rows[:3], "u_m_s") == "96"
 
 

@@ -1,4 +1,4 @@
-"""Tungsten rods into steel: Odermatt's fit, where the depth comes from, the kept results and the pages that quote them."""
+"""Tungsten rods into steel: Odermatt's fit, how the depth builds up, the kept results and the pages that quote them."""
 
 import csv
 import re
@@ -20,8 +20,8 @@ PAGES = (FOLDER / "README.md", source.ROOT / "docs/explanation/tungsten-into-ste
     (30, (0.43, 0.59, 0.66, 0.725, 0.83, 0.92))])
 def test_odermatts_fit(slenderness, ratios):
     """Against numbers worked out by hand for a Brinell hardness of 270 and densities of 17.6 and 7.85 g/cm^3."""
-    found = [depths.odermatt(1e3 * v, slenderness, 270.0, 17600.0, 7850.0) for v in (1.2, 1.4, 1.5, 1.6, 1.8, 2.0)]
-    assert found == pytest.approx(ratios, abs=0.006)
+    computed = [depths.odermatt(1e3 * v, slenderness, 270.0, 17600.0, 7850.0) for v in (1.2, 1.4, 1.5, 1.6, 1.8, 2.0)]
+    assert computed == pytest.approx(ratios, abs=0.006)
 
 
 def history(length, u, v, steps=400):
@@ -37,18 +37,18 @@ def history(length, u, v, steps=400):
 
 
 def test_where_the_depth_comes_from():
-    found = depths.measured(history(50e-3, 600.0, 1400.0), 5e-3)
-    assert found["slope"] == pytest.approx(600.0 / 800.0, rel=1e-3)
-    assert (found["u"], found["v"]) == (pytest.approx(600.0, rel=1e-3), 1400.0)
-    assert found["depth"] == pytest.approx(0.75 * 45e-3 + 3e-3, rel=1e-6), "the largest depth, not the last"
-    assert found["end"] == pytest.approx((0.75 * 15.0 + 3.0) / 5.0, abs=0.05)
-    assert found["left"] == pytest.approx(5e-3)
+    parts = depths.measured(history(50e-3, 600.0, 1400.0), 5e-3)
+    assert parts["slope"] == pytest.approx(600.0 / 800.0, rel=1e-3)
+    assert (parts["u"], parts["v"]) == (pytest.approx(600.0, rel=1e-3), 1400.0)
+    assert parts["depth"] == pytest.approx(0.75 * 45e-3 + 3e-3, rel=1e-6), "the largest depth, not the last"
+    assert parts["end"] == pytest.approx((0.75 * 15.0 + 3.0) / 5.0, abs=0.05)
+    assert parts["left"] == pytest.approx(5e-3)
 
 
 def test_a_rod_that_is_hardly_worn_has_no_steady_part():
-    found = depths.measured(history(20e-3, 100.0, 900.0), 5e-3)
-    assert np.isnan(found["slope"])
-    assert np.isnan(found["u"])
+    parts = depths.measured(history(20e-3, 100.0, 900.0), 5e-3)
+    assert np.isnan(parts["slope"])
+    assert np.isnan(parts["u"])
 
 
 @pytest.mark.parametrize("name", KEPT)

@@ -22,12 +22,12 @@ def case(nose, velocity, left, status="done"):
 
 @pytest.fixture
 def study(tmp_path, monkeypatch):
-    """Runs on a known curve, one that is held and one that is not done."""
+    """Runs on a known curve, one that is stopped and one that is not done."""
     speeds = (303.5, 285.4, 244.2, 224.7)
     left = [lambert_jonas.residual_velocity(v, limit_velocity=190.0, a=0.8, p=2.2) for v in speeds]
-    found = [case("blunt", *pair) for pair in zip(speeds, left, strict=True)]
-    found += [case("blunt", 177.3, 0.0), case("hemispherical", 452.0, 320.0), case("blunt", 200.4, 50.0, status="running")]
-    monkeypatch.setattr(residual.layout, "read", lambda directory: SimpleNamespace(cases=found))
+    records = [case("blunt", *pair) for pair in zip(speeds, left, strict=True)]
+    records += [case("blunt", 177.3, 0.0), case("hemispherical", 452.0, 320.0), case("blunt", 200.4, 50.0, status="running")]
+    monkeypatch.setattr(residual.layout, "read", lambda directory: SimpleNamespace(cases=records))
     return tmp_path
 
 
@@ -51,7 +51,7 @@ def test_the_shots_have_the_published_limits():
         assert lambert_jonas.fit(*zip(*pairs, strict=True)).limit_velocity == pytest.approx(published, rel=0.02)
 
 
-def test_what_is_no_study(tmp_path, capsys):
+def test_a_folder_that_is_no_study(tmp_path, capsys):
     assert residual.main([str(tmp_path / "nothing")]) == 2
     assert "nothing" in capsys.readouterr().err
 
@@ -59,9 +59,9 @@ def test_what_is_no_study(tmp_path, capsys):
 def test_the_decks_have_the_residual_velocities_of_the_table():
     plan = cases.plan(SHOTS, quiet=True)
     decks = [Deck.from_toml(case.text) for case in plan.cases]
-    found = {(deck.body[0].nose, deck.experiment.velocity): deck.experiment.residual_velocity for deck in decks}
+    measured = {(deck.body[0].nose, deck.experiment.velocity): deck.experiment.residual_velocity for deck in decks}
     nose = {"flat": "blunt"}
-    assert {(nose.get(shape, shape), velocity): left for (shape, velocity), left in found.items()} == residual.experiments()
+    assert {(nose.get(shape, shape), velocity): left for (shape, velocity), left in measured.items()} == residual.experiments()
     for name in ("blunt", "hemispherical"):
         shot = Deck.from_file(SHOTS.with_name(f"weldox_{name}.toml"))
         assert shot.experiment.residual_velocity == residual.experiments()[name, shot.body[0].velocity[1]]

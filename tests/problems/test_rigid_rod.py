@@ -1,4 +1,4 @@
-"""The tables of what ends a rigid rod, and the results that are kept beside the studies."""
+"""The tables on the end of rigid penetration, and the results kept next to the studies."""
 
 import re
 from dataclasses import replace
@@ -71,11 +71,11 @@ def test_shots_of_studies_and_of_searches(labels, shot, column):
 
 
 def test_all_twelve_shots_are_known():
-    found = rigid_rod.experiments()
-    assert len(found) == 12
-    assert str(found[Shot("hemispherical", "5083", 1086.0)]) == "44.8 cm"
-    assert str(found[Shot("ogival", "7039", 1291.0)]) == "perforated"
-    assert str(found[Shot("hemispherical", "7039", 1165.0)]) == "11.4 cm (estimated)"
+    shots = rigid_rod.experiments()
+    assert len(shots) == 12
+    assert str(shots[Shot("hemispherical", "5083", 1086.0)]) == "44.8 cm"
+    assert str(shots[Shot("ogival", "7039", 1291.0)]) == "perforated"
+    assert str(shots[Shot("hemispherical", "7039", 1165.0)]) == "11.4 cm (estimated)"
 
 
 def test_the_table(study, capsys):
@@ -116,7 +116,7 @@ def test_another_table_is_no_file_of_rows(capsys):
     assert "experiments.csv: holds no rows of a study: it has no column " in capsys.readouterr().err
 
 
-def test_later_rows_replace_earlier_ones_and_old_ones_are_told(study, tmp_path, capsys):
+def test_later_rows_replace_earlier_ones_and_old_ones_are_reported(study, tmp_path, capsys):
     newer = write(tmp_path / "newer.csv", [row({"law": "A", "shot": "5083-1086"}, 0.3, 0.05, method="2020-01-01")])
     assert rigid_rod.main([str(study), str(newer)]) == 0
     said = capsys.readouterr().out
@@ -148,7 +148,7 @@ def test_kept_rows_are_those_of_their_study(file):
 
 
 def test_kept_results_are_judged_by_the_rule_of_today():
-    """As far as their numbers tell: the largest radius of rods that lost 2 to 5 % by the older rule is not among them."""
+    """As far as their numbers allow: the largest radius of rods that lost 2 to 5 % by the older rule is not among them."""
     kept = [result for file in KEPT for result in rigid_rod.read(file)]
     words = {ERODING: 0, RIGID: 0, DEFORMING: 0, f"{RIGID} or {DEFORMING}": 0}
     for result in kept:
@@ -162,6 +162,6 @@ def test_kept_results_are_judged_by_the_rule_of_today():
 
 @pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", 2)])
 def test_results_on_a_page_are_kept_ones(page, least):
-    told = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
-    assert len(told) > least
-    assert sorted(told - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []
+    shown = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
+    assert len(shown) > least
+    assert sorted(shown - {str(result) for file in KEPT for result in rigid_rod.read(file)}) == []

@@ -1,4 +1,4 @@
-"""The decks of spall: what was kept of their runs, the table that their page shows, and how a pull-back is read."""
+"""The decks of spall: the kept results, the table of their page, and how a pull-back is read."""
 
 import numpy as np
 import pytest
@@ -20,11 +20,11 @@ def test_the_table_of_the_page_is_that_of_the_kept_results():
 
 
 def off(shot, failure, cells):
-    """By what share the pull-back differs from that on 400 cells."""
+    """Relative difference of the pull-back from that on 400 cells."""
     return PULL_BACK[shot, failure, cells] / PULL_BACK[shot, failure, 400] - 1.0
 
 
-def test_what_the_page_says_of_the_meshes():
+def test_statements_of_the_page_on_the_meshes():
     """The flyer within 1 % with either model. The pulse: cracks are at the acoustic value, and the plain model still rises."""
     for failure in ("cracks", "plain"):
         assert max(abs(off("flyer", failure, cells)) for cells in (100, 200, 800)) < 0.01
@@ -36,7 +36,7 @@ def test_what_the_page_says_of_the_meshes():
 
 
 def test_how_a_pull_back_is_read():
-    """The first fall that ends in a rise; ripples count nothing."""
+    """The first fall that ends in a rise; ripples do not count."""
     velocity = np.array([0.0, 400.0, 300.0, 310.0, 250.0, 260.0, 330.0, 200.0, 500.0 - 120.0])
     assert read.pull_back(velocity) == (400.0, 250.0, 380.0)
     with pytest.raises(ValueError, match="nothing has spalled"):

@@ -19,9 +19,9 @@ def rows(runs, nose="hemispherical", method=METHOD):
 
 
 def test_the_velocity_lies_between_what_kept_and_what_lost():
-    found = rows([(1300, 0.2), (1000, 0.99), (1050, 0.98), (1100, 0.97), (1150, 0.6), (1200, 0.9), (1250, 0.3), (1350, 0.1)])
-    assert 1125.0 < transitions.fitted(found).v50 < 1225.0
-    line = transitions.table(found)[2]
+    mixed = rows([(1300, 0.2), (1000, 0.99), (1050, 0.98), (1100, 0.97), (1150, 0.6), (1200, 0.9), (1250, 0.3), (1350, 0.1)])
+    assert 1125.0 < transitions.fitted(mixed).v50 < 1225.0
+    line = transitions.table(mixed)[2]
     assert line.startswith("| hemispherical | 5.5 | a | 5083 | 1086 to 1200 m/s | 1175 m/s |")
     assert line.endswith("| 1200, 1150 m/s | 8 |")
     assert transitions.kept({"length_ratio": "0.667"})
@@ -31,8 +31,8 @@ def test_the_velocity_lies_between_what_kept_and_what_lost():
 def test_runs_that_do_not_tell():
     with pytest.raises(ValueError, match="do not tell"):
         transitions.fitted(rows([(1000, 0.99), (1100, 0.98)]))
-    held, lost = rows([(1000, 0.99), (1100, 0.98)]), rows([(1000, 0.2), (1100, 0.1)])
-    assert "| above 1100 m/s |  |  | 2 |" in transitions.table(held)[2]
+    kept, lost = rows([(1000, 0.99), (1100, 0.98)]), rows([(1000, 0.2), (1100, 0.1)])
+    assert "| above 1100 m/s |  |  | 2 |" in transitions.table(kept)[2]
     assert "| below 1000 m/s |  |  | 2 |" in transitions.table(lost)[2]
 
 
@@ -47,9 +47,9 @@ def test_a_table_says_that_its_runs_are_old():
 def test_kept_runs_are_those_of_the_study():
     plan = cases.plan(source.PROBLEMS / "cth_nose_shape/transition.toml", quiet=True)
     studied = {(case.values["nose"], case.values["law"], case.values["plate"]) for case in plan.cases}
-    found = transitions.searches(ROWS)
-    assert {(nose, law, plate) for nose, _, law, plate in found} <= studied
-    numbers = Counter(len(runs) for runs in found.values())
+    searches = transitions.searches(ROWS)
+    assert {(nose, law, plate) for nose, _, law, plate in searches} <= studied
+    numbers = Counter(len(runs) for runs in searches.values())
     assert max(numbers) <= plan.search.budget.runs
 
 

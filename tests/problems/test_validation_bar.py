@@ -1,4 +1,4 @@
-"""problems/validation/bar.py on bars whose shape is known."""
+"""problems/validation/bar.py on bars of known shape."""
 
 import json
 
@@ -16,7 +16,7 @@ R, Z = np.linspace(0.0, 12e-3, 61), np.linspace(0.0, 36e-3, 181)
 
 
 def filled(length, foot, shank=3.2e-3, low=0.0):
-    """What a bar fills of the cells: a disk of radius `foot` over the first millimetre, above it one of radius `shank`; m."""
+    """Volume fractions of a bar: a disk of radius `foot` over the first millimetre, above it one of radius `shank`; m."""
 
     def shares(edges, first, last):
         return np.clip((np.minimum(edges[1:], last) - np.maximum(edges[:-1], first)) / np.diff(edges), 0.0, 1.0)
@@ -48,27 +48,27 @@ def shortening(tmp_path):
 
 
 def test_shape_of_every_dump(shortening):
-    found = bar.measure(shortening)
-    assert [row["time"] for row in found["bars"]] == pytest.approx([t * 1e-6 for t in range(0, 45, 3)])
-    assert [row["length"] for row in found["bars"]] == pytest.approx([32.4e-3 - t * 1e-4 for t in range(0, 45, 3)], rel=1e-6)
-    assert [row["foot"] for row in found["bars"]] == pytest.approx([3.2e-3 + t * 5e-5 for t in range(0, 45, 3)], rel=1e-6)
-    assert [row["strain"] for row in found["bars"]] == pytest.approx([t * 0.01 for t in range(0, 45, 3)], rel=1e-6)
-    assert not found["ended"]
+    measured = bar.measure(shortening)
+    assert [row["time"] for row in measured["bars"]] == pytest.approx([t * 1e-6 for t in range(0, 45, 3)])
+    assert [row["length"] for row in measured["bars"]] == pytest.approx([32.4e-3 - t * 1e-4 for t in range(0, 45, 3)], rel=1e-6)
+    assert [row["foot"] for row in measured["bars"]] == pytest.approx([3.2e-3 + t * 5e-5 for t in range(0, 45, 3)], rel=1e-6)
+    assert [row["strain"] for row in measured["bars"]] == pytest.approx([t * 0.01 for t in range(0, 45, 3)], rel=1e-6)
+    assert not measured["ended"]
 
 
-def test_beside_the_reference_at_its_times(shortening):
+def test_comparison_with_the_reference_at_its_times(shortening):
     """At 20 us and 40 us, between two dumps; 80 us lie beyond the last dump."""
-    found = bar.measure(shortening)["compared"]
-    assert [pair["found"]["time"] for pair in found] == [20e-6, 40e-6]
-    assert [pair["found"]["length"] for pair in found] == pytest.approx([30.4e-3, 28.4e-3], rel=1e-6)
-    assert [pair["reference"]["foot"] for pair in found] == [6.195e-3, 7.139e-3]
+    measured = bar.measure(shortening)["compared"]
+    assert [pair["found"]["time"] for pair in measured] == [20e-6, 40e-6]
+    assert [pair["found"]["length"] for pair in measured] == pytest.approx([30.4e-3, 28.4e-3], rel=1e-6)
+    assert [pair["reference"]["foot"] for pair in measured] == [6.195e-3, 7.139e-3]
 
 
 def test_the_foot_is_in_front():
     share = filled(20e-3, 5e-3, low=4e-3)
     for direction, turned in ((-1.0, share), (1.0, share[::-1])):
-        found = bar.shape(R, Z, turned, np.zeros_like(share), direction, 0.0)
-        assert (found.length, found.foot) == pytest.approx((20e-3, 5e-3), rel=1e-9)
+        measured = bar.shape(R, Z, turned, np.zeros_like(share), direction, 0.0)
+        assert (measured.length, measured.foot) == pytest.approx((20e-3, 5e-3), rel=1e-9)
 
 
 def test_references_are_found_by_speed_and_length():
@@ -98,7 +98,7 @@ def test_every_dump_without_a_reference(tmp_path, capsys):
     assert "| 0.0 | 32.400 |  |  | 3.200 |  |  | 0.00 |  |" in capsys.readouterr().out
 
 
-def test_missing_fields_are_told(tmp_path, capsys):
+def test_missing_fields_are_reported(tmp_path, capsys):
     fields = ("Volume Fraction for bar", "Density of bar")
     directory = wrote(tmp_path / "bare", {0.0: (filled(32.4e-3, 3.2e-3), np.zeros((180, 60)))}, fields=fields)
     assert bar.main([str(directory)]) == 2

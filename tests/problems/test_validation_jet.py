@@ -1,4 +1,4 @@
-"""problems/validation/jet.py on flows that are known."""
+"""problems/validation/jet.py on known flows."""
 
 import json
 
@@ -32,8 +32,8 @@ FIELDS = [f"{word} {body}{unit}" for word, unit in (("Volume Fraction for", ""),
 )
 def test_compressible_bernoulli(rod, target, velocity, u, p):
     """Against an independent solution; slow jets have the velocity and pressure of incompressible ones."""
-    found = jet.bernoulli(library.load(rod), library.load(target), velocity)
-    assert found == pytest.approx((u, p), rel=3e-4)
+    computed = jet.bernoulli(library.load(rod), library.load(target), velocity)
+    assert computed == pytest.approx((u, p), rel=3e-4)
     densities = [library.load(name).reference_density for name in (rod, target)]
     slow = 50.0 / (1.0 + (densities[1] / densities[0]) ** 0.5)
     assert jet.bernoulli(library.load(rod), library.load(target), 50.0) == pytest.approx(
@@ -42,7 +42,7 @@ def test_compressible_bernoulli(rod, target, velocity, u, p):
 
 
 def column(position, peaks=(3e9, 2.8e9)):
-    """What jet and target fill of the cells on the axis, and pressures that are parabolas about the interface."""
+    """Volume fractions of jet and target on the axis, and pressures that are parabolas about the interface."""
     share = np.clip((position - Z[:-1]) / np.diff(Z), 0.0, 1.0)
     x = 0.5 * (Z[1:] + Z[:-1]) - position
     return share, 1.0 - share, peaks[0] - 1e14 * x**2, peaks[1] - 4e13 * x**2
@@ -51,17 +51,17 @@ def column(position, peaks=(3e9, 2.8e9)):
 @pytest.mark.parametrize("position", [10e-3, 10.13e-3, 10.49e-3])
 def test_the_interface_and_its_pressures(position):
     share, rest, own, other = column(position)
-    found = jet.point(Z, share, rest, (own, other), 3e-3, 0.0)
-    assert found.position == pytest.approx(position, abs=1e-12)
-    assert (found.jet, found.target) == pytest.approx((3e9, 2.8e9), rel=1e-12)
+    interface = jet.point(Z, share, rest, (own, other), 3e-3, 0.0)
+    assert interface.position == pytest.approx(position, abs=1e-12)
+    assert (interface.jet, interface.target) == pytest.approx((3e9, 2.8e9), rel=1e-12)
 
 
 def test_mixed_cells_and_their_neighbours_have_no_say():
     share, rest, own, other = column(10.2e-3)
     mixed = int(np.nonzero((share > 0) & (share < 1))[0][0])
     own[mixed - 1 : mixed + 2] = other[mixed - 1 : mixed + 2] = 1e12
-    found = jet.point(Z, share, rest, (own, other), 3e-3, 0.0)
-    assert (found.jet, found.target) == pytest.approx((3e9, 2.8e9), rel=1e-12)
+    interface = jet.point(Z, share, rest, (own, other), 3e-3, 0.0)
+    assert (interface.jet, interface.target) == pytest.approx((3e9, 2.8e9), rel=1e-12)
 
 
 def test_without_jet_or_target_there_is_no_interface():
@@ -88,15 +88,15 @@ def steady(tmp_path):
 
 
 def test_a_steady_flow(steady):
-    found = jet.measure(steady)
-    assert found["exact"] == pytest.approx({"velocity": 1443.84, "pressure": 2.822e9}, rel=3e-4)
-    assert [row["depth"] for row in found["rows"]] == [k + 0.5 for k in range(9)]
-    for row in (*found["rows"], found["steady"]):
+    measured = jet.measure(steady)
+    assert measured["exact"] == pytest.approx({"velocity": 1443.84, "pressure": 2.822e9}, rel=3e-4)
+    assert [row["depth"] for row in measured["rows"]] == [k + 0.5 for k in range(9)]
+    for row in (*measured["rows"], measured["steady"]):
         assert row["velocity"] == pytest.approx(1440.0, rel=1e-5)
         assert (row["jet"], row["target"]) == pytest.approx((3e9, 2.8e9), rel=1e-5)
         assert row["jet_scatter"] < 1e-5 * row["jet"]
-    assert found["steady"]["dumps"] == 40  # 30 mm are passed after 20.8 us
-    assert not found["ended"]
+    assert measured["steady"]["dumps"] == 40  # 30 mm are passed after 20.8 us
+    assert not measured["ended"]
 
 
 def test_command(steady, tmp_path, capsys):

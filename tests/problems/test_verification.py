@@ -1,4 +1,4 @@
-"""Problems with exact solutions: how they are measured, what was kept of them, and the page that shows it."""
+"""Problems with exact solutions: how they are measured, the kept results, and the page that shows them."""
 
 import numpy as np
 import pytest
@@ -90,13 +90,13 @@ def collapse():
 
 
 def test_rays_and_shells(collapse):
-    """A field that is the distance itself is that along every ray and in every shell."""
+    """A field equal to the distance is the distance along every ray and in every shell."""
     for angle in (0.0, 30.0, 90.0):
-        distance, found = collapse.ray(collapse.distance, angle)
+        distance, values = collapse.ray(collapse.distance, angle)
         inside = (distance > 2.0 * collapse.size) & (distance < 0.9)
-        np.testing.assert_allclose(found[inside], distance[inside], atol=0.1 * collapse.size)
+        np.testing.assert_allclose(values[inside], distance[inside], atol=0.1 * collapse.size)
     radius, mean = collapse.shells(collapse.distance, 0.9)
     np.testing.assert_allclose(mean, radius, atol=0.25 * collapse.size)
     assert float(collapse.volume.sum()) == pytest.approx(0.5, rel=1e-12)
-    far = (collapse.r > 0.3) & (collapse.distance < 0.9)  # beside the axis a vertex has the mean over its share of both cells
+    far = (collapse.r > 0.3) & (collapse.distance < 0.9)  # next to the axis a vertex has the mean over its share of both cells
     np.testing.assert_allclose(collapse.outward[far], -1e3 * collapse.distance[far], rtol=0.01)

@@ -1,4 +1,4 @@
-"""The decks of Whipple shields: how a run is read, the equation beside them, the shots, and the tables of their page."""
+"""The decks of Whipple shields: how a run is read, the limit equation, the shots, and the tables of their page."""
 
 from types import SimpleNamespace
 
@@ -21,11 +21,11 @@ def planned(study):
 
 
 def test_the_study_has_the_shots_of_the_table():
-    """Each with its own velocity, bumper, gap and wall, and time for debris of half the velocity to arrive, and 15 us more."""
-    found = planned("whipple_shots")
-    assert list(found) == [f"{shot['half']}-{shot['shot']}" for shot in SHOTS]
+    """Each with its own velocity, bumper, gap and wall, and time for debris of half the velocity to arrive, plus 15 us."""
+    plan = planned("whipple_shots")
+    assert list(plan) == [f"{shot['half']}-{shot['shot']}" for shot in SHOTS]
     for shot in SHOTS:
-        deck = decks.loads(found[f"{shot['half']}-{shot['shot']}"].text, name="shot")
+        deck = decks.loads(plan[f"{shot['half']}-{shot['shot']}"].text, name="shot")
         ball, bumper, wall = deck.body
         assert ball.velocity[1] == pytest.approx(1e3 * float(shot["velocity_km_s"]))
         assert [1e3 * bumper.thickness, 1e3 * (wall.z_front - bumper.thickness), 1e3 * wall.thickness] == pytest.approx(
@@ -76,8 +76,8 @@ def test_how_a_run_is_read(monkeypatch, tmp_path):
 
 
 def test_kept_runs_are_those_of_the_studies():
-    found = planned("whipple_shots")
-    assert {row["case"] for row in kept.rows(read.KEPT, read.COLUMNS)} == set(found)
+    plan = planned("whipple_shots")
+    assert {row["case"] for row in kept.rows(read.KEPT, read.COLUMNS)} == set(plan)
     assert {row["case"] for row in VELOCITIES} == set(planned("whipple_velocities"))
     assert {row["case"] for row in kept.rows(read.CHOICES, read.COLUMNS)} == set(planned("whipple_choices"))
     for shot in SHOTS:

@@ -1,1 +1,1 @@
-"""Shipped decks, shortened, and what must never change."""
+"""Shipped decks, shortened, and results that must never change."""

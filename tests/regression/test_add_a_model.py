@@ -23,13 +23,13 @@ SOURCE = PAGE[PAGE.index("## A source of energy"): PAGE.index("## An edge of the
 
 
 def blocks(language: str, text: str = WALK) -> list[str]:
-    """The code of a walk in a language, in its order."""
+    """The code of a walk-through in a language, in order."""
     return re.findall(rf"```{language}\n(.*?)```", text, re.S)
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory) -> Path:
-    """The reader's folder, with what the page says to save in it."""
+    """The reader's folder, with the files that the page says to save in it."""
     made = tmp_path_factory.mktemp("walk")
     names = re.findall(r"Save this as `([\w.]+)`", WALK)
     for name, text in zip(names, [*blocks("python"), *blocks("toml")], strict=True):
@@ -84,7 +84,7 @@ def test_the_deck_is_in_order(folder):
 
 
 def test_the_walk(folder):
-    """Runs, picture and lengths of the page; and Voce hardening that goes on for ever is the linear hardening of hydro2d."""
+    """Runs, picture and lengths of the page; unbounded Voce hardening equals hydro2d's linear hardening."""
     for command in commands():
         done = typed(command, folder)
         assert done.returncode == 0, done.stderr
@@ -130,7 +130,7 @@ def test_a_mistake_in_one_with_memory_is_found(burning):
 
 
 def test_a_source():
-    """The kind of the page as a section of a deck, and the energy that it gives: dose times what of the depth is lit."""
+    """The kind of the page as a section of a deck, and its energy: dose times the lit part of the depth."""
     space: dict = {"__name__": "flash"}
     sys.modules["flash"] = types.ModuleType("flash")
     exec(compile(blocks("python", SOURCE)[0], "flash.py", "exec"), space)

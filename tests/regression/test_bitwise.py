@@ -1,4 +1,4 @@
-"""What must not change one bit: the number of threads, an interruption, the active region."""
+"""Choices that must not change one bit: the number of threads, an interruption, the active region."""
 
 import os
 import subprocess
@@ -29,7 +29,7 @@ CRACKS = ('materials.cracking={based_on="Al7039", damage={model="cochran-banner"
           'body.plate.material="cracking"')
 MELTING = ('materials.soft={based_on="Al7039", strength={model="kinematic-hardening", shear_modulus="26 GPa", '
            'yield_stress="0.3 GPa", hardening_modulus="2 GPa"}, melting={melt_temperature="400 K"}}',
-           'body.plate.material="soft"', 'failure.melting="material"')  # where it has passed the shock it melts soon
+           'body.plate.material="soft"', 'failure.melting="material"')  # behind the shock it soon melts
 CASES = {
     "ke": (),
     "both": ('numerics.advection="both"',),
@@ -104,7 +104,7 @@ def test_restart(options, at):
     assert whole.restart_scalars() == second.restart_scalars()
 
 
-#: why skipping quiet cells changes a last bit where nothing that moves has the shortest step
+#: why skipping quiet cells changes a last bit although no moving cell has the shortest step
 NOT_THE_SAME = "cells that no signal has reached bound the time step only where they are computed: 1e-15 of it"
 
 

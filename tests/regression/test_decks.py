@@ -1,4 +1,4 @@
-"""Every shipped deck runs, and keeps what it has to keep."""
+"""Every shipped deck runs, and keeps the quantities that it must keep."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ LONG = {
     "long_rods/rod_30": "about two minutes; velocities.toml runs it",
     "perforation/weldox": "six minutes and more each; weldox_velocities.toml is their study",
 }
-#: what the first lines of a deck say that is shipped to show how a run is ended
+#: the first lines of a deck that is shipped to show how a run is ended
 STATUS_3 = "ends with status 3"
 QUICK = source.PROBLEMS / "cth_nose_shape" / "hemi_5083_1086_quick.toml"
 
@@ -39,7 +39,7 @@ def test_there_are_decks():
 @pytest.mark.slow
 @pytest.mark.parametrize("file", [file for file in DECKS if not left_out(file)], ids=name_of)
 def test_deck_ends(file, tmp_path):
-    """As shipped, by the command: it runs to its own end, or its first lines say that it does not."""
+    """As shipped, by the command: it runs to its own end, unless its first lines say otherwise."""
     head = file.read_text(encoding="utf-8").split("\n\n")[0]
     status = call(["run", str(file), "--out", str(tmp_path / "run"), "--quiet"])
     assert status == (3 if STATUS_3 in head else 0)
@@ -47,7 +47,7 @@ def test_deck_ends(file, tmp_path):
 
 @pytest.mark.parametrize("file", DECKS, ids=name_of)
 def test_deck_runs(file):
-    """Twenty cycles: no unphysical state, nothing lost that is not in the audit, nothing lost at all but through open edges."""
+    """Twenty cycles: no unphysical state, all losses in the audit, and no losses except through open edges."""
     simulation = Simulation(decks.load(file))
     for _ in range(20):
         simulation.step()
@@ -75,8 +75,8 @@ def test_quick_deck_begins_to_penetrate():
     simulation = Simulation(decks.load(QUICK, short))
     while simulation.time < 12e-6:
         simulation.step()
-    found, balance = simulation.diagnostics(), simulation.conservation()
-    assert 6e-3 < found["penetration_depth_m"] < 13e-3
+    diagnostics, balance = simulation.diagnostics(), simulation.conservation()
+    assert 6e-3 < diagnostics["penetration_depth_m"] < 13e-3
     assert simulation.state.ep.max() > 0.5
     assert simulation.mean_velocity(0) > 800.0
     assert abs(balance["total_energy"]) < 1e-11

@@ -1,7 +1,7 @@
 """Every example of the pages runs as a reader would run it: page by page, in order, in a folder of its own.
 
 The folder has the decks and studies of `problems`, cut short: a deck ends after a few cycles, an axis of a study has one value
-or two, and cases run in this process. The commands are those of the page, but for the names that a reader fills in.
+or two, and cases run in this process. The commands are those of the page, except for the names that a reader fills in.
 """
 
 import glob
@@ -26,13 +26,13 @@ from hydro2d.study import cases, cluster, parts
 from hydro2d.study.scaling import AS_IT_IS
 from tests.rules import source
 
-#: cycles of a run, enough for a hole to be there
+#: cycles of a run, enough to make a hole
 CYCLES = 40
 DECK = "problems/cth_nose_shape/hemi_5083_1086.toml"
 SWEEP = "problems/cth_nose_shape/velocity_advection.toml"
 SEARCH = "problems/cth_nose_shape/transition_hemi_5083.toml"
 
-#: commands that are not run, by how they begin, and why
+#: commands that are not run, by their beginnings, and why
 NOT_RUN = {
     "python3 -m venv": "the tests run in an installation",
     ". .venv/bin/activate": "the tests run in an installation",
@@ -51,7 +51,7 @@ NOT_RUN = {
     "dask ": "needs a cluster",
     "hydro2d sweep problems/cth_nose_shape/study.toml --background": "its process would outlive the test",
 }
-#: what a reader fills in, the longest first, and a window in which a short run has something to see
+#: names that a reader fills in, the longest first, and a window in which a short run shows something
 FILLED = {
     "hydro2d transition STUDY.toml": f"hydro2d transition {SEARCH}",
     "hydro2d transition FILE": f"hydro2d transition {SEARCH}",
@@ -68,7 +68,7 @@ FILLED = {
     "RUN": "runs/shot",
     "150 mm,215 mm,20 mm": "-5 mm,15 mm,20 mm",
 }
-#: what a page takes for granted in its folder: a deck or a study that has run, or a file that it gives as its first toml block
+#: files that a page assumes in its folder: a deck or a study that has run, or a file given as its first toml block
 PRESUMED = {
     "docs/how-to/index.md": {"runs/shot": DECK},
     "docs/tutorials/first-study.md": {"first_study.toml": ""},
@@ -83,7 +83,7 @@ PRESUMED = {
     "docs/reference/files.md": {"runs/shot": DECK},
     "docs/explanation/penetration/transition.md": {"runs/a": DECK, "runs/b": DECK},
 }
-#: what keys of a deck are laid over, beside the decks of the nose shapes
+#: decks under which keys are laid, in addition to those of the nose shapes
 BASES = {
     "docs/how-to/perforate-a-plate.md": "../perforation/two_plates.toml",
     "docs/how-to/jackets.md": "../classic/jacketed_rod.toml",
@@ -94,31 +94,31 @@ QUICK = "hemi_5083_1086_quick.toml"
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```", re.M | re.S)
 INDENTED = re.compile(r"(?<=\n\n)(?:    .*\n|\n(?=    ))+")
 INLINE = re.compile(r"`([^`]+)`")
-#: words of fences: what runs or must be valid, and what is only shown
+#: words of fences: blocks that run or must be valid, and blocks that are only shown
 LANGUAGES, SHOWN = ("sh", "python", "toml"), ("", "text", "json", "csv")
 COMMAND = re.compile(r"(?:\.venv/bin/)?(?:hydro2d|python3?|pip|dask) ")
-#: a command that the text names and does not give in full
+#: a command that the text names without giving it in full
 NAME = re.compile(r"hydro2d ([a-z-]+)(?: transition)?|python -m (problems[\w.]+)")
 
 
 def commands(block: str) -> list[tuple[int, str]]:
-    """The commands of a block with the numbers of their lines in it."""
+    """The commands of a block with their line numbers in it."""
     lines = [re.sub(r"\s#.*", "", line) for line in block.splitlines()]
     parts = [(number, part.strip()) for number, line in enumerate(lines) for part in line.split("&&")]
     return [(number, part.removeprefix(".venv/bin/")) for number, part in parts if part]
 
 
 def examples(text: str) -> list[tuple[int, str, str]]:
-    """The examples of a page in its order: line, kind (sh, python, toml, or the name of a command) and text."""
-    found = []
+    """The examples of a page in order: line, kind (sh, python, toml, or the name of a command) and text."""
+    texts = []
 
     def taken(match: re.Match, kind: str, block: str) -> str:
         """Keeps an example and returns blank lines for it."""
         line = text.count("\n", 0, match.start(match.lastindex or 0)) + 1
         if kind == "sh":
-            found.extend((line + number, "sh", command) for number, command in commands(block))
+            texts.extend((line + number, "sh", command) for number, command in commands(block))
         elif kind:
-            found.append((line, kind, block))
+            texts.append((line, kind, block))
         return re.sub(r"[^\n]", " ", match[0])
 
     def fence(match: re.Match) -> str:
@@ -134,7 +134,7 @@ def examples(text: str) -> list[tuple[int, str, str]]:
         return taken(match, ("name" if NAME.fullmatch(command) else "sh") if COMMAND.match(command) else "", command)
 
     INLINE.sub(inline, INDENTED.sub(indented, FENCE.sub(fence, text)))
-    return sorted(found, key=lambda example: example[0])
+    return sorted(texts, key=lambda example: example[0])
 
 
 #: pages with examples; add-a-model has a test of its own
@@ -148,7 +148,7 @@ PAGES = {page: found for page, text in TEXTS.items() if (found := examples(text)
 
 
 def with_kind(*kinds: str) -> list[str]:
-    return [page for page, found in PAGES.items() if any(kind in kinds for _, kind, _ in found)]
+    return [page for page, examples_of_page in PAGES.items() if any(kind in kinds for _, kind, _ in examples_of_page)]
 
 
 def of_kind(page: str, *kinds: str) -> list[tuple[int, str, str]]:
@@ -169,7 +169,7 @@ def short(tmp_path_factory) -> Path:
 
 
 def short_study(data: dict) -> dict:
-    """Two values of the first axis and one of the others; a search looks at its ends alone."""
+    """Two values of the first axis and one of the others; a search is reduced to its ends."""
     for number, axis in enumerate(data.get("axis", ())):
         several = slice(1 if number else 2)
         if "range" in axis:
@@ -190,7 +190,7 @@ def short_study(data: dict) -> dict:
 
 
 class Client:
-    """What a sweep needs of dask: a case runs, in this process, as it is submitted."""
+    """The part of dask that a sweep needs: a case runs, in this process, as it is submitted."""
 
     def submit(self, task, *arguments, key, pure):
         outcome = task(*arguments)
@@ -209,9 +209,9 @@ def in_this_process(workers, threads):
 
 @pytest.fixture
 def folder(short, tmp_path, monkeypatch):
-    """Makes a reader's folder ready for a page; what it takes for granted has run once."""
+    """Prepares a reader's folder for a page; the runs that it assumes have been made once."""
     monkeypatch.setattr(cluster, "local", in_this_process)
-    shutil.copytree(short / "problems", tmp_path / "problems")  # a page keeps no rows for the next one
+    shutil.copytree(short / "problems", tmp_path / "problems")  # no rows of one page reach the next one
     monkeypatch.setattr(templates, "problems_folder", lambda: tmp_path / "problems")
     monkeypatch.chdir(tmp_path)
     threads = jit.threads()
@@ -264,7 +264,7 @@ def test_names_of_commands_exist(page):
 
 @pytest.mark.parametrize("page", with_kind("toml"))
 def test_toml_of_the_text_is_valid(page, folder):
-    """Beside the decks of the nose shapes and the tables of the page; what is not whole is laid over a deck or a search."""
+    """With the decks of the nose shapes and the tables of the page; an incomplete part is laid over a deck or a search."""
     folder(page)
     for _, _, text in of_kind(page, "sh"):
         if text.startswith("hydro2d tabulate "):
@@ -292,8 +292,8 @@ def test_toml_of_the_text_is_valid(page, folder):
             assert decks.load(file).body, f"{page}:{line}"
 
 
-def test_what_is_listed_is_in_the_pages():
-    """Names to fill in, pages, and commands that are not run; and no block is in a language that nobody looks at."""
+def test_listed_names_are_in_the_pages():
+    """Names to fill in, pages, and commands that are not run; and every block is in a language that is checked."""
     given = [text for page in PAGES for _, _, text in of_kind(page, "sh")]
     assert [name for name in FILLED if not any(name in text for text in given)] == []
     assert [begin for begin in NOT_RUN if not any(text.startswith(begin) for text in given)] == []

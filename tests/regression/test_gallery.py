@@ -1,4 +1,4 @@
-"""The gallery in short form, and the pictures of pages: each is small, and a command of its page makes it."""
+"""The gallery in short form, and the pictures of pages: each is small, and made by a command of its page."""
 
 import importlib
 import json
@@ -46,13 +46,13 @@ def kinds():
 def test_a_kind_runs_is_drawn_and_has_its_numbers(name, docs, tmp_path):
     """Thirty cycles of it, by the commands of the page."""
     (kind,) = (kind for kind in docs["_pages.kinds"].KINDS if kind.name == name)
-    found = docs["gallery"].run_kind(kind, tmp_path, ("--set", "stop.cycles=30", "--quiet"))
-    assert found["seconds"] > 0.1
-    assert set(found["results"]) == {what for what, *_ in kind.numbers}
+    numbers = docs["gallery"].run_kind(kind, tmp_path, ("--set", "stop.cycles=30", "--quiet"))
+    assert numbers["seconds"] > 0.1
+    assert set(numbers["results"]) == {what for what, *_ in kind.numbers}
     small = tmp_path / "small.png"
     docs["figures"].shrink(tmp_path / f"{name}.png", small)
     assert 5000 < small.stat().st_size < MOST
-    assert f"hydro2d new {name}\n" in kind.section(found)
+    assert f"hydro2d new {name}\n" in kind.section(numbers)
 
 
 def test_the_page_is_that_of_its_numbers_and_has_every_kind_and_study(docs):
@@ -74,11 +74,11 @@ def test_the_ballistic_limit_of_the_whipple_shield_is_that_of_the_page(docs):
     limit = read.limit(to_si(ball["velocity"], "m/s") / 1e3, thick, gap, tw, density=2.7)
     (kind,) = (kind for kind in docs["_pages.kinds"].KINDS if kind.name == "whipple")
     assert f"stops balls of up to {limit * 10:.1f} mm" in kind.numbers[1][1]
-    assert limit < 200 * to_si(ball["radius"], "m")  # so that the wall is perforated
+    assert limit < 200 * to_si(ball["radius"], "m")  # so the wall is perforated
 
 
 def test_the_charts_of_studies_are_those_of_the_kept_results(docs, tmp_path):
-    """One of each kind of table: measured depths beside the runs, and numbers relative to their median."""
+    """One of each kind of table: measured depths with the runs, and numbers relative to their median."""
     drawn = {study.name: study for study in docs["_pages.studies"].studies() if study.results}
     axes = docs["_pages.studies"].chart(drawn["eroding_rods"]).axes[0]
     lines = {line.get_label(): line.get_xydata().tolist() for line in axes.lines}
@@ -104,7 +104,7 @@ def test_the_pictures_of_a_page_are_small_and_made_by_its_commands(file, docs):
         assert place.stat().st_size <= MOST
         with Image.open(place) as image:
             assert image.width <= docs["figures"].WIDTH
-        if file.name not in ("index.md", "gallery.md"):  # those show pictures of other pages, or of kinds and studies
+        if file.name not in ("index.md", "gallery.md"):  # they show pictures of other pages, or of kinds and studies
             of_report = picture.startswith(f"{file.stem}_") and "hydro2d report " in steps
             assert picture in OTHERWISE or of_report or re.search(rf"(?<![\w-]){re.escape(picture)}", steps), picture
 
@@ -133,7 +133,7 @@ def test_the_command_says_what_it_takes():
 
 
 def test_pages_that_are_made_together_share_only_the_runs_that_are_the_same(docs, monkeypatch, tmp_path):
-    """`runs/crater` is one run of two pages and another run of two others; no command finds its directory taken."""
+    """`runs/crater` is one run of two pages and another run of two others; no command finds its directory in use."""
     figures, ran = docs["figures"], []
     monkeypatch.setattr(figures, "shrink", lambda source, target: None)
     monkeypatch.setattr(figures, "run", lambda step, folder, names: ran.append((folder, step[1])))

@@ -1,4 +1,4 @@
-"""The tutorial notebooks: their code runs as Jupyter runs it, and what it shows is stored with them.
+"""The tutorial notebooks: their code runs as in Jupyter, and their output is stored with them.
 
 ``jupyter execute --inplace docs/tutorials/NAME.ipynb`` stores it anew.
 """
@@ -12,9 +12,9 @@ from nbclient import NotebookClient
 from tests.rules import source
 
 NOTEBOOKS = [file for file in source.tracked_files() if file.suffix == ".ipynb"]
-#: the first code cell, which says how long the run is, and what the test has in its place
+#: the first code cell, which sets the length of the run, and its replacement in the test
 SIZE, SMALL = re.compile(r'END = "[^"]+"'), 'END = "4 us"'
-#: bytes that a stored notebook may have
+#: largest size of a stored notebook, bytes
 HEAVY = 1_500_000
 
 
@@ -27,22 +27,22 @@ def code(notebook):
 
 
 def shown(notebook):
-    """What every cell shows, by its name: stream names and kinds of data."""
+    """The output of every cell, by its name: stream names and kinds of data."""
     return {cell.id: [sorted(output.get("data", [output.get("name")])) for output in cell.outputs] for cell in code(notebook)}
 
 
 def faults(notebook):
-    """What is wrong with a stored notebook."""
+    """Faults of a stored notebook."""
     size, *others = code(notebook)
-    found = [] if SIZE.fullmatch(size.source) else [f"{size.id}: the first cell sets END and nothing else"]
+    wrong = [] if SIZE.fullmatch(size.source) else [f"{size.id}: the first cell sets END and nothing else"]
     counts = [cell.execution_count for cell in (size, *others)]
     if counts != list(range(1, len(counts) + 1)):
-        found.append(f"the cells were not run once each, in order: {counts}")
-    found += [f"{cell.id}: shows nothing" for cell in others if not cell.outputs]
+        wrong.append(f"the cells were not run once each, in order: {counts}")
+    wrong += [f"{cell.id}: shows nothing" for cell in others if not cell.outputs]
     for cell in others:
-        found += [f"{cell.id}: {each.ename}" for each in cell.outputs if each.output_type == "error"]
-        found += [f"{cell.id}: {each.text}" for each in cell.outputs if each.get("name") == "stderr"]
-    return found
+        wrong += [f"{cell.id}: {each.ename}" for each in cell.outputs if each.output_type == "error"]
+        wrong += [f"{cell.id}: {each.text}" for each in cell.outputs if each.get("name") == "stderr"]
+    return wrong
 
 
 def test_there_is_a_notebook():
@@ -57,7 +57,7 @@ def test_a_notebook_is_stored_as_it_ran(file):
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
 def test_a_notebook_runs(file, tmp_path):
-    """On a shot of microseconds, in a folder of its own; every cell shows the kind of thing that is stored with it."""
+    """On a shot of microseconds, in a folder of its own; the output of every cell is of the stored kind."""
     notebook = read(file)
     stored = shown(notebook)
     code(notebook)[0].source = SMALL

@@ -1,4 +1,4 @@
-"""The Python of pages, run for real: the commands before it make its runs, of a few cycles each."""
+"""The Python of pages is run: the commands before it make its runs, of a few cycles each."""
 
 import contextlib
 import shlex
@@ -12,7 +12,7 @@ from tests.rules import source
 
 DOCS = source.ROOT / "docs"
 CYCLES = 30
-#: commands that make what the Python of a page reads
+#: commands that make the files which the Python of a page reads
 MAKERS = ("new", "run", "sweep")
 OTHER_USES = {"--check", "--status", "--resume", "--list", "--repeats"}
 #: pages whose Python is run elsewhere, and where
@@ -24,8 +24,8 @@ LONG = ("how-to/depth-curves", "how-to/run-a-study", "tutorials/first-study")
 def pages():
     """Pages with Python, by their place in the docs."""
     files = [file for part in ("how-to", "tutorials") for file in (DOCS / part).glob("*.md")]
-    found = [str(file.relative_to(DOCS).with_suffix("")) for file in files if "```python" in file.read_text(encoding="utf-8")]
-    return [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in sorted(found) if name not in ELSEWHERE]
+    names = [str(file.relative_to(DOCS).with_suffix("")) for file in files if "```python" in file.read_text(encoding="utf-8")]
+    return [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in sorted(names) if name not in ELSEWHERE]
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ def figures(monkeypatch):
 
 @pytest.fixture
 def short(monkeypatch):
-    """Decks that Python reads end after a few cycles."""
+    """Decks read by Python end after a few cycles."""
     read = hydro2d.Deck.from_file
 
     def from_file(path, overrides=None):
@@ -58,7 +58,7 @@ def test_the_python_of_a_page_runs(name, figures, short, tmp_path, capsys):
     with contextlib.chdir(tmp_path), matplotlib.rc_context({"backend": "agg"}):
         for kind, step in figures.steps(text):
             if kind == "python":
-                exec(step, names)  # as a reader who types it
+                exec(step, names)  # as a reader would type it
                 ran += 1
                 continue
             _, command, *arguments = shlex.split(step)

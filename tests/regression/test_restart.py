@@ -1,4 +1,4 @@
-"""A run of the real solver that was interrupted continues to the same bits, and outputs change none of them."""
+"""An interrupted run of the real solver continues to the same bits, and outputs change none of them."""
 
 import json
 
@@ -21,7 +21,7 @@ SHOT = (
 SLIP = ['sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.0"]
 
 
-#: a rod that follows its mesh through three plates, apart from one another so that it is alone in between
+#: a rod that the mesh follows through three plates, spaced so that it is alone in between
 PLATES = (
     mesh(("12 mm", 12), ("-25 mm", "4 mm", "1 mm"), follow="rod")
     + rod("4 mm", "16 mm", tip="-0.5 mm", velocity="1500 m/s")
@@ -60,7 +60,7 @@ def test_outputs_change_no_bit(tmp_path):
 
 
 def restarted(whole: Simulation) -> Simulation:
-    """A second simulation that goes on from what a restart file would hold of the first."""
+    """A second simulation that continues from the contents of a restart file of the first."""
     arrays = {name: array.copy() for name, array in whole.restart_arrays().items()}
     again = Simulation(whole.deck)
     again.load_restart_arrays(arrays)
@@ -70,7 +70,7 @@ def restarted(whole: Simulation) -> Simulation:
 
 @pytest.mark.parametrize("options", [[], SLIP, CONTACT], ids=["sticking", "slip-layer", "contact"])
 def test_a_restart_on_a_travelling_mesh_gives_every_bit_of_every_array(options):
-    """Ghosts and vertices without mass as well, in every cycle, wherever the rod is as the run goes on."""
+    """Ghosts and vertices without mass included, in every cycle, wherever the rod is when the run continues."""
     whole = Simulation(decks.loads(PLATES, options))
     parts, last = [], whole.deck.body[-1].z_front + 9e-3
     while whole.grid.z_edges[-1] < last:

@@ -1,1 +1,1 @@
-"""hydro2d/results: what is read back from runs, and drawn."""
+"""hydro2d/results: reading and drawing of runs."""

@@ -56,31 +56,31 @@ def fields(r: np.ndarray, z: np.ndarray, time: float, noise: float, random: np.r
     plate = (1.0 - rod) * (zc > 0.0) * ((rc > 4e-3) | (zc > nose))
     wave = np.exp(-(((zc - nose) / 8e-3) ** 2) - (rc / 8e-3) ** 2)
     filled = rod + plate
-    found = {"Volume Fraction for rod": rod, "Volume Fraction for plate": plate,
-             "Material": np.where(rod > 0.5, 1, np.where(plate > 0.5, 2, 0)).astype(np.int32)}  # fmt: skip
+    values = {"Volume Fraction for rod": rod, "Volume Fraction for plate": plate,
+              "Material": np.where(rod > 0.5, 1, np.where(plate > 0.5, 2, 0)).astype(np.int32)}  # fmt: skip
     for number, (name, size) in enumerate(SCALARS.items()):
         rough = 1.0 + noise * random.standard_normal(wave.shape)
         shape = 0.2 * name.startswith(("Dens", "Temp")) + wave * np.cos(400 * rc * number)
-        found[name] = size * rough * (1.0 + shape if everywhere else shape * filled)
+        values[name] = size * rough * (1.0 + shape if everywhere else shape * filled)
         if "rod" in name:
-            found[name] = np.where(rod > 0, found[name], 0.0)
+            values[name] = np.where(rod > 0, values[name], 0.0)
     speed = 1e3 * rod * np.exp(-rc / 1e-2) + 200 * plate * wave
-    found["Velocity [m/s]"] = np.stack([speed * 0.3 * np.sin(300 * zc), speed, np.zeros_like(speed)], axis=-1)
-    return found
+    values["Velocity [m/s]"] = np.stack([speed * 0.3 * np.sin(300 * zc), speed, np.zeros_like(speed)], axis=-1)
+    return values
 
 
 def write(directory: Path, *, shape=(55, 24), dumps: int = 5, noise: float = 0.0, travels: bool = False, stations: bool = True,
           names=None, geometry: str = "cylindrical", ended: bool = True, everywhere: bool = False,
           time: float = 40e-6) -> Path:  # fmt: skip
-    """Writes the run; names : of the fields beside volume fractions and material, default all. Returns the directory."""
+    """Writes the run; names : fields in addition to volume fractions and material, default all. Returns its directory."""
     (directory / vtk.FOLDER).mkdir(parents=True)
     write_text(directory / DECK, DECK_TEXT.format(geometry=geometry))
     random, (r, z) = np.random.default_rng(1), edges(shape)
     times, entries = np.linspace(0.0, time, dumps), []
     for number, when in enumerate(times):
         here = z + (500.0 * when if travels else 0.0)
-        found = fields(r, here, when, noise, random, everywhere)
-        kept = {name: values for name, values in found.items()
+        arrays = fields(r, here, when, noise, random, everywhere)
+        kept = {name: values for name, values in arrays.items()
                 if names is None or name in names or name == "Material" or name.startswith("Volume")}  # fmt: skip
         name = f"{vtk.FOLDER}/dump_{number:06d}.vtr"
         vtk.write_grid(directory / name, r, here, kept.items(), when)

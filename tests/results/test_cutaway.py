@@ -1,4 +1,4 @@
-"""Pictures in three dimensions: they are rendered, or it is said why not."""
+"""Pictures in three dimensions: they are rendered, or a message says why not."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from hydro2d.results.scales import FigureError
 
 
 def test_cutaway_or_a_clear_error(finished, tmp_path):
-    """Where there is no way to render, that is said; nothing is left behind."""
+    """Where nothing can be rendered, a message says so and no file is left behind."""
     said = ""
     try:
         cutaway.draw(Results(finished).dump_file(), tmp_path / "cut.png")

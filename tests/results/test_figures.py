@@ -1,4 +1,4 @@
-"""Figures show what they say, or say why they cannot."""
+"""Figures show their subject, or a message says why they cannot."""
 
 from dataclasses import replace
 
@@ -66,7 +66,7 @@ def test_the_word_at_the_experiments_line_is_not_below_the_legend(dump):
 
 
 @pytest.mark.parametrize("part", ["rr", "zz", "tt", "rz"])
-def test_the_old_name_of_a_deviator_is_told_where_the_whole_stress_was_not_written(dump, part):
+def test_the_old_name_of_a_deviator_is_reported_where_the_whole_stress_was_not_written(dump, part):
     del dump.fields[f"Stress {part} [Pa]"]
     with pytest.raises(FigureError, match=f"up to version 0.3, stress_{part} was the name of deviator_{part}"):
         figures.chosen(dump, f"stress_{part}")
@@ -80,13 +80,13 @@ def test_the_old_name_of_a_deviator_is_told_where_the_whole_stress_was_not_writt
 def test_a_planar_section_is_mirrored_at_a_plane_of_symmetry_alone(tmp_path, start, inner, mirrored):
     text = (mesh((start, "12 mm", "1 mm"), ("30 mm", "1 mm"), geometry="planar") + table("boundaries", r_min=inner)
             + box("bar", "Al5083", r=["-3 mm", "4 mm"], z=["5 mm", "20 mm"]) + stop("1 us"))
-    found = check(decks.loads(text))
-    axes = figures.draw_sections([[(found.dump, "", None)]], "material").axes[0]
+    checked = check(decks.loads(text))
+    axes = figures.draw_sections([[(checked.dump, "", None)]], "material").axes[0]
     low = -12.0 if mirrored else float(start.split()[0])
     assert axes.get_ylim() == pytest.approx((low, 12.0))
     *meshes, lines = axes.collections
     assert len(meshes) == (2 if mirrored else 1)
-    assert len(lines.get_segments()) == (2 if mirrored else 1) * len(found.dump.outlines("bar"))
+    assert len(lines.get_segments()) == (2 if mirrored else 1) * len(checked.dump.outlines("bar"))
     picture = tmp_path / "start.png"
     (tmp_path / "deck.toml").write_text(text)
     assert call(["check", str(tmp_path / "deck.toml"), "--picture", str(picture)]) == 0

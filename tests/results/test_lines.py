@@ -1,4 +1,4 @@
-"""Line-outs, diagrams of place and time, pictures of debris, and colour scales."""
+"""Line-outs, space-time diagrams, pictures of debris, and colour scales."""
 
 import numpy as np
 import pytest
@@ -19,22 +19,22 @@ def run(tmp_path_factory):
 
 def test_a_line_along_z_has_each_cell_once(run):
     dump = run.dump()
-    *_, along, found = lines.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
+    *_, along, values = lines.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
     inside = (along > dump.z_edges[0]) & (along < dump.z_edges[-1])
     np.testing.assert_allclose(along[inside], 0.5 * (dump.z_edges[1:] + dump.z_edges[:-1]))
     column = int(np.searchsorted(dump.r_edges, 1e-3, "right")) - 1
-    np.testing.assert_array_equal(found[inside], figures.chosen(dump, "pressure").values[:, column])
-    assert np.isnan(found[~inside]).all()
+    np.testing.assert_array_equal(values[inside], figures.chosen(dump, "pressure").values[:, column])
+    assert np.isnan(values[~inside]).all()
 
 
 def test_a_line_across_has_the_cells_that_it_crosses(run):
     dump = run.dump()
     line = Line(0.0, -5e-3, 4e-3, 5e-3)
-    *_, along, found = lines.curve(run, dump, "velocity:z", line)
+    *_, along, curve = lines.curve(run, dump, "velocity:z", line)
     assert line.label == "distance"
     assert 0.0 < along[0] < along[-1] < np.hypot(4e-3, 10e-3)
     values = figures.chosen(dump, "velocity:z").values
-    for share, value in zip(along / np.hypot(4e-3, 10e-3), found, strict=True):
+    for share, value in zip(along / np.hypot(4e-3, 10e-3), curve, strict=True):
         j = int(np.searchsorted(dump.z_edges, -5e-3 + share * 10e-3, "right")) - 1
         i = int(np.searchsorted(dump.r_edges, share * 4e-3, "right")) - 1
         assert value == values[j, i] or np.isnan(value) and np.isnan(values[j, i])
@@ -50,9 +50,9 @@ def test_line_outs_have_a_curve_for_each_time(run):
 
 
 def test_a_diagram_of_place_and_time_follows_the_nose(run):
-    """The nose is at 1 km/s times the time, so that its outline has that slope."""
-    along, times, found, bodies, label = lines._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
-    assert found.shape == (4, lines.POINTS) == bodies[0].shape
+    """The nose is at 1 km/s times the time, so the slope of its outline is that velocity."""
+    along, times, values, bodies, label = lines._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
+    assert values.shape == (4, lines.POINTS) == bodies[0].shape
     assert label == "Pressure [GPa]"
     noses = [along[np.nonzero(row >= 0.5)[0][-1]] if (row >= 0.5).any() else 0.0 for row in bodies[0]]
     np.testing.assert_allclose(noses, 1e3 * times, atol=2.5e-3)  # a cell there is 3 mm
@@ -60,7 +60,7 @@ def test_a_diagram_of_place_and_time_follows_the_nose(run):
     assert len(figure.axes) == 2
 
 
-def test_what_cannot_be_drawn_is_told(run, tmp_path):
+def test_requests_that_cannot_be_drawn_are_reported(run, tmp_path):
     with pytest.raises(FigureError, match="misses the mesh"):
         lines.curve(run, run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
     single = Results(made_run.write(tmp_path / "one", dumps=1))
@@ -99,7 +99,7 @@ def test_regions_have_holes_and_reach_the_edges():
 
 
 def test_colours_end_at_the_outlines():
-    """Half a cell beyond the outline there is the background, also where the cell beside is filled by more than half."""
+    """Half a cell beyond the outline is background, even where the cell next to it is filled by more than half."""
     r, z = np.linspace(0.0, 10e-3, 11), np.linspace(0.0, 20e-3, 21)
     fraction = np.zeros((20, 10))
     fraction[:10], fraction[10] = 1.0, 0.7
@@ -125,17 +125,17 @@ def test_pictures_have_no_empty_margin(tmp_path):
 
 
 def test_debris_are_drawn(run, monkeypatch):
-    """Mass in bins by speed and by angle, the last angle that has mass, and one dot for each fragment."""
-    found = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
-             "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
-             "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
-             "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
-    monkeypatch.setattr(Results, "debris", {"plate": found})
+    """Mass in bins of speed and of angle, the last angle with mass, and one dot for each fragment."""
+    debris = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
+              "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
+              "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
+              "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
+    monkeypatch.setattr(Results, "debris", {"plate": debris})
     speed, angle, fragments = lines.debris([run]).axes
     assert [patch.get_data().values.sum() for patch in speed.patches] == [pytest.approx(5.0), pytest.approx(3.0)]
     assert angle.get_xlim() == (0.0, 45.0)
     assert fragments.lines[0].get_xydata().tolist() == [[5.0, 1.0], [2.0, 2.0], [1.0, 3.0]]
-    monkeypatch.setattr(Results, "debris", {"plate": {**found, "body": np.array([])}})
+    monkeypatch.setattr(Results, "debris", {"plate": {**debris, "body": np.array([])}})
     with pytest.raises(FigureError, match="nothing flies behind a target"):
         lines.debris([run])
 

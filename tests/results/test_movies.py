@@ -1,4 +1,4 @@
-"""Films: a frame for every dump, one range of colours, a window that travels, and what is refused."""
+"""Films: a frame for every dump, one range of colours, a window that travels, and refusals."""
 
 import sys
 
@@ -13,16 +13,16 @@ from hydro2d.results.reading import Results
 
 def frames(path) -> list[np.ndarray]:
     with Image.open(path) as film:
-        found = []
+        images = []
         for number in range(film.n_frames):
             film.seek(number)
-            found.append(np.asarray(film.convert("RGB")).copy())
-        return found
+            images.append(np.asarray(film.convert("RGB")).copy())
+        return images
 
 
 @pytest.fixture
 def limits(monkeypatch):
-    """The ranges of colours and the windows with which frames are drawn."""
+    """The ranges of colours and the windows of the frames."""
     seen, draw = [], figures.draw_sections
 
     def noted(panels, field, mirror, window, ranges, figure):
@@ -38,10 +38,10 @@ def test_a_frame_for_every_dump(finished, tmp_path, limits, capsys):
     assert call(["movie", str(finished), "-o", str(film), "--field", "plastic_strain", "--mirror", "material"]) == 0
     count = len(Results(finished).dumps)
     assert f"{count} frames" in capsys.readouterr().out
-    found = frames(film)
-    assert len(found) == count > 3
-    assert {frame.shape for frame in found} == {found[0].shape}
-    assert (found[0] != found[-1]).any()
+    images = frames(film)
+    assert len(images) == count > 3
+    assert {frame.shape for frame in images} == {images[0].shape}
+    assert (images[0] != images[-1]).any()
     assert all(ranges == limits[0][0] for ranges, _, _ in limits)
     assert limits[0][0]["plastic_strain"][1] == pytest.approx(2.0, rel=0.2)
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == ["film.gif"]
@@ -69,7 +69,7 @@ def test_mp4(finished, tmp_path):
     assert (tmp_path / "film.mp4").read_bytes()[4:8] == b"ftyp"
 
 
-def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys):
+def test_without_ffmpeg_the_message_names_the_cure(finished, tmp_path, monkeypatch, capsys):
     from matplotlib import animation
 
     monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", classmethod(lambda _: False))
@@ -92,7 +92,7 @@ def test_without_ffmpeg_the_cure_is_told(finished, tmp_path, monkeypatch, capsys
         (["-o", "x.gif", "--rate", "0"], "rate"),
     ],
 )
-def test_what_is_refused(finished, tmp_path, monkeypatch, capsys, arguments, said):
+def test_refused_movies(finished, tmp_path, monkeypatch, capsys, arguments, said):
     monkeypatch.chdir(tmp_path)
     assert call(["movie", str(finished), *arguments]) == 2
     assert said in capsys.readouterr().err

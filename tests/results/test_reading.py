@@ -1,4 +1,4 @@
-"""A run read back: history as tables, sections in the caller's axes, what it says of itself, what is not a run."""
+"""Reading a run back: history as tables, sections in the caller's axes, its description, directories that are not runs."""
 
 import re
 
@@ -136,7 +136,7 @@ def test_a_deck_without_a_rod_says_nothing_of_one(shot):
     assert "depth" not in repr(shot)
 
 
-def test_a_study_is_told_what_reads_it(simulation, tmp_path):
+def test_the_message_on_a_study_names_its_reader(simulation, tmp_path):
     for name in ("a", "b"):
         start(fake.FakeDeck(), tmp_path / "folder" / name, quiet=True)
     with pytest.raises(ResultsError, match="it has no deck.toml; it holds runs: a, b$"):

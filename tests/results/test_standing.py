@@ -1,4 +1,4 @@
-"""Where a run stands: what is said of one that is under way, has ended, or was left, and when it will end."""
+"""State of a run: what is reported of one that is under way, has ended, or was abandoned, and when it will end."""
 
 import sys
 
@@ -32,33 +32,33 @@ def said(run, capsys):
 
 def test_a_run_under_way(under_way, capsys):
     with locked(under_way / "run.lock"):
-        found = said(under_way, capsys)
-    assert found["run"] == "A made shot"
-    assert found["state"].startswith("running: process ")
-    assert found["time"] == "40.000 us, cycle 1000, 1 min 40 s of computing"
-    assert found["end"] == "should stop at 80.000 us (end time), 1 min 30 s from now, unless the rod perforates first"
-    assert found["depth"] == "40.00 mm, in the experiment 30.00 mm"
-    assert found["rod"] == "rigid, 26.00 mm long"
-    assert found["dumps"] == "3, the last at 40.000 us"
+        shown = said(under_way, capsys)
+    assert shown["run"] == "A made shot"
+    assert shown["state"].startswith("running: process ")
+    assert shown["time"] == "40.000 us, cycle 1000, 1 min 40 s of computing"
+    assert shown["end"] == "should stop at 80.000 us (end time), 1 min 30 s from now, unless the rod perforates first"
+    assert shown["depth"] == "40.00 mm, in the experiment 30.00 mm"
+    assert shown["rod"] == "rigid, 26.00 mm long"
+    assert shown["dumps"] == "3, the last at 40.000 us"
 
 
 def test_a_run_that_is_continued_is_where_it_is_now(under_way, capsys):
     write_json(under_way / "summary.json", {"time_s": 20e-6, "status": "interrupted", "stop_reason": "SIGINT"})
     with locked(under_way / "run.lock"):
         assert said(under_way, capsys)["time"].startswith("40.000 us")
-    found = said(under_way, capsys)
-    assert found["state"] == "interrupted: SIGINT"
-    assert found["time"].startswith("20.000 us")
-    assert "end" not in found
+    shown = said(under_way, capsys)
+    assert shown["state"] == "interrupted: SIGINT"
+    assert shown["time"].startswith("20.000 us")
+    assert "end" not in shown
 
 
 def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
     (under_way / "progress.json").unlink()
     summary = {"time_s": 70e-6, "status": "done", "stop_reason": "perforation of plate", "penetration_depth_m": 0.05}
     write_json(under_way / "summary.json", summary | {"targets": {"plate": {"exit_time_s": 60e-6}}})
-    found = said(under_way, capsys)
-    assert found["through"] == "plate; nose 50.00 mm behind the first face"
-    assert "depth" not in found
+    shown = said(under_way, capsys)
+    assert shown["through"] == "plate; nose 50.00 mm behind the first face"
+    assert "depth" not in shown
     write_json(under_way / "summary.json", summary | {"nose_depth_m": 0.03, "targets": {"plate": {"exit_time_s": 60e-6}}})
     assert said(under_way, capsys)["through"] == "plate; nose 30.00 mm behind the first face"
     write_json(under_way / "summary.json", summary | {"targets": {"plate": {"exit_time_s": None}}})
@@ -66,20 +66,20 @@ def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
 
 
 def test_a_run_that_was_left(under_way, capsys):
-    found = said(under_way, capsys)
-    assert found["state"].startswith("waiting: ")
-    assert found["end"] == "should stop at 80.000 us (end time), unless the rod perforates first"  # nobody computes
+    shown = said(under_way, capsys)
+    assert shown["state"].startswith("waiting: ")
+    assert shown["end"] == "should stop at 80.000 us (end time), unless the rod perforates first"  # no process is computing
 
 
 def test_a_run_without_anything_yet(under_way, capsys):
     for name in ("history.h5", "series.pvd", "progress.json"):
         (under_way / name).unlink()
-    found = said(under_way, capsys)
-    assert found["dumps"] == "none"
-    assert not {"time", "depth", "rod"} & set(found)
+    shown = said(under_way, capsys)
+    assert shown["dumps"] == "none"
+    assert not {"time", "depth", "rod"} & set(shown)
 
 
-def test_what_is_no_run_is_told(tmp_path, capsys):
+def test_a_folder_that_is_no_run_is_reported(tmp_path, capsys):
     assert call(["status", str(tmp_path)]) == 2
     assert "is not a run directory" in capsys.readouterr().err
 
@@ -92,16 +92,16 @@ def columns(speed, rows=40):
 
 def test_a_constant_deceleration_is_foreseen():
     slowing = columns(lambda time: 1000.0 - 2e6 * time)
-    found = list(ending.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
-    assert [(each.reason, round(each.time * 1e6, 3)) for each in found] == [
+    end = list(ending.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
+    assert [(each.reason, round(each.time * 1e6, 3)) for each in end] == [
         ("end time", 1000.0), ("3900 cycles", 200.0), ("speed below 10 m/s at its present deceleration", 495.0),
     ]  # fmt: skip
     backwards = columns(lambda time: -(1000.0 - 2e6 * time))
-    (found,) = ending.ends({"rebound": True, "body": "rod"}, backwards)
-    assert (found.reason, found.time) == ("rebound at its present deceleration", pytest.approx(500e-6))
+    (end,) = ending.ends({"rebound": True, "body": "rod"}, backwards)
+    assert (end.reason, end.time) == ("rebound at its present deceleration", pytest.approx(500e-6))
     del slowing["rod_core_velocity_m_s"]
-    (found,) = ending.ends({"speed_below": 10.0, "body": "ball"}, slowing)
-    assert found.time == pytest.approx(490e-6)
+    (end,) = ending.ends({"speed_below": 10.0, "body": "ball"}, slowing)
+    assert end.time == pytest.approx(490e-6)
 
 
 @pytest.mark.parametrize("slope", [0.0, 1e6, -1e-3, np.nan])
@@ -115,15 +115,15 @@ def test_too_few_rows_say_nothing():
 
 
 def test_a_real_run_agrees_with_what_it_says(finished):
-    """A fake run that has ended: its line of time is that of its summary."""
+    """A fake run that has ended: its time is that of its summary."""
     run = hydro2d.open_run(finished)
-    found = standing.lines(run, "done", "", {})
-    assert any("the stop time was reached" in line for line in found)
-    assert any(f"cycle {run.summary['cycles']}" in line for line in found)
+    lines = standing.lines(run, "done", "", {})
+    assert any("the stop time was reached" in line for line in lines)
+    assert any(f"cycle {run.summary['cycles']}" in line for line in lines)
 
 
 class Pretend:
-    """What is used of plotext."""
+    """The part of plotext that is used."""
 
     def __init__(self):
         self.asked = []
@@ -181,7 +181,7 @@ def test_a_column_that_there_is_not(under_way, plotext, capsys):
 
 
 def test_a_run_is_watched_until_it_has_ended(under_way, monkeypatch, capsys):
-    """It looks again after two seconds, and says how the run ended."""
+    """It looks again after two seconds, and reports how the run ended."""
     waits = []
 
     def sleep(seconds):

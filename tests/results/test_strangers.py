@@ -1,4 +1,4 @@
-"""Runs of someone else: whatever their names are and whatever is in their files, they are read, or refused in one line."""
+"""Runs of someone else: with any names and any contents of files, they are read, or refused in one line."""
 
 import copy
 import html.parser
@@ -34,7 +34,7 @@ SHARE = quantities.BY_KEY["volume_fraction"]
 
 
 def places(tables, depth=3, path=()):
-    """The paths of all values of nested tables and lists."""
+    """The paths of all values in nested tables and lists."""
     items = tables.items() if isinstance(tables, dict) else enumerate(tables) if isinstance(tables, list) else ()
     for key, value in items:
         yield (*path, key)
@@ -43,11 +43,11 @@ def places(tables, depth=3, path=()):
 
 
 def replaced(tables, path, value):
-    found = place = copy.deepcopy(tables)
+    changed = place = copy.deepcopy(tables)
     for key in path[:-1]:
         place = place[key]
     place[path[-1]] = value
-    return found
+    return changed
 
 
 class Tags(html.parser.HTMLParser):
@@ -61,17 +61,17 @@ class Tags(html.parser.HTMLParser):
 
 
 def looked_at(directory):
-    """All that is shown of a run without its fields."""
+    """Everything shown of a run except its fields."""
     try:
-        found = Results(directory)
-        repr(found)
-        tags = Tags(found._repr_html_()).found
-        found.measured_position, found.planar, found.bodies, found.stop, found.direction  # noqa: B018
+        results = Results(directory)
+        repr(results)
+        tags = Tags(results._repr_html_()).found
+        results.measured_position, results.planar, results.bodies, results.stop, results.direction  # noqa: B018
     except Error:
         return
     assert tags <= {("table",), ("caption",), ("tr",), ("th",), ("td",)}
     (case,) = layout.gather([directory]).cases
-    standing.lines(found, case.status, case.message, case.progress)
+    standing.lines(results, case.status, case.message, case.progress)
     monitor.row(case)
     monitor.left([case], 1)
 
@@ -91,15 +91,15 @@ def test_any_value_in_the_deck_of_a_stranger(finished, running):
 
 @pytest.mark.parametrize("name", ["progress.json", "summary.json"])
 def test_any_value_in_what_a_stranger_says_of_the_run(finished, name):
-    told = {"time_s": 1e-6, "cycles": 3, "fraction": 0.5, "left_s": 3.0, "wall_s": 2.0, "penetration_depth_m": 0.1,
-            "rod_tail_velocity_m_s": 3.0, "host": "a", "process": 3}  # fmt: skip
-    tables = told if name == "progress.json" else read_json(finished / "summary.json", Error)
+    summary = {"time_s": 1e-6, "cycles": 3, "fraction": 0.5, "left_s": 3.0, "wall_s": 2.0, "penetration_depth_m": 0.1,
+               "rod_tail_velocity_m_s": 3.0, "host": "a", "process": 3}  # fmt: skip
+    tables = summary if name == "progress.json" else read_json(finished / "summary.json", Error)
     with held(finished / "run.lock"):
         for path in places(tables):
             for value in WRONG:
                 (finished / name).write_text(json.dumps(replaced(tables, path, value)))
                 looked_at(finished)
-        for key in told:  # and any that is missing
+        for key in summary:  # and with any of them missing
             write_json(finished / name, {other: value for other, value in tables.items() if other != key})
             looked_at(finished)
 
@@ -121,10 +121,10 @@ def test_names_in_dumps(tmp_path):
     file = tmp_path / "vtk" / "dump_000000.vtr"
     file.parent.mkdir()
     vtk.write_grid(file, *edges, fields, 1e-6)
-    found = vtk.read_grid(file)
-    assert found.bodies == list(NAMES)
+    stored = vtk.read_grid(file)
+    assert stored.bodies == list(NAMES)
     for name, value in fields:
-        assert np.array_equal(found.fields[name], value), name
+        assert np.array_equal(stored.fields[name], value), name
     grid = vtk.pyvista_grid(file)
     assert set(grid.cell_data) == {name for name, _ in fields}
     assert set(vtk.pyvista_of(*edges, fields, 1e-6).cell_data) == {name for name, _ in fields}
@@ -140,14 +140,14 @@ def test_names_in_histories(tmp_path):
     for time in (0.0, 1.0):
         written.append({"time": time, **{name: time + number for number, name in enumerate(columns)}})
     written.write()
-    found = history.read(tmp_path / "history.h5")
-    assert set(found) == {"time", *columns}
-    assert {name: values[0] for name, values in found.items() if name != "time"} == {
+    stored = history.read(tmp_path / "history.h5")
+    assert set(stored) == {"time", *columns}
+    assert {name: values[0] for name, values in stored.items() if name != "time"} == {
         name: float(number) for number, name in enumerate(columns)}  # fmt: skip
-    history.write_csv(found, tmp_path / "history.csv")
+    history.write_csv(stored, tmp_path / "history.csv")
     table = pandas.read_csv(tmp_path / "history.csv")
-    assert [re.sub(r" \[[^\[]*\]$", "", head) for head in table] == list(found)
-    assert len(history.dataset(found).data_vars) == len(columns)
+    assert [re.sub(r" \[[^\[]*\]$", "", head) for head in table] == list(stored)
+    assert len(history.dataset(stored).data_vars) == len(columns)
 
 
 @pytest.mark.parametrize("write", [

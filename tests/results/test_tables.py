@@ -1,4 +1,4 @@
-"""Tables of line-outs, histories and holes: the numbers of the pictures, with units in the heads."""
+"""Tables of line-outs, histories and holes: the numbers of the pictures, with units in the headings."""
 
 import csv
 
@@ -21,7 +21,7 @@ def run(tmp_path_factory):
 
 
 def read(path):
-    """Heads, and the rows with numbers where there are numbers and NaN where a cell is empty."""
+    """Headings, and the rows, with NaN for an empty cell."""
     with path.open(encoding="utf-8", newline="") as file:
         heads, *rows = csv.reader(file)
     assert len({len(row) for row in rows} | {len(heads)}) == 1
@@ -38,11 +38,11 @@ def test_a_line_out_has_the_numbers_of_the_picture(run, tmp_path):
     times = sorted({row[1] for row in rows})
     assert times == pytest.approx([40 / 3, 40.0])
     for curve, time in zip(drawn, times, strict=True):
-        found = np.array([row[2:] for row in rows if row[1] == time])
-        np.testing.assert_allclose(found[:, 1], curve.get_xdata(), rtol=1e-9)
-        np.testing.assert_allclose(found[:, 2], curve.get_ydata(), rtol=1e-9)
-        assert (found[:, 0] == 1.0).all()
-        assert np.nanmax(found[:, 2]) > 1.0
+        numbers = np.array([row[2:] for row in rows if row[1] == time])
+        np.testing.assert_allclose(numbers[:, 1], curve.get_xdata(), rtol=1e-9)
+        np.testing.assert_allclose(numbers[:, 2], curve.get_ydata(), rtol=1e-9)
+        assert (numbers[:, 0] == 1.0).all()
+        assert np.nanmax(numbers[:, 2]) > 1.0
     assert np.isnan([row[-1] for row in rows]).any(), "void behind the rod"
     assert {row[0] for row in rows} == {"1086 m/s"}
 
@@ -63,10 +63,10 @@ def test_a_history_has_the_numbers_of_the_picture(run, tmp_path):
     assert heads == ["run", "t [us]", "projectile length [mm]", "projectile tail velocity [m/s]"]
     drawn = [axes.lines[0] for axes in figures.histories([run], ["rod_length_m", "rod_tail_velocity_m_s"]).axes]
     assert len(rows) == 2 * len(run.history["time"])
-    found = np.array([row[1:] for row in rows[: len(rows) // 2]])
-    np.testing.assert_allclose(found[:, 0], drawn[0].get_xdata(), rtol=1e-9)
+    numbers = np.array([row[1:] for row in rows[: len(rows) // 2]])
+    np.testing.assert_allclose(numbers[:, 0], drawn[0].get_xdata(), rtol=1e-9)
     for number, curve in enumerate(drawn, start=1):
-        np.testing.assert_allclose(found[:, number], curve.get_ydata(), rtol=1e-9)
+        np.testing.assert_allclose(numbers[:, number], curve.get_ydata(), rtol=1e-9)
     with pytest.raises(FigureError, match='did you mean "rod_length_m"'):
         tables.histories([run], ["rod_lenght_m"])
 
@@ -82,7 +82,7 @@ def test_a_hole_has_the_numbers_of_the_picture(run, monkeypatch):
     np.testing.assert_allclose([row[2:] for row in table.rows], upper)
 
 
-def test_what_has_no_table_is_refused(run, tmp_path, capsys):
+def test_requests_without_a_table_are_refused(run, tmp_path, capsys):
     for arguments, said in ((["--kind", "section"], "--kind section has no table; a .csv is for --kind line, history, crater"),
                             (["--kind", "xt"], "--kind xt has no table"),
                             (["--kind", "line", "--log"], "are for pictures, not for a table"),

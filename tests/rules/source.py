@@ -1,4 +1,4 @@
-"""The repository's own source, read and parsed: what the rules are checked on."""
+"""The repository's own source, read and parsed, for the rules to check."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ def problems() -> tuple[list[Path], list[Path]]:
 @functools.cache
 def modules() -> dict[str, Path]:
     """Every module of the program: dotted name -> file."""
-    found = {}
+    files = {}
     for package in PACKAGES:
         for file in sorted((ROOT / package).rglob("*.py")):
             parts = file.relative_to(ROOT).with_suffix("").parts
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
-    return found
+            files[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
+    return files
 
 
 @functools.cache
@@ -42,7 +42,7 @@ def tree(file: Path) -> ast.Module:
 
 
 def _executed(syntax: ast.AST) -> Iterator[ast.AST]:
-    """All nodes without those that only a checker of types sees: `if TYPE_CHECKING:`."""
+    """All nodes except those that only a type checker sees: `if TYPE_CHECKING:`."""
     yield syntax
     for node in ast.iter_child_nodes(syntax):
         if not (isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"):
@@ -79,7 +79,7 @@ def functions(syntax: ast.AST, *decorators: str) -> Iterator[ast.FunctionDef]:
 
 
 def calls(node: ast.AST, *names: str) -> list[ast.Call]:
-    """Calls below a node of a function or method of one of these names."""
+    """Calls of one of these names below a node of a function or method."""
     return [
         part
         for part in ast.walk(node)

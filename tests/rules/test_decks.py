@@ -58,9 +58,9 @@ def test_every_study_has_a_readme(folder):
 def test_every_shot_of_the_study_has_its_deck(shot):
     noses = {"hemispherical": "hemi", "ogival": "ogive"}
     name = f"{noses[shot.nose]}_{shot.target[2:]}_{shot.velocity:.0f}"
-    found = deck.load(PROBLEMS / "cth_nose_shape" / f"{name}.toml")
-    rod, plate = found.body
+    loaded = deck.load(PROBLEMS / "cth_nose_shape" / f"{name}.toml")
+    rod, plate = loaded.body
     assert (rod.velocity[1], rod.material, plate.material) == (shot.velocity, shot.rod, shot.target)
     assert (rod.length, rod.rod_radius) == pytest.approx((shot.length, 0.5 * shot.diameter), rel=1e-9)
-    assert (found.experiment.penetration, found.experiment.qualifier) == (pytest.approx(shot.depth), shot.depth_is)
-    assert f"shot {shot.number} " in found.experiment.source
+    assert (loaded.experiment.penetration, loaded.experiment.qualifier) == (pytest.approx(shot.depth), shot.depth_is)
+    assert f"shot {shot.number} " in loaded.experiment.source

@@ -33,7 +33,7 @@ PAGES = {
     str(file.relative_to(EXPLANATION).with_suffix("")): file.read_text(encoding="utf-8")
     for file in sorted(EXPLANATION.rglob("*.md"))
 }
-#: what people wrote: the pages and notebooks without the generated ones, and the README
+#: hand-written text: the pages and notebooks without the generated ones, and the README
 WRITTEN = [file for file in source.tracked_files() if file.suffix in (".md", ".ipynb") and DOCS in file.parents]
 WRITTEN.append(source.ROOT / "README.md")
 CITATION = re.compile(
@@ -50,8 +50,8 @@ def sentences(file) -> list[str]:
 def test_how_long_the_first_compilation_takes_is_said_once():
     """In the README; measurements in explanations say when and on what they were made."""
     files = [file for file in WRITTEN if EXPLANATION not in file.parents]
-    told = [(name_of(file), text) for file in files for text in sentences(file) if "compil" in text and "minute" in text]
-    assert [name for name, _ in told] == ["README.md"], told
+    mentions = [(name_of(file), text) for file in files for text in sentences(file) if "compil" in text and "minute" in text]
+    assert [name for name, _ in mentions] == ["README.md"], mentions
 
 
 def name_of(file) -> str:
@@ -60,18 +60,18 @@ def name_of(file) -> str:
 
 @functools.cache
 def tags(page: str) -> tuple[int, ...]:
-    """Numbers of a page's equations, in their order."""
+    """Numbers of a page's equations, in order."""
     return tuple(int(number) for number in re.findall(r"\\tag\{(\d+)\}", PAGES[page]))
 
 
 def wrong_citations(text: str) -> list[str]:
-    """Equations that a text cites and that no page has."""
-    found = []
+    """Equations that a text cites but no page has."""
+    wrong = []
     for match in CITATION.finditer(re.sub(r"\s+", " ", text)):
         for number in re.findall(r"\d+", match["list"]):
             if int(number) not in tags(match["page"]):
-                found.append(f"explanation/{match['page']}.md has no equation {number}")
-    return found
+                wrong.append(f"explanation/{match['page']}.md has no equation {number}")
+    return wrong
 
 
 def docstrings(syntax: ast.AST) -> str:
@@ -114,7 +114,7 @@ def test_every_model_is_explained(page, names):
 
 
 def test_every_penetration_model_is_explained():
-    """Each module has a page of its name with the figure of each of its models, and the table of all names them."""
+    """Each module has a page of its name with the figure of each of its models, and the table of all models names them."""
     lost = []
     for module in catalogue.MODULES:
         page = "penetration/" + module.__name__.rsplit(".", 1)[-1].replace("_", "-")
@@ -127,7 +127,7 @@ def test_every_penetration_model_is_explained():
 
 
 def choices(section: str, key: str) -> list[str]:
-    """Words that a key of a deck may have."""
+    """Words that a key of a deck accepts."""
     definition = next(d for d in deck.schema()["$defs"].values() if d.get("title") == section)
     return definition["properties"][key]["enum"]
 
@@ -217,13 +217,13 @@ def test_the_page_of_materials_has_every_source_in_full():
 
 def sections_of_the_page() -> dict[str, dict[str, str]]:
     """Examples of the page of deck keys: heading -> key -> line of a deck."""
-    found = {}
+    sections = {}
     for part in generated()["deck.md"].split("\n## ")[1:]:
         heading, *rows = part.splitlines()
         cells = [re.split(r"(?<!\\) \| ", row) for row in rows if row.startswith("| `")]
         if not heading.startswith("Boundary"):
-            found[heading] = {row[0].strip("| `"): row[4].strip("`").replace("\\|", "|") for row in cells}
-    return found
+            sections[heading] = {row[0].strip("| `"): row[4].strip("`").replace("\\|", "|") for row in cells}
+    return sections
 
 
 #: sections of the page of deck keys and the classes that check them
@@ -239,7 +239,7 @@ SECTIONS = {
 
 @pytest.mark.parametrize("heading", SECTIONS)
 def test_the_example_of_every_key_is_valid(heading):
-    """Each line is parsed and held against the type and the bounds of its key, as they stand in the code."""
+    """Each line is parsed and checked against the type and the bounds of its key in the code."""
     lines, kind = sections_of_the_page()[heading], SECTIONS[heading]
     tables = {"mesh", "boundaries", "body", "materials", "numerics", "sliding", "failure", "stop", "output", "tracer", "gauge",
               "source", "experiment", "penetration"} if kind is sections.Deck else set()  # fmt: skip
@@ -258,7 +258,7 @@ def test_an_example_that_is_not_valid_is_found():
 
 
 def test_examples_of_materials_are_valid():
-    """Numbers are held against the parameters of the models, the keys of a material against the library."""
+    """Numbers are checked against the parameters of the models, the keys of a material against the library."""
     page = sections_of_the_page()
     kinds = {"Eos": eos.MODELS, "Strength": strength.STRENGTH_MODELS, "Damage": strength.DAMAGE_MODELS,
              "Melting": {melting.NAME: melting}}
@@ -303,7 +303,7 @@ def built(tmp_path_factory) -> Path:
     return folder
 
 
-#: what a browser fetches by itself; links that a reader follows are not among it
+#: addresses that a browser fetches by itself; links that a reader follows are not among them
 FETCHED = re.compile(
     r"<(?:script|img|iframe|source|video|audio|embed)\b[^>]*\ssrc=[\"']?(?:https?:)?//"
     r"|<link\b(?![^>]*rel=[\"'](?:canonical|license|author))[^>]*\shref=[\"']?(?:https?:)?//"
@@ -311,7 +311,7 @@ FETCHED = re.compile(
 )
 
 
-def test_what_is_fetched_is_told_from_links():
+def test_fetched_addresses_are_distinguished_from_links():
     assert FETCHED.search('<script defer src="https://cdn.example.org/mathjax/tex-mml-chtml.js">')
     assert FETCHED.search('<link rel="stylesheet" href="//fonts.example.org/a.css" />')
     assert FETCHED.search("@font-face { src: url(https://fonts.example.org/a.woff2) }")

@@ -1,4 +1,4 @@
-"""What every file of the repository obeys, and what a wheel must carry."""
+"""Rules that every file of the repository obeys, and the required contents of a wheel."""
 
 import re
 import subprocess
@@ -11,21 +11,21 @@ from tests.rules import source
 
 HERE = source.ROOT.parent
 TEXT = {".py", ".md", ".toml", ".cff", ".txt", ".rst", ".cfg", ".css", ".yml", ".yaml", ".ipynb", ""}
-#: spelled in pieces, or this file would break its own rule
+#: in pieces, so that this file does not break its own rule
 MACHINE = re.compile(r"(?<![\w.~-])/(?:" + "|".join(["home", "root", "Users", "work", "mnt", "tmp"]) + r")/")
 INDEX = re.compile("|".join(["py" + r"pi\.org", "python" + "hosted", "index" + "-url", r"://[^/\s]*:[^/\s]*@"]))
 
 
 def faults(text: str) -> list[str]:
     """Machine paths and package index hosts in a text, with their lines."""
-    found = []
+    wrong = []
     for number, line in enumerate(text.splitlines(), 1):
         for pattern, name in ((MACHINE, "a path of one machine"), (INDEX, "a package index")):
             if pattern.search(line):
-                found.append(f"line {number}: {name}: {line.strip()[:100]}")
+                wrong.append(f"line {number}: {name}: {line.strip()[:100]}")
         if len(HERE.parts) > 1 and re.search(r"(?<![\w.~-])" + re.escape(f"{HERE}/"), line):
-            found.append(f"line {number}: this checkout's folder")
-    return found
+            wrong.append(f"line {number}: this checkout's folder")
+    return wrong
 
 
 TEXT_FILES = [file for file in source.tracked_files() if file.suffix in TEXT]
@@ -54,7 +54,7 @@ def project() -> dict:
 
 
 def built(target: str) -> dict:
-    """What is said of the wheel or the sdist."""
+    """The message of building the wheel or the sdist."""
     return project()["tool"]["hatch"]["build"]["targets"][target]
 
 
@@ -70,11 +70,11 @@ def test_the_sdist_carries_every_folder_that_the_wheel_and_the_tests_need():
 
 
 def test_no_file_that_is_tracked_is_ignored():
-    """What .gitignore names, the wheel and the sdist leave out."""
+    """The wheel and the sdist leave out all files that .gitignore names."""
     names = "\n".join(str(file.relative_to(source.ROOT)) for file in source.tracked_files())
-    found = subprocess.run(["git", "check-ignore", "--no-index", "--stdin"], cwd=source.ROOT, input=names, text=True,
-                           capture_output=True, check=False)  # fmt: skip
-    assert (found.returncode, found.stdout) == (1, "")
+    done = subprocess.run(["git", "check-ignore", "--no-index", "--stdin"], cwd=source.ROOT, input=names, text=True,
+                          capture_output=True, check=False)  # fmt: skip
+    assert (done.returncode, done.stdout) == (1, "")
 
 
 def test_the_installed_problems_are_the_shipped_ones():
@@ -111,14 +111,14 @@ def test_versions_agree():
 
 
 def test_the_readme_is_one_screen_and_a_page():
-    """Words before its first heading, which a reader gets at once, and after it."""
+    """Words before its first heading, which a reader sees at once, and after it."""
     first, rest = (source.ROOT / "README.md").read_text().split("\n## ", 1)
     assert len(first.split()) <= 300
     assert len(rest.split()) <= 600
 
 
 def test_the_readme_commands_exist():
-    """The deck of the first command is there, and the check script runs the second."""
+    """The deck of the first command exists, and the check script runs the second."""
     readme = (source.ROOT / "README.md").read_text()
     decks = re.findall(r"hydro2d run (problems/\S+\.toml)", readme)
     assert decks

@@ -1,4 +1,4 @@
-"""A file imports only what stands above it; the list is the architecture."""
+"""A file imports only modules above it in the list, which is the architecture."""
 
 import ast
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 
 from tests.rules import source
 
-#: from the bottom to the top; a name stands for itself and for all modules inside it, and a * for what it likes
+#: from the bottom to the top; a name represents itself and all modules inside it, and a * any text
 LAYERS = (
     ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.checksums", "hydro2d.strange", "hydro2d.parameters",
      "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.method", "hydro2d.parsing",
@@ -27,7 +27,7 @@ LAYERS = (
     ("hydro2d.cli", "hydro2d.__main__"),
 )
 OURS = ("hydro2d", "eos", "strength")
-#: packages of these modules and nothing else of hydro2d
+#: packages that import these modules of hydro2d and no others
 NARROW = {
     "eos": ("eos", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "strength": ("strength", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
@@ -43,7 +43,7 @@ def within(name: str, *places: str) -> bool:
 
 
 def layer(name: str) -> int | None:
-    """Index of the module's layer, None for one that the list does not know."""
+    """Index of the module's layer, None for one not in the list."""
     for index, places in enumerate(LAYERS):
         if within(name, *places):
             return index
@@ -52,18 +52,18 @@ def layer(name: str) -> int | None:
 
 def breaches(name: str, imported) -> list[str]:
     """Every import of the module that the architecture forbids."""
-    found = []
+    wrong = []
     for other, line in imported:
         if other == "hydro2d" or not within(other, *OURS):
             continue
         where = f"{name}, line {line}, imports {other}"
         for place, allowed in NARROW.items():
             if within(name, place) and not within(other, *allowed):
-                found.append(f"{where}; {place} may import {', '.join(allowed)}")
+                wrong.append(f"{where}; {place} may import {', '.join(allowed)}")
         mine, theirs = layer(name), layer(other)
         if mine is not None and theirs is not None and theirs > mine:
-            found.append(f"{where}, which stands above it")
-    return found
+            wrong.append(f"{where}, which stands above it")
+    return wrong
 
 
 MODULES = sorted(name for name in source.modules() if name != "hydro2d")
@@ -99,7 +99,7 @@ def test_no_circles():
 
 
 def test_the_package_itself_imports_nothing_at_once():
-    """``import hydro2d`` is instant; what it offers it imports when asked."""
+    """``import hydro2d`` is instant; its names are imported when they are used."""
     body = source.tree(source.modules()["hydro2d"]).body
     at_once = ast.Module([node for node in body if isinstance(node, (ast.Import, ast.ImportFrom))], [])
     assert {name.split(".")[0] for name, _ in source.imports(at_once, frozenset())} <= sys.stdlib_module_names

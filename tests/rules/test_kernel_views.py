@@ -1,8 +1,7 @@
 """Array views in compiled functions are assigned one by one.
 
-Inside ``prange`` numba 0.68 loses writes to views that come from a tuple (``a, b = x[j], y[j]``), without a word. The
-rule holds for every compiled loop, so that nobody has to think about where it matters; scalars may come from
-tuples.
+Inside ``prange`` numba 0.68 silently loses writes to views that come from a tuple (``a, b = x[j], y[j]``). The rule covers
+every compiled loop, so that nobody has to think about where it matters; scalars may come from tuples.
 """
 
 import ast

@@ -1,4 +1,4 @@
-"""How kernels and scalar physics are written."""
+"""Style of kernels and scalar physics."""
 
 import ast
 
@@ -6,7 +6,7 @@ import pytest
 
 from tests.rules import source
 
-#: decorators of functions that are compiled; those of which a loop is parallel
+#: decorators of compiled functions; those with a parallel loop
 MARKS = ("threaded", "kernel", "cell_rows", "vertex_rows", "serial", "rowwise", "apart", "late", "point")
 PARALLEL = {"threaded"}
 ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
@@ -26,36 +26,36 @@ def parallel_loops(function: ast.FunctionDef) -> list[ast.For]:
 
 
 def faults(function: ast.FunctionDef) -> list[str]:
-    """What is wrong with a compiled function."""
-    found = []
+    """Faults of a compiled function."""
+    wrong = []
     marks = {mark.id for mark in function.decorator_list if isinstance(mark, ast.Name)}
     arguments = function.args
     if not ast.get_docstring(function):
-        found.append("has no docstring")
+        wrong.append("has no docstring")
     if arguments.defaults or any(default is not None for default in arguments.kw_defaults):
-        found.append("has default arguments")
+        wrong.append("has default arguments")
     if arguments.vararg or arguments.kwarg:
-        found.append("takes * or ** arguments")
+        wrong.append("takes * or ** arguments")
     loops = parallel_loops(function)
     if marks & PARALLEL:
         if len(loops) != 1 or len(source.calls(function, "prange")) != 1:
-            found.append(f"has {len(source.calls(function, 'prange'))} prange loops, not one")
+            wrong.append(f"has {len(source.calls(function, 'prange'))} prange loops, not one")
         elif loops[0] not in function.body:
-            found.append("has its prange loop inside another statement")
+            wrong.append("has its prange loop inside another statement")
     elif source.calls(function, "prange"):
-        found.append("uses prange without being threaded")
+        wrong.append("uses prange without being threaded")
     if source.calls(function, "wait"):
-        found.append("waits: that is for lists of phases")
+        wrong.append("waits: that is for lists of phases")
     if any(isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) for node in ast.walk(function)):
-        found.append("stores in an attribute")
+        wrong.append("stores in an attribute")
     if source.calls(function, *ALLOCATIONS):
-        found.append("allocates")
+        wrong.append("allocates")
     if source.calls(function, "print") or any(isinstance(node, (ast.Raise, ast.Assert)) for node in ast.walk(function)):
-        found.append("prints or raises")
+        wrong.append("prints or raises")
     for node in ast.walk(function):
         if isinstance(node, ast.Subscript) and any(is_negative(index) for index in indices(node)):
-            found.append(f"has a negative index in line {node.lineno}")
-    return found
+            wrong.append(f"has a negative index in line {node.lineno}")
+    return wrong
 
 
 def indices(node: ast.Subscript) -> list[ast.AST]:
@@ -150,5 +150,5 @@ def test_a_bad_function_is_found(good, old, new):
 
 
 def test_a_kernel_that_waits_is_found():
-    """All parts must come to it: only a phase knows that they do."""
+    """All parts must reach it: only a phase ensures that."""
     assert faults(only_function(GOOD.replace("scale = 2.0", "wait(a, n)"))) != []

@@ -1,4 +1,4 @@
-"""Names are not written to be passed on: kernels take arrays and numbers of a handle (`hydro2d.jit.by_name`)."""
+"""Names are not written only to be passed on: kernels take arrays and numbers from a handle (`hydro2d.jit.by_name`)."""
 
 import ast
 
@@ -6,7 +6,7 @@ import pytest
 
 from tests.rules import source
 
-#: names in the signatures and calls of hydro2d/kernels together, and parameters of any function there, at most
+#: largest number of names in signatures and calls of hydro2d/kernels together, and of parameters of any function there
 MOST_NAMES, MOST_PARAMETERS = 2600, 20
 KERNELS = [file for name, file in sorted(source.modules().items()) if name.startswith("hydro2d.kernels.")]
 
@@ -23,11 +23,11 @@ def test_names_are_counted():
 
 
 def test_few_names_are_written_to_be_passed_on():
-    found = {file.stem: names_in(source.tree(file)) for file in KERNELS}
-    assert sum(found.values()) <= MOST_NAMES, found
+    names = {file.stem: names_in(source.tree(file)) for file in KERNELS}
+    assert sum(names.values()) <= MOST_NAMES, names
 
 
 @pytest.mark.parametrize("file", KERNELS, ids=lambda file: file.stem)
 def test_no_function_has_many_parameters(file):
-    found = {node.name: len(node.args.args) for node in ast.walk(source.tree(file)) if isinstance(node, ast.FunctionDef)}
-    assert {name: number for name, number in found.items() if number > MOST_PARAMETERS} == {}
+    counts = {node.name: len(node.args.args) for node in ast.walk(source.tree(file)) if isinstance(node, ast.FunctionDef)}
+    assert {name: number for name, number in counts.items() if number > MOST_PARAMETERS} == {}

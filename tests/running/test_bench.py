@@ -1,4 +1,4 @@
-"""The benchmark measures what it says; its numbers belong to the machine, their relations do not."""
+"""The benchmark measures what it claims; its numbers depend on the machine, their relations do not."""
 
 import json
 
@@ -22,7 +22,7 @@ def quick(monkeypatch):
 
 @pytest.mark.parametrize("case", bench.CASES, ids=lambda case: case.name)
 def test_decks(case):
-    """Every deck loads; sizes and numbers of materials are what the names say."""
+    """Every deck loads; the numbers of cells and of materials are those in the names."""
     loaded = case.deck()
     assert loaded.numerics.active_region is False
     r, z = deck.edges(loaded)

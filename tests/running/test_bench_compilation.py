@@ -1,4 +1,4 @@
-"""The parts of a compilation are those of its whole."""
+"""The parts of a compilation add up to the whole."""
 
 import numpy as np
 
@@ -34,10 +34,10 @@ def test_parts_of_a_compilation():
     compiled = calls._compile(of_a_kernel)
     call = recording.Call("hydro2d.of_a_kernel", compiled, (compiled.typeof_pyval(np.zeros(3)),))
     compiled._cache.flush()
-    found = bench_compilation.measured([call])
-    assert set(found["stages"]) == {OTHERS, *STAGES.values(), *OWN.values()}
-    assert 0.0 < sum(found["stages"].values()) <= found["kernels"]["of_a_kernel"]
-    assert found["stages"]["machine code"] > 0.0 < found["stages"]["types"]
-    shown = bench_compilation.lines(found)
+    measured = bench_compilation.measured([call])
+    assert set(measured["stages"]) == {OTHERS, *STAGES.values(), *OWN.values()}
+    assert 0.0 < sum(measured["stages"].values()) <= measured["kernels"]["of_a_kernel"]
+    assert measured["stages"]["machine code"] > 0.0 < measured["stages"]["types"]
+    shown = bench_compilation.lines(measured)
     assert shown[0].startswith("compilation of the 1 kernels of cth_nose_shape/hemi_5083_1086_quick.toml, one process:")
-    assert len(shown) == 3 + 1 + len(found["stages"])
+    assert len(shown) == 3 + 1 + len(measured["stages"])

@@ -25,9 +25,9 @@ def test_cycles_are_estimated(deck, time, cycles):
 
 
 def wall(cells, threads):
-    """Estimated time of so many seconds on one thread as there are cells, without the start."""
-    found = SimpleNamespace(grid=SimpleNamespace(cells=cells), seconds=float(cells))
-    return check.Check.wall(found, threads) - check.START
+    """Estimated time on one thread, as many seconds as there are cells, without the start."""
+    deck = SimpleNamespace(grid=SimpleNamespace(cells=cells), seconds=float(cells))
+    return check.Check.wall(deck, threads) - check.START
 
 
 def test_threads_gain_what_was_measured_on_large_meshes_and_little_on_small_ones():
@@ -39,6 +39,6 @@ def test_threads_gain_what_was_measured_on_large_meshes_and_little_on_small_ones
 
 
 def test_the_start_of_the_program_is_counted():
-    found = check.check(decks.load("problems/classic/long_rod.toml", ["stop.cycles=1"]))
-    assert found.wall(1) == pytest.approx(check.START, abs=0.1)
-    assert f"about 1 cycle, {duration(found.wall(1))} on 1 thread (a guess)" in "\n".join(found.lines(1))
+    checked = check.check(decks.load("problems/classic/long_rod.toml", ["stop.cycles=1"]))
+    assert checked.wall(1) == pytest.approx(check.START, abs=0.1)
+    assert f"about 1 cycle, {duration(checked.wall(1))} on 1 thread (a guess)" in "\n".join(checked.lines(1))

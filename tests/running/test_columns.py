@@ -1,4 +1,4 @@
-"""Every column of a history and every key of a summary is in the list, and the list has no others."""
+"""The list contains every column of a history and every key of a summary, and no others."""
 
 import re
 
@@ -35,20 +35,20 @@ def made(tmp_path_factory):
     return run.run(decks.loads(DECK), directory, quiet=True), history.read(directory / run.HISTORY)
 
 
-def unlisted(found, listed) -> tuple[set[str], set[str]]:
-    """Names that the list has not, and entries of the list that no name fits."""
+def unlisted(names, listed) -> tuple[set[str], set[str]]:
+    """Names missing from the list, and entries of the list that match no name."""
     words = re.compile("|".join(NAMES))
     patterns = {name: re.compile(words.sub(lambda word: f"(?:{NAMES[word[0]]})", re.escape(name))) for name in listed}
-    unknown = {name for name in found if not any(pattern.fullmatch(name) for pattern in patterns.values())}
-    return unknown, {name for name, pattern in patterns.items() if not any(pattern.fullmatch(each) for each in found)}
+    unknown = {name for name in names if not any(pattern.fullmatch(name) for pattern in patterns.values())}
+    return unknown, {name for name, pattern in patterns.items() if not any(pattern.fullmatch(each) for each in names)}
 
 
 def flat(table: dict, path: str = "") -> set[str]:
-    """Dotted keys of a summary; the provenance is one."""
-    found = set()
+    """Dotted keys of a summary; the provenance counts as one."""
+    keys = set()
     for key, value in table.items():
-        found |= flat(value, f"{path}{key}.") if isinstance(value, dict) and key != "provenance" else {f"{path}{key}"}
-    return found
+        keys |= flat(value, f"{path}{key}.") if isinstance(value, dict) and key != "provenance" else {f"{path}{key}"}
+    return keys
 
 
 def test_the_history(made):

@@ -1,4 +1,4 @@
-"""Derived quantities of a deck: what is refused, with the line, and their values in the history and the summary."""
+"""Derived quantities of a deck: refusals, with the line, and their values in the history and the summary."""
 
 import numpy as np
 import pytest
@@ -79,17 +79,17 @@ def test_the_values(tmp_path):
     lines = ('"P/L" = "depth / length0"', 'hole_m3 = "crater_volume_m3"', '"v/u" = "v / u"', 'never = "time / (time - time)"',
              'rear_m = "gauge_rear_z_m - \'8 mm\'"', "share = \"'body_back plate_kinetic_energy_J' / energy0\"")  # fmt: skip
     summary = run(decks.loads(DECK + "\n".join(lines)), tmp_path / "run", quiet=True)
-    columns, found = Results(tmp_path / "run").history, summary["derived"]
-    assert list(found) == ["P/L", "hole_m3", "v/u", "never", "rear_m", "share"]
-    assert found["never"] is None
+    columns, results = Results(tmp_path / "run").history, summary["derived"]
+    assert list(results) == ["P/L", "hole_m3", "v/u", "never", "rear_m", "share"]
+    assert results["never"] is None
     assert np.isnan(columns["never"]).all()
-    assert found["P/L"] == summary["penetration_depth_m"] / summary["projectile"]["initial_length_m"]
-    assert found["P/L"] == summary["penetration_over_length"]
-    assert found["hole_m3"] == summary["crater"]["volume_m3"] > 0.0
+    assert results["P/L"] == summary["penetration_depth_m"] / summary["projectile"]["initial_length_m"]
+    assert results["P/L"] == summary["penetration_over_length"]
+    assert results["hole_m3"] == summary["crater"]["volume_m3"] > 0.0
     start = summary["projectile"]["initial_kinetic_energy_J"]
-    assert found["share"] == summary["bodies"]["back plate"]["kinetic_energy_J"] / start
+    assert results["share"] == summary["bodies"]["back plate"]["kinetic_energy_J"] / start
     np.testing.assert_array_equal(columns["P/L"], columns["penetration_depth_m"] / columns["rod_initial_length_m"])
-    assert columns["v/u"][-1] == pytest.approx(found["v/u"])
+    assert columns["v/u"][-1] == pytest.approx(results["v/u"])
     assert Results(tmp_path / "run").to_pandas().attrs["units"]["hole_m3"] == "m3"
 
 
@@ -97,26 +97,26 @@ def test_the_efficiency_of_the_crater():
     sim = Simulation(decks.loads(DECK))
     for _ in range(60):
         sim.step()
-    found, ball = sim.of_targets()["back plate"]["crater"], sim.penetrator
-    assert found["efficiency"] == pytest.approx(found["volume_m3"] * 2660.0 / ball.mass)
-    assert found["volume_per_energy_m3_J"] == pytest.approx(found["volume_m3"] / (0.5 * ball.mass * 900.0**2), rel=1e-9)
+    crater, ball = sim.of_targets()["back plate"]["crater"], sim.penetrator
+    assert crater["efficiency"] == pytest.approx(crater["volume_m3"] * 2660.0 / ball.mass)
+    assert crater["volume_per_energy_m3_J"] == pytest.approx(crater["volume_m3"] / (0.5 * ball.mass * 900.0**2), rel=1e-9)
 
 
 def test_u_is_the_rate_of_the_depth():
     sim, depths, speeds, times = Simulation(decks.loads(DECK)), [], [], []
     while sim.time < 3e-6:
         sim.step()
-        found = sim.diagnostics()
-        depths.append(found["penetration_depth_m"])
-        speeds.append(found["interface_velocity_m_s"])
+        diagnostics = sim.diagnostics()
+        depths.append(diagnostics["penetration_depth_m"])
+        speeds.append(diagnostics["interface_velocity_m_s"])
         times.append(sim.time)
     begun = np.array(times) > 0.5e-6
     way = np.sum((np.array(speeds) * np.diff(times, prepend=0.0))[begun])
     assert way == pytest.approx(depths[-1] - depths[int(np.argmax(begun))], rel=0.03)
-    assert 0.3 * 900.0 < speeds[-1] < found["rod_tail_velocity_m_s"]
+    assert 0.3 * 900.0 < speeds[-1] < diagnostics["rod_tail_velocity_m_s"]
 
 
-def test_a_restart_may_change_what_is_derived(tmp_path):
+def test_a_restart_may_change_derived_quantities(tmp_path):
     run(decks.loads(DECK, ["stop.cycles=20"]), tmp_path / "run", quiet=True)
     summary = run(decks.loads(DECK + '"P/L" = "depth / length0"'), tmp_path / "run", quiet=True, restart=True)
     assert summary["derived"]["P/L"] > 0.0

@@ -1,4 +1,4 @@
-"""An output that cannot be written is named, and costs no other."""
+"""An output that cannot be written is named, and does not affect the others."""
 
 import errno
 import json
@@ -36,7 +36,7 @@ def deck(tmp_path):
 
 @pytest.mark.parametrize("error", RAISED, ids=lambda error: type(error).__name__)
 def test_a_history_that_cannot_be_written_at_the_end(simulation, deck, tmp_path, monkeypatch, capsys, error):
-    """The run is not done before all is there, and then goes on to what an undisturbed one gives."""
+    """The run is not done before everything is written, and then continues to the results of an undisturbed one."""
     write, out = history.History.write, tmp_path / "out"
     monkeypatch.setattr(history.History, "write", raising(error))
     assert call(["run", deck, "--out", str(out), "--quiet"]) == 4
@@ -107,7 +107,7 @@ def test_all_that_cannot_be_written_is_named(simulation, deck, tmp_path, monkeyp
 
 
 def test_a_column_that_fails_in_the_last_row_leaves_the_summary(simulation, tmp_path):
-    """Here the history has no row at the end time but that of the end."""
+    """Here the only row of the history at the end time is the last one."""
     columns = {"mine": lambda sim: 1 if sim.time < fake.STOP else None}
     with pytest.raises(ColumnError, match="mine fails"):
         run(fake.FakeDeck(history_interval=1.7 * fake.STOP), tmp_path, quiet=True, columns=columns)
@@ -139,7 +139,7 @@ def test_a_restart_file_has_the_rows_that_the_history_lacks(simulation, tmp_path
     (lambda file: shorten(file, 15), "lacks 5 of 20 rows"),
 ])  # fmt: skip
 def test_a_history_that_lost_rows_is_not_trusted(simulation, tmp_path, spoil, lacks):
-    """Nor is it after another restart."""
+    """Not even after another restart."""
     deck = fake.FakeDeck()
     deck.stop.time = 19.5e-6
     run(deck, tmp_path, quiet=True)
@@ -152,12 +152,12 @@ def test_a_history_that_lost_rows_is_not_trusted(simulation, tmp_path, spoil, la
 
 
 def shorten(file, rows):
-    found = history.History(file, rows)
-    found.write()
+    kept = history.History(file, rows)
+    kept.write()
 
 
 def test_a_history_that_takes_long_is_written_less_often(simulation, tmp_path, monkeypatch):
-    found = runs.Run(fake.FakeDeck(), tmp_path, restart=False, report=None)
+    started = runs.Run(fake.FakeDeck(), tmp_path, restart=False, report=None)
     monkeypatch.setattr(runs.clock, "perf_counter", iter(np.arange(0.0, 1e3, 7.0)).__next__)
-    found._write_history()
-    assert found.flush_every == pytest.approx(70.0)
+    started._write_history()
+    assert started.flush_every == pytest.approx(70.0)

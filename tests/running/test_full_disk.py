@@ -1,4 +1,4 @@
-"""No space at any write of a run or a case: one message, and then what an undisturbed run gives, its history included."""
+"""No space at any write of a run or a case: one message, then the results of an undisturbed run, including its history."""
 
 import json
 
@@ -22,13 +22,13 @@ def deck(monkeypatch, simulation):
         monkeypatch.setattr(runs, name, 0.0)
     monkeypatch.setattr(runs, "FLUSH_SHARE", 1e9)
     monkeypatch.setattr(runs, "GOOD_EVERY", 3)
-    found = fake.FakeDeck(history_interval=1e-7, vtk_interval=2e-7, restart_interval=0.0)
-    found.stop.time = STEPS
-    return found
+    made = fake.FakeDeck(history_interval=1e-7, vtk_interval=2e-7, restart_interval=0.0)
+    made.stop.time = STEPS
+    return made
 
 
 def outcome(place):
-    """All that a run leaves: state, history, dumps, and the numbers of its summary that are no times of the wall."""
+    """The results of a run: state, history, dumps, and the numbers of its summary except wall-clock times."""
     columns = history.read(place / "history.h5")
     series = [entry for name in vtk.SERIES.values() if (place / name).exists() for entry in vtk.read_series(place / name)]
     summary = json.loads((place / "summary.json").read_text())
@@ -40,7 +40,7 @@ def outcome(place):
 
 
 def again(deck, place):
-    """As a user goes on: with --restart where there is a restart file, else from the beginning."""
+    """Continues as a user would: with --restart if there is a restart file, otherwise from the beginning."""
     restart = any((place / name).exists() for name in (snapshot.NAME, snapshot.PREVIOUS))
     return run(deck, place, quiet=True, restart=restart, overwrite=not restart)
 
@@ -79,10 +79,10 @@ def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
     for full in range(1, number + 1):
         place = tmp_path / str(full)
         disk.begin(full)
-        found = run_case(place, text)
+        outcome_of = run_case(place, text)
         disk.begin()
-        assert found.status == "failed"
-        assert found.message.startswith("the disk is full: "), found.message
-        assert "\n" not in found.message + found.trace
+        assert outcome_of.status == "failed"
+        assert outcome_of.message.startswith("the disk is full: "), outcome_of.message
+        assert "\n" not in outcome_of.message + outcome_of.trace
         assert run_case(place, text).status == "done"
         assert outcome(place) == whole, f"no space at write {full} of {number}"

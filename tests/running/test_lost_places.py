@@ -33,7 +33,7 @@ HOWS = ("removed", "renamed", "taken")
 
 
 @pytest.mark.parametrize("how", HOWS)
-def test_what_no_longer_stands_under_its_lock_is_not_written(tmp_path, how):
+def test_a_file_no_longer_under_its_lock_is_not_written(tmp_path, how):
     place = tmp_path / "place"
     place.mkdir()
     with locked(place / "run.lock"):
@@ -52,7 +52,7 @@ def test_what_no_longer_stands_under_its_lock_is_not_written(tmp_path, how):
     assert (place / "run.lock").exists() == (how == "taken"), "the lock of another process was removed"
 
 
-def test_what_is_lost_while_it_is_written_does_not_take_its_place(tmp_path):
+def test_a_file_lost_while_it_is_written_is_not_put_in_place(tmp_path):
     place = tmp_path / "place"
     place.mkdir()
     with locked(place / "run.lock"), pytest.raises(LostPlaceError), replacing(place / "one.txt") as temporary:  # noqa: PT012
@@ -82,7 +82,7 @@ def test_a_run_ends_where_its_directory_is_lost(simulation, tmp_path, monkeypatc
 
 
 def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
-    """As on a laptop that sleeps: a run is stopped, its directory removed, and another one runs there to its end."""
+    """As on a laptop that sleeps: a run is suspended, its directory removed, and another one runs there to its end."""
     (tmp_path / "shot.toml").write_text(DECK)
     command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--out", str(tmp_path / "out"), "--quiet",
                "--threads", "1", "--set", "output.vtk_interval='0.2 us'"]  # fmt: skip
@@ -104,8 +104,8 @@ def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
     assert {file: file.read_bytes() for file in (tmp_path / "out").rglob("*") if file.is_file()} == written
 
 
-def test_a_summary_of_another_deck_is_told(finished):
-    """As two runs leave it that wrote into one directory."""
+def test_a_summary_of_another_deck_is_reported(finished):
+    """As left by two runs that wrote into one directory."""
     assert Results(finished).summary["trustworthy"]
     assert layout.state(finished, None)["message"] == ""
     text = (finished / "deck.toml").read_text()

@@ -1,4 +1,4 @@
-"""A run in a notebook: what stands below the cell, in a kernel as Jupyter has it; and that other processes are none."""
+"""A run in a notebook: the output below the cell, in a kernel like Jupyter's; other processes are not notebooks."""
 
 import nbformat
 import pytest
@@ -48,7 +48,7 @@ def test_the_results_are_one_line_and_a_quiet_run_shows_nothing(cells):
 
 
 def test_a_line_below_the_cell_tells_what_a_program_compiles(cells):
-    """Here nothing is: the first call of a kernel takes long."""
+    """Nothing is compiled here: the first call of a kernel just takes long."""
     (shown,) = cells[4].outputs
     assert shown.data["text/html"].startswith("<pre>compiled kernels: ")
     assert shown.data["text/plain"].endswith(", 1 s") or shown.data["text/plain"].endswith(", 0 s")

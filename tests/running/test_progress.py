@@ -1,4 +1,4 @@
-"""How long a run still takes."""
+"""Remaining time of a run."""
 
 import fcntl
 import io
@@ -20,7 +20,7 @@ from hydro2d.running.progress import PACE_SECONDS, Clock, result
 
 
 class Pace:
-    """A run of `cycles` cycles whose cycles take what it is told; the first compiles for ten minutes."""
+    """A run of `cycles` cycles that take the given times; the first compiles for ten minutes."""
 
     def __init__(self, cycles=10_000):
         self.now, self.sim = 0.0, SimpleNamespace(time=0.0, cycle=0)
@@ -59,7 +59,7 @@ def test_before_the_first_cycle_is_over_nothing_is_known():
     assert clock.look(SimpleNamespace(time=0.1, cycle=1)).left is None
 
 
-def test_the_end_is_that_which_status_foresees():
+def test_the_end_is_the_one_predicted_by_status():
     """A rod that slows by 2e6 m/s2 from 1000 m/s is below 10 m/s at 495 us, long before the end time."""
     stop = {"time": 1e-3, "cycles": None, "body": "rod", "speed_below": 10.0, "rebound": False}
     columns, now, clock = Columns(), 0.0, None
@@ -69,12 +69,12 @@ def test_the_end_is_that_which_status_foresees():
     for number in range(41):
         sim.time, sim.cycle, now = number * 2.5e-6, 50 * number, 2.0 * number
         columns.append({"time": sim.time, "cycle": sim.cycle, "rod_core_velocity_m_s": 1000.0 - 2e6 * sim.time})
-        found = clock.look(sim)
+        predicted = clock.look(sim)
         if number == 2:  # too few rows
-            assert progress.how_far(sim, found) == "5.000 us of 1000.000 us (0.5 %)"
-    assert progress.how_far(sim, found) == "100.000 us of about 495.000 us (20.2 %; speed below 10 m/s)"
-    assert found.left == pytest.approx(395.0 / 1.25)
-    assert found.end == next(iter(sorted(ending.ends(stop, columns.arrays()), key=lambda each: each.time)))
+            assert progress.how_far(sim, predicted) == "5.000 us of 1000.000 us (0.5 %)"
+    assert progress.how_far(sim, predicted) == "100.000 us of about 495.000 us (20.2 %; speed below 10 m/s)"
+    assert predicted.left == pytest.approx(395.0 / 1.25)
+    assert predicted.end == next(iter(sorted(ending.ends(stop, columns.arrays()), key=lambda each: each.time)))
 
 
 def test_the_number_of_cycles_counts_where_it_comes_first():
@@ -86,7 +86,7 @@ def test_the_number_of_cycles_counts_where_it_comes_first():
 
 
 def test_the_table_is_whole_on_a_narrow_terminal(tmp_path):
-    """What does not fit on a line goes on in the next."""
+    """Text that does not fit on a line continues on the next."""
     from rich.console import Console
 
     report, cause = progress.Live(io.StringIO(), quiet=False), "sound at r = 123.456 mm, z = -123.456 mm, in the rod (ramp)"
@@ -124,7 +124,7 @@ report.close()
 
 
 def recorded(code, columns):
-    """The lines that a program writes to a terminal of so many columns, without what moves its cursor."""
+    """The lines that a program writes to a terminal of so many columns, without cursor movements."""
     leader, follower = pty.openpty()
     fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
     about = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES", "NO_COLOR")}
@@ -132,7 +132,7 @@ def recorded(code, columns):
                              env=about | {"TERM": "xterm"})  # fmt: skip
     os.close(follower)
     data = b""
-    with suppress(OSError):  # the terminal is gone with the last process that has it
+    with suppress(OSError):  # the terminal is gone with the last process that uses it
         while more := os.read(leader, 65536):
             data += more
     os.close(leader)
@@ -175,7 +175,7 @@ def test_lines_break_at_words_on_a_terminal_and_commands_stay_whole():
 
 
 def closing(theory=(), **changes):
-    """The last lines of a bar that was 25.4 mm long, with a gauge and a derived quantity."""
+    """The last lines for a bar that was 25.4 mm long, with a gauge and a derived quantity."""
     body = {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 17.43e-3, "r_max_m": 6.6e-3,
             "outflow_kg": 0.0, "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}  # fmt: skip
     station = {"peak_pressure_Pa": 3.21e9, "peak_pressure_time_s": 1.5e-6, "peak_speed_m_s": 190.0}
@@ -188,8 +188,8 @@ def closing(theory=(), **changes):
     }, theory)  # fmt: skip
 
 
-def test_the_last_lines_name_compilation_cycles_and_outputs_apart():
-    """The pace is that of the cycles; what took no time is not named."""
+def test_the_last_lines_name_compilation_cycles_and_outputs_separately():
+    """The pace is that of the cycles; parts that took no time are not named."""
     assert closing()[:2] == ["done: end time", "9 cycles to 60.000 us in 2.5 s"]
     costs = {"cycles": 450, "time_s": 26.8e-6, "cycles_s": 3.14, "compilation_s": 77.2, "outputs_s": 0.41, "set_up_s": 151.0,
              "ns_per_cell_cycle": 31.24}  # fmt: skip
@@ -222,7 +222,7 @@ def test_the_last_lines_give_the_length_and_the_ends_of_a_bar():
 
 
 def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
-    """P/D of a ball, P/L of a rod; behind the last target there is no depth."""
+    """P/D of a ball, P/L of a rod; behind the last target no depth is given."""
     ball = {"body": "ball", "length_m": 9e-3, "initial_length_m": 9.98e-3, "initial_radius_m": 5e-3, "max_plastic_strain": 0.4}
     shot = {"penetration_depth_m": 14.7e-3, "nose_depth_m": 14.7e-3, "penetration_over_length": 1.473, "experiment": None,
             "regime": "deforming", "projectile": ball | {"tail_velocity_m_s": None},
@@ -253,7 +253,7 @@ def test_the_last_lines_give_peaks_and_derived_quantities():
 
 @pytest.mark.parametrize(("quiet", "seconds", "said"), [
     (False, 2.0, "decks read: 2 of 6\ndecks read: 5 of 6\n"), (True, 2.0, ""), (False, 0.1, "")])
-def test_what_takes_long_is_counted_on_stderr(monkeypatch, capsys, quiet, seconds, said):
+def test_long_tasks_are_counted_on_stderr(monkeypatch, capsys, quiet, seconds, said):
     now = (seconds * n for n in range(1000))
     monkeypatch.setattr(progress.clock, "monotonic", lambda: next(now))
     assert list(progress.counted(range(6), "decks read", quiet)) == list(range(6))
@@ -261,7 +261,7 @@ def test_what_takes_long_is_counted_on_stderr(monkeypatch, capsys, quiet, second
 
 
 def test_the_last_lines_say_what_moves():
-    """The fastest by energy first; what stands still is left out."""
+    """The largest energy first; bodies at rest are left out."""
     known = {"plate": (-0.04, 40.0), "rod": (3.5, 900.0), "wall": (1e-9, 1e-15), "gone": (None, 0.0)}
     bodies = {name: {"velocity_m_s": speed, "kinetic_energy_J": energy} for name, (speed, energy) in known.items()}
     said = progress._moving({"bodies": bodies, "projectile": {"body": "rod", "tail_velocity_m_s": 355.2}})

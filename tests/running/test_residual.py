@@ -28,13 +28,13 @@ def found(columns, velocity, time, exits=None):
 
 
 def test_the_change_is_that_over_the_last_radius_of_flight():
-    """1000 m/s and 5 mm: the last 5 us. Before, it was not through."""
+    """1000 m/s and 5 mm: the last 5 us. Before that, the body was not through."""
     history = rows((0, None), (10, 1020.0), (14, 1004.0), (15, 1003.0), (16, 1002.0), (20, 1000.0))
     assert found(history, 1000.0, 20) == pytest.approx((-3.0, 5e-6))
 
 
-def test_a_change_since_it_was_through_is_told_if_that_is_less():
-    """The exit may lie between two rows, or be all that is known."""
+def test_the_change_since_perforation_is_reported_if_that_is_less():
+    """The exit may lie between two rows, or nothing else may be known."""
     exits = [{"exit_time_s": 17.5e-6, "exit_velocity_m_s": 1002.0}]
     assert found(rows((10, None), (18, 1001.5), (20, 1000.0)), 1000.0, 20, exits) == pytest.approx((-2.0, 2.5e-6))
     assert found(rows((10, None), (20, 1000.0)), 1000.0, 20, exits) == pytest.approx((-2.0, 2.5e-6))
@@ -44,17 +44,17 @@ def test_without_a_residual_velocity_or_a_time_before_there_is_no_change():
     assert found(rows((0, None)), None, 0) == (None, None)
     assert found(Columns(), 1000.0, 20) == (None, None)
     assert found(rows((10, None), (20, 1000.0)), 1000.0, 20) == (None, None)
-    assert found(rows((10, 0.0), (20, 0.0)), 0.0, 20) == pytest.approx((0.0, 10e-6))  # it does not fly: all that is known
+    assert found(rows((10, 0.0), (20, 0.0)), 0.0, 20) == pytest.approx((0.0, 10e-6))  # it does not move: nothing else is known
 
 
-@pytest.mark.parametrize(("time", "told"), [("12 us", True), ("60 us", False)])
-def test_the_closing_lines_say_that_a_ball_behind_its_plate_still_slows(time, told, tmp_path):
-    """The cap that it pushes ahead weighs on it for some microseconds; later it flies free."""
+@pytest.mark.parametrize(("time", "said"), [("12 us", True), ("60 us", False)])
+def test_the_closing_lines_say_that_a_ball_behind_its_plate_still_slows(time, said, tmp_path):
+    """The cap that it pushes ahead slows it for some microseconds; later it flies free."""
     from hydro2d.deck import deck as decks
 
     deck = decks.load(source.PROBLEMS / "perforation" / "sphere.toml", [f"stop.time={time}", "stop.perforation=false"])
     summary = run(deck, tmp_path / "ball", quiet=True)
     line = next(line for line in result(summary) if line.startswith("residual ball"))
-    assert ("; still changing, by -" in line) == told
+    assert ("; still changing, by -" in line) == said
     kept = json.loads((tmp_path / "ball" / "summary.json").read_text())["projectile"]
-    assert (abs(kept[CHANGE]) > 1e-3 * kept["residual_velocity_m_s"]) == told
+    assert (abs(kept[CHANGE]) > 1e-3 * kept["residual_velocity_m_s"]) == said

@@ -1,4 +1,4 @@
-"""A restart goes on from an intact state whatever else is damaged, and from nothing that does not fit."""
+"""A restart continues from an intact state whatever else is damaged, and never from a file that does not match."""
 
 import numpy as np
 import pytest
@@ -25,12 +25,12 @@ def go_on(directory, **options):
 
 
 def spoiled(directory, change):
-    """Writes the restart file anew, with a right checksum, after a change of its contents."""
-    found = snapshot.read(directory / snapshot.NAME)
-    arrays, scalars, saved = dict(found.arrays), dict(found.scalars), dict(found.run)
+    """Rewrites the restart file, with a correct checksum, after a change of its contents."""
+    contents = snapshot.read(directory / snapshot.NAME)
+    arrays, scalars, saved = dict(contents.arrays), dict(contents.scalars), dict(contents.run)
     change(arrays, scalars, saved)
     (directory / snapshot.NAME).unlink()
-    snapshot.write(directory / snapshot.NAME, Snapshot(arrays, scalars, saved, found.deck, found.provenance))
+    snapshot.write(directory / snapshot.NAME, Snapshot(arrays, scalars, saved, contents.deck, contents.provenance))
 
 
 @pytest.mark.parametrize(("change", "said"), [
@@ -40,7 +40,7 @@ def spoiled(directory, change):
     (lambda a, s, r: s.pop("audit"), "'audit' is missing"),
     (lambda a, s, r: s.update(box=7), "the restart file does not fit: "),
     (lambda a, s, r: r.pop("due"), "'due' is missing")])
-def test_what_does_not_fit_is_one_message(begun, change, said):
+def test_a_restart_file_that_does_not_fit_gives_one_message(begun, change, said):
     spoiled(begun, change)
     with pytest.raises(SnapshotError, match=said):
         go_on(begun, quiet=True)
@@ -76,7 +76,7 @@ def test_a_damaged_series_is_read_from_its_dumps(begun, capsys, damage):
 
 
 @pytest.mark.parametrize("option", ["restart", "overwrite"])
-def test_files_of_the_user_beside_the_dumps_stay(begun, option):
+def test_files_of_the_user_among_the_dumps_stay(begun, option):
     names = ("dump_best.vtr", "dump_1.vtr", "dump_000001_copy.vtr", "interfaces_new.vtp", "dump_.vtr", "my_000001.vtr")
     for name in names:
         (begun / "vtk" / name).write_text("mine")
@@ -86,7 +86,7 @@ def test_files_of_the_user_beside_the_dumps_stay(begun, option):
     assert len(vtk.read_series(begun / "series.pvd")) > 1
 
 
-def test_what_a_killed_process_left_goes(begun):
+def test_leftovers_of_a_killed_process_are_removed(begun):
     for left in (begun / ".restart.h5.77.tmp", begun / "vtk" / ".dump_000003.vtr.77.tmp"):
         left.write_bytes(b"half")
     go_on(begun, quiet=True)

@@ -57,7 +57,7 @@ def test_a_run_begins_with_the_warnings(simulation, tmp_path, capsys):
         assert text.index("warning") < text.index("done: ")
 
 
-def test_existing_run_is_kept_unless_told(simulation, tmp_path):
+def test_existing_run_is_kept_without_overwrite(simulation, tmp_path):
     run(fake.FakeDeck(), tmp_path, quiet=True)
     with pytest.raises(RunError, match="--restart"):
         run(fake.FakeDeck(), tmp_path, quiet=True)
@@ -99,7 +99,7 @@ def test_restart_gives_the_same_bits(simulation, tmp_path, cycles):
         assert file.read_bytes() == (parts / "vtk" / file.name).read_bytes()
 
 
-def test_restart_drops_what_came_after_the_restart_point(simulation, tmp_path):
+def test_restart_drops_rows_and_dumps_after_the_restart_point(simulation, tmp_path):
     """A run that went on after its last restart file, and was killed: later rows and dumps are written again."""
     run(fake.FakeDeck(), tmp_path, quiet=True, interrupt=interrupt_after(87, simulation))
     early = (tmp_path / "restart.h5").read_bytes()
@@ -119,7 +119,7 @@ def test_one_process_at_a_time(simulation, tmp_path):
     (tmp_path / "run.lock").write_text("elsewhere 1")
     with pytest.raises(LockError, match="on elsewhere"):
         run(fake.FakeDeck(), tmp_path, quiet=True)
-    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")  # left behind, and the number has come again
+    (tmp_path / "run.lock").write_text(f"{socket.gethostname()} {os.getpid()}")  # left behind, and the number is in use again
     assert run(fake.FakeDeck(), tmp_path, quiet=True)["status"] == "done"
     assert not (tmp_path / "run.lock").exists()
 
@@ -178,21 +178,21 @@ def test_plain_lines(simulation, tmp_path, capsys):
 @pytest.mark.parametrize(("threads", "second", "helped"), [(1, None, False), (2, None, True), (1, True, True)])
 def test_a_run_on_one_thread_compiles_in_one_process(simulation, tmp_path, monkeypatch, threads, second, helped):
     """A study asks for the second process, because its other workers wait meanwhile."""
-    found = []
+    processes = []
 
     def announced(place, helped=None):
-        found.append(helped)
+        processes.append(helped)
         return nullcontext()
 
     monkeypatch.setattr("hydro2d.jit.threads", lambda: threads)
     monkeypatch.setattr("hydro2d.compilation.announced", announced)
     monkeypatch.setattr("hydro2d.running.run.Run", lambda *args, **named: SimpleNamespace(execute=lambda interrupt: {}))
     run(fake.FakeDeck(), tmp_path / "a", quiet=True, second=second)
-    assert [deck is not None for deck in found] == [helped]
+    assert [deck is not None for deck in processes] == [helped]
 
 
-def test_what_a_run_spends_its_time_on_is_named(simulation, tmp_path, monkeypatch):
-    """Each cycle takes 2 ms; the first one waits a further 50 ms for a kernel that another process compiles; a restart adds."""
+def test_the_parts_of_a_runs_time_are_named(simulation, tmp_path, monkeypatch):
+    """Each cycle takes 2 ms; the first waits another 50 ms for a kernel that another process compiles; a restart adds."""
     monkeypatch.setattr(compilation, "BEAT", 0.02)
     step = fake.Simulation.step
 

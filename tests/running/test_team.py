@@ -1,4 +1,4 @@
-"""A run uses the number of threads that is the fastest, and finds out when that changes."""
+"""A run uses the fastest number of threads, and notices when that changes."""
 
 from hydro2d.running.team import TRIAL, Team
 
@@ -38,8 +38,8 @@ def test_one_thread_where_another_process_holds_the_second_core():
     assert spent < 1.1 * 5000 * 0.006
 
 
-def test_what_is_best_is_found_again_when_it_changes():
-    """From 20 s to 60 s the second core is taken: a second after either the number is right again."""
+def test_the_best_number_is_found_again_when_it_changes():
+    """From 20 s to 60 s the second core is busy: a second after each change the number is right again."""
     machine = Machine(2, lambda threads, now: 0.006 if threads == 1 else (0.06 if 20.0 <= now < 60.0 else 0.003))
     while machine.now < 20.0:
         machine.run(1)

@@ -1,1 +1,1 @@
-"""hydro2d/solver: the simulation and what is measured in it."""
+"""hydro2d/solver: the simulation and its measurements."""

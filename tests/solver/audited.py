@@ -1,4 +1,4 @@
-"""Small random decks of every kind of edge beside every choice that changes a velocity, for tests of the audit."""
+"""Small random decks of every kind of edge with every choice that changes a velocity, for tests of the audit."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from tests.decks import box, entry, mesh, stop, table
 SLIDING = get_args(Sliding.model_fields["method"].annotation)
 SOURCES = ("none", *sources.KINDS)
 EDGE_KINDS = edges.words("r_max")
-#: the kinds of edges that give a velocity other than zero
+#: the kinds of edges that prescribe a velocity other than zero
 DRIVEN = ("velocity", "piston")
 
-#: what they are called in the library
+#: their names in the library
 METALS, GAS, EXPLOSIVE = ("Al5083", "copper_OFHC", "lead", "steel_4340"), "gas_7_5", "TNT"
 
 
 class Choices(NamedTuple):
-    """What a deck is made of; edge : the kind of some of its edges."""
+    """The choices of a deck; edge : the kind of some of its edges."""
 
     edge: str
     sliding: str
@@ -36,36 +36,36 @@ class Choices(NamedTuple):
 
 
 def all_choices() -> Iterator[Choices]:
-    """All combinations that decks may have: no driven edges with a contact, no mesh that follows a detonation."""
+    """All combinations that decks allow: no driven edges with a contact, no mesh that follows a detonation."""
     for each in itertools.product(EDGE_KINDS, SLIDING, ADVECTIONS, SOURCES, (False, True)):
-        found = Choices(*each)
-        if found.sliding == "contact" and found.edge in DRIVEN:
+        choices = Choices(*each)
+        if choices.sliding == "contact" and choices.edge in DRIVEN:
             continue
-        if not (found.following and found.source == "detonation"):
-            yield found
+        if not (choices.following and choices.source == "detonation"):
+            yield choices
 
 
 def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict:
-    """The table of boundaries: the kind of the choices at one edge that may have it and at others by chance."""
+    """The table of boundaries: the chosen kind at one edge that allows it and at others by chance."""
     kinds = [kind for kind in EDGE_KINDS if choices.sliding != "contact" or kind not in DRIVEN]
     free = [edge for edge in EDGES if geometry == "planar" or edge != "r_min"]
     open_ended = [kind for kind in kinds if kind in ("outflow", "transmit")]
     sure = random.choice([edge for edge in free
                           if not choices.following or edge[0] == "r" or choices.edge in open_ended])
-    found = {} if geometry == "planar" else {"r_min": "axis"}
+    edges = {} if geometry == "planar" else {"r_min": "axis"}
     for edge in free:
         allowed = open_ended if choices.following and edge[0] == "z" else kinds
-        kind = found[edge] = choices.edge if edge == sure else str(random.choice(allowed))
+        kind = edges[edge] = choices.edge if edge == sure else str(random.choice(allowed))
         speed = float(random.uniform(-200.0, 200.0))
         if kind == "velocity":
-            found[f"{edge}_velocity"] = speed
+            edges[f"{edge}_velocity"] = speed
         if kind == "piston":
-            found[f"{edge}_piston"] = [[0.0, 0.0], [2e-7, speed], [8e-7, speed], [1e-6, -speed]]
-    return found
+            edges[f"{edge}_piston"] = [[0.0, 0.0], [2e-7, speed], [8e-7, speed], [1e-6, -speed]]
+    return edges
 
 
 def _source(random: np.random.Generator, kind: str, place: list[float]) -> str:
-    """Whatever acts on the target; place : (r, z) within it."""
+    """Any source that acts on the target; place : (r, z) within it."""
     if kind == "heating":
         return entry("source", name="given", kind=kind, body="target", power=[[0.0, 1e11], [1e-6, 0.0]])
     if kind == "acceleration":
@@ -79,7 +79,7 @@ def _source(random: np.random.Generator, kind: str, place: list[float]) -> str:
 def deck(seed: int, choices: Choices) -> str:
     """A metal that flies into a layer of another one, or of an explosive, on 8 by 16 to 12 by 24 cells.
 
-    By chance there is a gas beside them; in a contact and beside an explosive gases are not computed well enough.
+    By chance there is a gas next to them; in a contact and next to an explosive gases are not computed well enough.
     """
     random = np.random.default_rng([seed, *map(ord, str(choices))])
     geometry = str(random.choice(["planar", "cylindrical"]))

@@ -1,4 +1,4 @@
-"""The audit closes: what edges, groups, sources and limits do to velocities is booked once, by the velocities at the end."""
+"""The audit closes: changes of velocity by edges, groups, sources and limits are booked once, by the velocities at the end."""
 
 import numpy as np
 import pytest
@@ -9,12 +9,12 @@ from tests.decks import body, box, contact, entry, mesh, stop, table, walls
 from tests.solver import audited
 
 CLOSES = 1e-12
-#: the same beside products of an explosive, whose modulus may fall by 1e12 below that of the metal in the same cell
+#: the limit next to products of an explosive, whose modulus may fall by 1e12 below that of the metal in the same cell
 CLOSES_BESIDE_PRODUCTS = 1e-9
 
 
 def after(text: str, cycles: int, *options: str) -> Simulation:
-    """The simulation of a deck after some cycles; what it is worth is not asked."""
+    """The simulation of a deck after some cycles, without a verdict on it."""
     simulation = Simulation(decks.loads(text, options))
     for _ in range(cycles):
         simulation.engine.advance()
@@ -23,21 +23,22 @@ def after(text: str, cycles: int, *options: str) -> Simulation:
 
 def unexplained(simulation: Simulation) -> float:
     """The largest relative change that the audit does not explain."""
-    found = simulation.conservation()
-    return max(map(abs, (*found["mass"].values(), found["axial_momentum"], found["total_energy"])))
+    balance = simulation.conservation()
+    return max(map(abs, (*balance["mass"].values(), balance["axial_momentum"], balance["total_energy"])))
 
 
 def unexplained_by_sound(simulation: Simulation) -> float:
-    """The same of mass m, and of momentum and energy as shares of m c and m c^2, c the speed of sound.
+    """The largest change that the audit does not explain, of mass m, and of momentum and energy over m c and m c^2, c the
+    speed of sound.
 
-    In a cell that a body hardly fills, the stress is a difference of pressures that are larger by the inverse of its share. The
-    round-off of these is no share of the energy of a slow shot.
+    In a cell that a body hardly fills, the stress is a difference of pressures that are larger by the inverse of its share.
+    Their round-off does not scale with the energy of a slow shot.
     """
-    found, engine = simulation.conservation(), simulation.engine
+    balance, engine = simulation.conservation(), simulation.engine
     mass, energy = engine.audit.start.mass, engine.audit.scale
     sound = mass @ engine.sound_speeds**2
-    return max(*map(abs, found["mass"].values()), abs(found["axial_momentum"]) * (2.0 * energy / sound) ** 0.5,
-               abs(found["total_energy"]) * energy / sound)
+    return max(*map(abs, balance["mass"].values()), abs(balance["axial_momentum"]) * (2.0 * energy / sound) ** 0.5,
+               abs(balance["total_energy"]) * energy / sound)
 
 
 # ------------------------------------------------------------------------------------------------ two groups and dashpots
@@ -54,7 +55,7 @@ SLIDES = (
 
 @pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
 def test_dashpots_act_on_masters_of_a_contact(geometry):
-    """A bar slides in a tube, and edges cut through both: heat of the contact is that of the velocities at the end."""
+    """A bar slides in a tube, and edges cut through both: heat of the contact comes from the velocities at the end."""
     simulation = after(SLIDES, 60, f'mesh.geometry="{geometry}"')
     assert simulation.audit.sinks["transmitted"].energy > 0.0
     assert unexplained(simulation) < CLOSES
@@ -62,7 +63,7 @@ def test_dashpots_act_on_masters_of_a_contact(geometry):
 
 # ------------------------------------------------------------------------------------------------ edges that drive
 
-#: a ball moves at one end, a piston at the other begins later
+#: a ball moves at one end, and a piston at the other starts later
 FAR = (
     mesh(("10 mm", 10), ("60 mm", 60), geometry="planar")
     + walls("r_max", z_max="piston", z_max_piston=[[0.0, 0.0], ["0.2 us", "-200 m/s"], ["10 us", "-200 m/s"]])
@@ -82,7 +83,7 @@ def test_an_edge_that_drives_belongs_to_the_active_box():
 
 
 def test_an_edge_moves_while_nothing_else_does():
-    """The step is that of waves in what lies elsewhere, and no more than what crosses a cell with the edge."""
+    """The step is limited by waves in the rest of the mesh, and by the edge's motion across a cell."""
     text = (
         mesh(("4 mm", 4), ("30 mm", 30), geometry="planar")
         + walls("r_max", z_max="velocity", z_max_velocity="-100 m/s")
@@ -96,7 +97,7 @@ def test_an_edge_moves_while_nothing_else_does():
 
 
 def test_a_piston_may_jump():
-    """The step in which it jumps ends before what moves with it has crossed a cell."""
+    """The step in which it jumps ends before material moving with it has crossed a cell."""
     simulation = after(
         mesh(("4 mm", 4), ("60 mm", 60), geometry="planar")
         + walls("r_max", "z_max", z_min="piston", z_min_piston=[[0.0, 0.0], ["20 us", 0.0], ["20.001 us", "5 km/s"]])
@@ -128,7 +129,7 @@ def test_a_source_pushes_what_an_edge_holds(edges, advection):
 
 # ------------------------------------------------------------------------------------------------ the speed limit
 
-#: hot gas, so light beside tungsten that all of its vertices are under-filled, rushes against the edges
+#: hot gas, so light next to tungsten that all of its vertices are under-filled, rushes against the edges
 LIMITED = (
     mesh(("8 mm", 8), ("16 mm", 16))
     + box("block", "W_X21C", r=[0.0, "3.3 mm"], z=["5.6 mm", "10 mm"])
@@ -168,8 +169,8 @@ LATE = entry("source", name="late", kind="heating", body="block", power=[["1 us"
 
 @pytest.mark.parametrize("sliding", ["", contact("ball")], ids=["bonded", "contact"])
 @pytest.mark.parametrize("source", ["", LATE], ids=["cold", "heated"])
-def test_what_is_at_rest_adds_up(source, sliding):
-    """Round-off of the stresses is no share of an energy that is not there."""
+def test_bodies_at_rest_add_up(source, sliding):
+    """Round-off of the stresses is not measured against an energy of zero."""
     simulation = Simulation(decks.loads(AT_REST + source + sliding))
     while simulation.time < 1.5e-6:
         simulation.engine.advance()
@@ -182,12 +183,12 @@ def test_what_is_at_rest_adds_up(source, sliding):
 
 
 @pytest.mark.parametrize(("edge", "sliding"), sorted({(each.edge, each.sliding) for each in audited.all_choices()}))
-def test_every_choice_beside_every_other(edge, sliding):
+def test_every_choice_with_every_other(edge, sliding):
     """Edges of all kinds, sliding, advection, sources, a mesh that follows."""
-    found = {}
+    errors = {}
     for choices in audited.all_choices():
         if (choices.edge, choices.sliding) == (edge, sliding):
             text = audited.deck(202, choices)
-            found[choices] = (unexplained_by_sound(after(text, 60)), text)
-    bounds = {choices: CLOSES_BESIDE_PRODUCTS if choices.source == "detonation" else CLOSES for choices in found}
-    assert {choices: result for choices, result in found.items() if not result[0] < bounds[choices]} == {}
+            errors[choices] = (unexplained_by_sound(after(text, 60)), text)
+    bounds = {choices: CLOSES_BESIDE_PRODUCTS if choices.source == "detonation" else CLOSES for choices in errors}
+    assert {choices: result for choices, result in errors.items() if not result[0] < bounds[choices]} == {}

@@ -1,4 +1,4 @@
-"""What is measured of every body, and at tracers and gauges."""
+"""Measurements of every body, and at tracers and gauges."""
 
 import math
 import re
@@ -26,7 +26,7 @@ DECK = (
     + entry("gauge", name="void", r="15 mm", z="-10 mm")
     + stop("10 us")
 )
-#: fields, and the quantities of stations that are the same
+#: fields, and the equal quantities of stations
 SAME = {"pressure": "pressure_Pa", "density": "density_kg_m3", "temperature": "temperature_K", "von_mises": "von_mises_Pa",
         "plastic_strain": "plastic_strain"}  # fmt: skip
 MASS = 4.0 / 3.0 * math.pi * 0.005**3 * 18160.0
@@ -45,13 +45,13 @@ def struck() -> Simulation:
 
 
 def test_a_ball_before_the_impact():
-    found = bodies.measure(started())["ball"]
-    assert found["mass_kg"] == pytest.approx(MASS, rel=1e-12)
-    assert found["momentum_N_s"] == pytest.approx(800.0 * MASS, rel=1e-12)
-    assert found["kinetic_energy_J"] == pytest.approx(0.5 * MASS * 800.0**2, rel=1e-12)
-    assert found["velocity_m_s"] == pytest.approx(800.0, rel=1e-12)
-    assert [found[key] for key in ("failed_mass_kg", "outflow_kg", "inflow_kg")] == [0.0, 0.0, 0.0]
-    ends = [found[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")]
+    measurement = bodies.measure(started())["ball"]
+    assert measurement["mass_kg"] == pytest.approx(MASS, rel=1e-12)
+    assert measurement["momentum_N_s"] == pytest.approx(800.0 * MASS, rel=1e-12)
+    assert measurement["kinetic_energy_J"] == pytest.approx(0.5 * MASS * 800.0**2, rel=1e-12)
+    assert measurement["velocity_m_s"] == pytest.approx(800.0, rel=1e-12)
+    assert [measurement[key] for key in ("failed_mass_kg", "outflow_kg", "inflow_kg")] == [0.0, 0.0, 0.0]
+    ends = [measurement[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")]
     assert ends == pytest.approx([0.0, 5e-3, -11.3e-3, -1.3e-3], abs=0.1e-3)
 
 
@@ -80,33 +80,33 @@ def test_a_body_may_have_the_name_of_a_table():
 
 
 def test_the_extent_of_a_plate_between_faces():
-    found = bodies.measure(started(0, 'body.plate.thickness="10.13 mm"'))["plate"]
-    assert [found[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")] == pytest.approx([0.0, 0.02, 0.0, 10.13e-3])
+    plate = bodies.measure(started(0, 'body.plate.thickness="10.13 mm"'))["plate"]
+    assert [plate[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")] == pytest.approx([0.0, 0.02, 0.0, 10.13e-3])
 
 
 def test_bodies_have_the_momentum_of_the_vertices(struck):
-    found, whole, s, g = bodies.measure(struck), np.zeros(2), struck.state, struck.grid
+    measured, whole, s, g = bodies.measure(struck), np.zeros(2), struck.state, struck.grid
     sums.vertex_totals(g.g, g.nz, g.nr, s.mass, s.u, s.v, whole)
     momentum, kinetic = (2.0 * math.pi * whole).tolist()
-    assert sum(body["momentum_N_s"] for body in found.values()) == pytest.approx(momentum, rel=1e-12)
-    assert sum(body["kinetic_energy_J"] for body in found.values()) == pytest.approx(kinetic, rel=1e-12)
-    assert found["plate"]["velocity_m_s"] > 0.0
+    assert sum(body["momentum_N_s"] for body in measured.values()) == pytest.approx(momentum, rel=1e-12)
+    assert sum(body["kinetic_energy_J"] for body in measured.values()) == pytest.approx(kinetic, rel=1e-12)
+    assert measured["plate"]["velocity_m_s"] > 0.0
 
 
-def test_what_leaves_the_mesh_is_counted():
+def test_outflow_from_the_mesh_is_counted():
     sim = started(0, "mesh.z=[{ to = '-2 mm', cells = 26 }]", "gauge=[]", "body=[{ name = 'ball', material = 'W_alloy', "
                   "shape = 'sphere', centre = [0.0, '-7.5 mm'], radius = '5 mm', velocity = '800 m/s' }]")
     while sim.time < 4e-6:
         sim.step()
-    found = bodies.measure(sim)["ball"]
-    assert found["outflow_kg"] > 0.05 * MASS
-    assert found["mass_kg"] + found["outflow_kg"] == pytest.approx(MASS, rel=1e-9)
+    measurement = bodies.measure(sim)["ball"]
+    assert measurement["outflow_kg"] > 0.05 * MASS
+    assert measurement["mass_kg"] + measurement["outflow_kg"] == pytest.approx(MASS, rel=1e-9)
 
 
 def test_stations_have_what_the_fields_have(struck):
-    cells, found = dict(derived.evaluated(struck)), struck.stations.measure()
+    cells, measurement = dict(derived.evaluated(struck)), struck.stations.measure()
     for name in ("tracer_mid", "gauge_line_1", "gauge_line_3"):
-        station = found[name]
+        station = measurement[name]
         j = int(np.searchsorted(struck.grid.z_edges, station["z_m"])) - 1
         at = {key: cells[quantities.BY_KEY[key].name()][j, 0] for key in (*SAME, "stress_zz", "stress_tt", "deviator_zz")}
         assert [station[SAME[key]] for key in SAME] == pytest.approx([at[key] for key in SAME], rel=1e-12)
@@ -117,10 +117,10 @@ def test_stations_have_what_the_fields_have(struck):
 
 
 def test_tracers_move_and_gauges_stand(struck):
-    found = struck.stations.measure()
-    assert found["tracer_mid"]["z_m"] > -4e-3
-    assert [found[f"gauge_line_{n}"]["z_m"] for n in (1, 2, 3)] == pytest.approx([1.2e-3, 5.2e-3, 9.2e-3])
-    assert found["gauge_void"]["density_kg_m3"] == 0.0
+    measurement = struck.stations.measure()
+    assert measurement["tracer_mid"]["z_m"] > -4e-3
+    assert [measurement[f"gauge_line_{n}"]["z_m"] for n in (1, 2, 3)] == pytest.approx([1.2e-3, 5.2e-3, 9.2e-3])
+    assert measurement["gauge_void"]["density_kg_m3"] == 0.0
 
 
 def test_the_shock_reaches_one_gauge_after_the_other():
@@ -151,7 +151,7 @@ def test_peaks_and_places_are_in_the_restart():
     assert second.stations.places.tobytes() == whole.stations.places.tobytes()
 
 
-def test_what_is_no_number_is_no_peak():
+def test_a_nan_is_no_peak():
     peaks = np.array([station_columns.NO_PEAKS])
     tracers.keep_peaks(1.0, np.full((1, len(station_columns.QUANTITIES)), np.nan), peaks)
     assert peaks.tobytes() == np.array([station_columns.NO_PEAKS]).tobytes()
@@ -167,36 +167,36 @@ def test_what_is_no_number_is_no_peak():
          'the name "a" is already used by an earlier gauge'),
     ],
 )
-def test_a_wrong_gauge_is_told(gauge, said):
+def test_a_wrong_gauge_is_reported(gauge, said):
     with pytest.raises(DeckError, match=said):
         decks.loads(DECK, [f"gauge=[{gauge}]"])
 
 
 def test_the_radii_of_the_ends_and_the_length_of_a_body(struck):
-    """A cone of cells, wide below; its length is that of its rows, and the length at the start is kept."""
+    """A cone of cells, wide below; its length is that of its rows, and the length at the start is stored."""
     sim = started(0, 'body.plate.thickness="10 mm"')
     r, z = np.meshgrid(sim.grid.rc[sim.grid.inside[1]], sim.grid.zc[sim.grid.inside[0]])
     sim.grid.interior(sim.state.vof)[0] = (z > 0.0) & (z < 8e-3) & (r < 10e-3 - z)
-    found = bodies.measure(sim)["ball"]
-    assert found["radius_at_z_min_m"] == pytest.approx(9.5e-3)
-    assert found["radius_at_z_max_m"] == pytest.approx(2e-3)
-    assert found["length_m"] == pytest.approx(8e-3)
-    assert found["initial_length_m"] == pytest.approx(10e-3, abs=0.2e-3)
-    assert bodies.measure(struck)["ball"]["length_m"] < found["initial_length_m"]
+    measurement = bodies.measure(sim)["ball"]
+    assert measurement["radius_at_z_min_m"] == pytest.approx(9.5e-3)
+    assert measurement["radius_at_z_max_m"] == pytest.approx(2e-3)
+    assert measurement["length_m"] == pytest.approx(8e-3)
+    assert measurement["initial_length_m"] == pytest.approx(10e-3, abs=0.2e-3)
+    assert bodies.measure(struck)["ball"]["length_m"] < measurement["initial_length_m"]
 
 
 # ----------------------------------------------------------------------------------------- bodies narrower than a cell
 
 
 def thin(shape: str, planar: bool = False, cycles: int = 0) -> dict[str, float]:
-    """What is measured of a body on cells of 0.1 mm that flies at 1000 m/s, and how far it has flown, in mm."""
+    """Measurements of a body on cells of 0.1 mm that flies at 1000 m/s, and the distance flown, in mm."""
     kind = {"geometry": "planar"} if planar else {}
     sim = Simulation(decks.loads(mesh(("1 mm", 10), ("4 mm", 40), **kind) + shape + stop("10 us")))
     for _ in range(cycles):
         sim.step()
-    found = {name: None if value is None else 1e3 * value for name, value in bodies.measure(sim)["thin"].items()
-             if name.endswith("_m")}
-    return found | {"way": 1e6 * sim.time}
+    lengths = {name: None if value is None else 1e3 * value for name, value in bodies.measure(sim)["thin"].items()
+               if name.endswith("_m")}
+    return lengths | {"way": 1e6 * sim.time}
 
 
 def flying(low: float, high: float, inner: float, outer: float) -> str:
@@ -207,31 +207,31 @@ def flying(low: float, high: float, inner: float, outer: float) -> str:
 @pytest.mark.parametrize("cycles", [0, 150])
 @pytest.mark.parametrize(("low", "high"), [(1.03, 1.06), (1.085, 1.115), (1.04, 1.08)], ids=["inside", "astride", "wider"])
 def test_a_foil_has_an_extent(low, high, cycles, planar):
-    found = thin(flying(low, high, 0.0, 0.4), planar, cycles)
-    assert found["way"] > 0.5 or cycles == 0
-    z = [found["z_min_m"] - found["way"], found["z_max_m"] - found["way"]]
+    extent = thin(flying(low, high, 0.0, 0.4), planar, cycles)
+    assert extent["way"] > 0.5 or cycles == 0
+    z = [extent["z_min_m"] - extent["way"], extent["z_max_m"] - extent["way"]]
     assert z == pytest.approx([low, high], abs=2e-3)
-    assert found["length_m"] == pytest.approx(high - low, abs=2e-3)
-    assert found["initial_length_m"] == pytest.approx(high - low, abs=1e-9)
-    assert [found["r_min_m"], found["r_max_m"]] == pytest.approx([0.0, 0.4], abs=2e-3)
-    assert found["radius_at_z_min_m"] == pytest.approx(0.4, abs=2e-3)
+    assert extent["length_m"] == pytest.approx(high - low, abs=2e-3)
+    assert extent["initial_length_m"] == pytest.approx(high - low, abs=1e-9)
+    assert [extent["r_min_m"], extent["r_max_m"]] == pytest.approx([0.0, 0.4], abs=2e-3)
+    assert extent["radius_at_z_min_m"] == pytest.approx(0.4, abs=2e-3)
 
 
 @pytest.mark.parametrize("planar", [False, True])
 def test_a_coat_has_an_extent(planar):
-    found = thin(flying(1.03, 2.06, 0.33, 0.36), planar)
-    ends = [found[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")]
+    extent = thin(flying(1.03, 2.06, 0.33, 0.36), planar)
+    ends = [extent[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")]
     assert ends == pytest.approx([0.33, 0.36, 1.03, 2.06], abs=1e-9)
 
 
 def test_a_ball_of_less_than_a_cell_has_an_extent():
-    """Its box has its volume: 0.04 mm of radius are within a tenth of a cell."""
-    found = thin(body("thin", "Al5083", "sphere", centre="1.05 mm", radius="0.04 mm", velocity="1000 m/s"))
-    assert found["r_max_m"] == pytest.approx(0.04, abs=0.01)
-    assert [found["z_min_m"], found["z_max_m"]] == pytest.approx([1.01, 1.09], abs=0.01)
+    """The box around it has its volume: its radius of 0.04 mm is correct to a tenth of a cell."""
+    extent = thin(body("thin", "Al5083", "sphere", centre="1.05 mm", radius="0.04 mm", velocity="1000 m/s"))
+    assert extent["r_max_m"] == pytest.approx(0.04, abs=0.01)
+    assert [extent["z_min_m"], extent["z_max_m"]] == pytest.approx([1.01, 1.09], abs=0.01)
 
 
 def test_a_crumb_has_no_extent():
-    found = thin(flying(1.0, 1.0 + 0.99e-3, 0.0, 0.4))
-    assert {found[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m", "length_m", "radius_at_z_max_m")} == {None}
+    extent = thin(flying(1.0, 1.0 + 0.99e-3, 0.0, 0.4))
+    assert {extent[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m", "length_m", "radius_at_z_max_m")} == {None}
     assert thin(flying(1.0, 1.0 + 1.01e-3, 0.0, 0.4))["length_m"] == pytest.approx(1.01e-3)

@@ -41,14 +41,14 @@ def one_velocity():
 
 
 def set_velocities(simulation, rest, hard):
-    """Uniform (u, v) of both groups; nan for the hard ones at vertices of no cell that holds them."""
+    """Uniform (u, v) of both groups; nan for the hard ones at vertices whose cells contain none of them."""
     s = simulation.state
     s.u[0], s.v[0] = rest
-    held = np.zeros(simulation.grid.vertex_shape, dtype=bool)
+    constrained = np.zeros(simulation.grid.vertex_shape, dtype=bool)
     there = s.vof[0] > 0
-    for corner in (held[:-1, :-1], held[1:, :-1], held[:-1, 1:], held[1:, 1:]):
+    for corner in (constrained[:-1, :-1], constrained[1:, :-1], constrained[:-1, 1:], constrained[1:, 1:]):
         corner |= there
-    s.u[1], s.v[1] = (np.where(held, value, np.nan) for value in hard)
+    s.u[1], s.v[1] = (np.where(constrained, value, np.nan) for value in hard)
 
 
 def centre(simulation, cell):
@@ -77,16 +77,16 @@ def test_method_of_a_slip_layer():
 
 
 def test_check_prints_the_contact_and_counts_its_memory():
-    found = check.check(deck.loads(TEXT))
-    assert "sliding   contact; hard: rod; friction 0.1, yield factor 1.25" in found.lines(1)
+    checked = check.check(deck.loads(TEXT))
+    assert "sliding   contact; hard: rod; friction 0.1, yield factor 1.25" in checked.lines(1)
     without = check.check(deck.loads(TEXT, ["sliding.method=none", "sliding.friction=0"]))
     assert "sliding   none" in without.lines(1)
     state = Simulation(deck.loads(TEXT)).state
     others = "group", "rules", "initial"
     arrays = [array for name, array in vars(state).items() if isinstance(array, np.ndarray) and name not in others]
-    assert found.memory == sum(array.nbytes for array in arrays if array.base is None)
+    assert checked.memory == sum(array.nbytes for array in arrays if array.base is None)
     vertices = (16 + 4 + 1) * (8 + 4 + 1)
-    assert found.memory > without.memory + 5 * 8 * vertices  # a second velocity at both ends of the step, and its mass
+    assert checked.memory > without.memory + 5 * 8 * vertices  # a second velocity at both ends of the step, and its mass
 
 
 def test_each_group_starts_with_its_own_momentum(contact):
@@ -99,7 +99,7 @@ def test_each_group_starts_with_its_own_momentum(contact):
     np.testing.assert_allclose(v[1, j:j + 2, i:i + 2], 1000.0, rtol=1e-14)
     np.testing.assert_allclose(v[0, j:j + 2, i:i + 2], -50.0, rtol=1e-14)
     np.testing.assert_allclose(u[1, j:j + 2, i:i + 2], 3.0, rtol=1e-14)
-    surface = 12  # above it the backing, below it the plate, with cells of one size
+    surface = 12  # the backing above it, the plate below, with cells of one size
     w_plate, w_backing = (grid.interior(state.rho[m])[surface - 2 + m, 4] for m in (1, 2))
     mean = (w_plate * -50.0 + w_backing * 20.0) / (w_plate + w_backing)
     np.testing.assert_allclose(v[0, surface], mean, rtol=1e-14)
@@ -159,7 +159,7 @@ def test_a_point_moves_with_the_group_that_fills_its_cell(contact, share, expect
 
 @pytest.mark.parametrize(("own", "moved"), [(1, 2.0), (0, 1.0), (-1, 1.0)])
 def test_a_tracer_stays_with_the_group_that_it_began_in(contact, own, moved):
-    """A rod that fills a third of the cell: a tracer in it does not go with the plate."""
+    """A rod that fills a third of the cell: a tracer in it does not move with the plate."""
     contact.state.vof[:, CUT[0] + 2, CUT[1] + 2] = 0.3, 0.7, 0.0
     set_velocities(contact, (0.0, 1.0), (0.0, 2.0))
     points = np.array([centre(contact, CUT)])
@@ -175,7 +175,7 @@ def test_tracers_have_the_group_of_the_body_in_which_they_begin():
 
 
 def test_a_tracer_without_a_body_changes_its_group_with_its_place(contact):
-    """Half a step at the velocity of the plate takes the point into the rod, with which it moves the whole step."""
+    """Half a step at the velocity of the plate takes the point into the rod, with which it moves for the whole step."""
     set_velocities(contact, (0.0, -1.0), (0.0, -2.0))
     contact.state.vof[:2, CUT[0] + 2] = 0.0
     contact.state.vof[1, CUT[0] + 2] = 1.0
@@ -187,8 +187,8 @@ def test_a_tracer_without_a_body_changes_its_group_with_its_place(contact):
 
 def test_nose_and_tail_have_the_velocity_of_the_rod(contact):
     set_velocities(contact, (0.0, 100.0), (0.0, 900.0))
-    found = contact.diagnostics()
-    assert [found[f"rod_{of}_velocity_m_s"] for of in ("nose", "tail", "mean")] == pytest.approx([900.0] * 3, rel=1e-13)
+    diagnostics = contact.diagnostics()
+    assert [diagnostics[f"rod_{of}_velocity_m_s"] for of in ("nose", "tail", "mean")] == pytest.approx([900.0] * 3, rel=1e-13)
     soft_rod = started('sliding.hard=["backing"]')
     soft_rod.state.v[0], soft_rod.state.v[1] = 100.0, 900.0
     assert soft_rod.diagnostics()["rod_nose_velocity_m_s"] == 100.0
@@ -198,8 +198,8 @@ def test_fields_of_a_contact(contact):
     state, grid = contact.state, contact.grid
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     state.contact_pressure[CUT[0] + grid.g, CUT[1] + grid.g] = 2e9
-    found = derived.evaluate(contact, ["standard"])
-    velocity, hard, soft = (found[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
+    fields = derived.evaluate(contact, ["standard"])
+    velocity, hard, soft = (fields[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
     assert velocity.shape == hard.shape == soft.shape == (16, 8, 3)
     assert [hard[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[7, 900, 0], [7, 900, 0], [0, 0, 0], [0, 0, 0]]
     assert [soft[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[0, 0, 0], [5, 100, 0], [5, 100, 0], [0, 0, 0]]
@@ -207,12 +207,12 @@ def test_fields_of_a_contact(contact):
     mean = [(rod * of_rod + plate * of_plate) / (rod + plate) for of_rod, of_plate in ((7.0, 5.0), (900.0, 100.0))]
     np.testing.assert_allclose(velocity[CUT], [*mean, 0.0], rtol=1e-12)
     assert (velocity[PURE].tolist(), velocity[PLATE].tolist()) == ([7, 900, 0], [5, 100, 0])
-    np.testing.assert_array_equal(found["Share of Hard Bodies"], found["Volume Fraction for rod"])
-    pressure = found["Contact Pressure [Pa]"]
+    np.testing.assert_array_equal(fields["Share of Hard Bodies"], fields["Volume Fraction for rod"])
+    pressure = fields["Contact Pressure [Pa]"]
     assert pressure.shape == (16, 8)
     assert pressure[CUT] == pressure.sum() == 2e9
     state.contact_pressure[...] = 0.0
-    assert pressure[CUT] == 2e9  # what was evaluated is not a view of the state
+    assert pressure[CUT] == 2e9  # the evaluated pressure is not a view of the state
 
 
 def test_fields_of_a_contact_are_written_only_there(contact):

@@ -1,4 +1,4 @@
-"""The course of every body: its centre of mass goes where its momentum takes it, through edges of the mesh as well."""
+"""The course of every body: its centre of mass follows its momentum, through edges of the mesh as well."""
 
 import numpy as np
 import pytest
@@ -21,12 +21,12 @@ def foil(speed: float = 1000.0) -> str:
 
 
 def run(simulation: Simulation, end: float) -> np.ndarray:
-    """How far off the bodies are at the most, in cells."""
+    """Largest deviation of the bodies, in cells."""
     most = np.zeros_like(simulation.engine.courses.apart)
     while simulation.time < end:
         simulation.step()
         np.maximum(most, np.abs(simulation.engine.courses.apart), out=most)
-    assert simulation.cycle > 20  # and was looked at every ten cycles
+    assert simulation.cycle > 20  # and was checked every ten cycles
     return most
 
 
@@ -45,8 +45,8 @@ def test_a_ring_is_on_its_course_along_r():
     assert simulation.engine.courses._way[0, 0] > 1.0
 
 
-def test_what_goes_out_through_the_edges_takes_its_part_along():
-    """Half of a block leaves through the upper edge, and a fifth of another through the outer one."""
+def test_outflow_through_the_edges_takes_its_share_along():
+    """Half of a block leaves through the upper edge, and a fifth of another one through the outer edge."""
     upward = box("upward", "Al5083", r=["0 mm", "0.5 mm"], z=["3 mm", "4 mm"], velocity="1000 m/s")
     outward = box("outward", "Al5083", r=["0.5 mm", "1 mm"], z=["1 mm", "2 mm"], velocity=["1000 m/s", "0 m/s"])
     simulation = shot(PLAIN[1], upward, outward)
@@ -55,7 +55,7 @@ def test_what_goes_out_through_the_edges_takes_its_part_along():
     assert (lost > 0.2).all()
 
 
-def test_what_a_travelling_mesh_meets_comes_in_at_its_place():
+def test_bodies_that_a_travelling_mesh_meets_enter_in_place():
     follow = mesh(("1 mm", 10), ("4 mm", 40), follow="rod")
     rod = box("rod", "W_alloy", r=["0 mm", "0.4 mm"], z=["0.5 mm", "1.5 mm"], velocity="1000 m/s")
     ahead = box("ahead", "Al5083", r=["0 mm", "1 mm"], z=["3.03 mm", "9 mm"])

@@ -1,4 +1,4 @@
-"""The hole in the target: of known shapes, on a mesh that travels, through a restart, and of a short shot."""
+"""The hole in the target: of known shape, on a mesh that travels, through a restart, and of a short shot."""
 
 import json
 
@@ -24,7 +24,7 @@ TEXT = (
     + plate("24 mm")
     + stop("1 us")
 )
-#: the same, flying to -z
+#: as above, but flying to -z
 BACK = ['body.rod.tip="0.3 mm"', "body.rod.direction=-1", 'body.rod.velocity="-1 km/s"', 'body.plate.z_front="-24 mm"',
         'mesh.z_start="-30 mm"', 'mesh.z.0.to="10 mm"']  # fmt: skip
 PLANAR = ['mesh.geometry="planar"', 'boundaries.r_min="wall"']
@@ -69,15 +69,15 @@ def test_a_cylinder(options, bottom, radius):
     """Radius, volume and depth are exact wherever walls and bottom cut their cells."""
     sim = simulation(*options)
     carve(sim, *cylinder(bottom, radius))
-    found = sim.craters[0].measure()
-    assert found["entrance_diameter_m"] == pytest.approx(2 * radius, rel=1e-9)
-    assert found["mean_diameter_m"] == pytest.approx(2 * radius, rel=1e-9)
-    assert found["volume_m3"] == pytest.approx(np.pi * radius**2 * bottom, rel=1e-9)
-    assert found["depth_m"] == pytest.approx(bottom, rel=1e-9)
-    z, found = sim.craters[0].profile()
+    measured = sim.craters[0].measure()
+    assert measured["entrance_diameter_m"] == pytest.approx(2 * radius, rel=1e-9)
+    assert measured["mean_diameter_m"] == pytest.approx(2 * radius, rel=1e-9)
+    assert measured["volume_m3"] == pytest.approx(np.pi * radius**2 * bottom, rel=1e-9)
+    assert measured["depth_m"] == pytest.approx(bottom, rel=1e-9)
+    z, measured = sim.craters[0].profile()
     assert np.all(np.diff(depths(sim, z)) > 0)
-    np.testing.assert_allclose(found[:20], radius, rtol=1e-9)
-    assert len(found) == np.ceil(round(bottom / 0.5e-3, 6))
+    np.testing.assert_allclose(measured[:20], radius, rtol=1e-9)
+    assert len(measured) == np.ceil(round(bottom / 0.5e-3, 6))
 
 
 @pytest.mark.parametrize("options", [(), BACK], ids=["to +z", "to -z"])
@@ -93,21 +93,21 @@ def test_a_hole_right_through(options):
     s, own = sim.state, sim.grid.interior(sim.state.rho)[1]
     own[plug, :6] = 2660.0
     s.v[...] = sign * 300.0
-    found = sim.craters[0].measure()
-    assert found["depth_m"] == 24e-3
-    assert found["entrance_diameter_m"] == pytest.approx(5e-3, rel=0.02)
-    assert found["exit_diameter_m"] == pytest.approx(8e-3, rel=0.02)
-    assert found["ejected_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 2e-3 * 2660.0, rel=1e-9)
-    assert found["ejected_velocity_m_s"] == pytest.approx(sign * 300.0, rel=1e-9)
+    hole = sim.craters[0].measure()
+    assert hole["depth_m"] == 24e-3
+    assert hole["entrance_diameter_m"] == pytest.approx(5e-3, rel=0.02)
+    assert hole["exit_diameter_m"] == pytest.approx(8e-3, rel=0.02)
+    assert hole["ejected_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 2e-3 * 2660.0, rel=1e-9)
+    assert hole["ejected_velocity_m_s"] == pytest.approx(sign * 300.0, rel=1e-9)
 
 
 def test_a_plate_that_has_bent():
-    """Its face leans by more than 45 degrees from 11 mm in; the hole begins where the wall is upright."""
+    """Its face is inclined by more than 45 degrees from 11 mm in; the hole begins where the wall is upright."""
     sim = simulation()
     carve(sim, (3e-3, 24e-3), (RADIUS, 4e-3), (11e-3, 0.0))
-    found = sim.craters[0].measure()
-    assert found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.05)
-    assert found["exit_diameter_m"] == pytest.approx(6e-3, rel=0.02)
+    hole = sim.craters[0].measure()
+    assert hole["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.05)
+    assert hole["exit_diameter_m"] == pytest.approx(6e-3, rel=0.02)
 
 
 THICKNESS = 6e-3
@@ -128,7 +128,7 @@ def dish(sim, bend, *hole):
 
 
 def bowl(depth):
-    """A dish that falls off from the axis, so deep there, its slope below 45 degrees."""
+    """A dish that slopes from the axis, where it is this deep, by less than 45 degrees."""
     return lambda r: depth * (1.0 - np.sin(0.5 * np.pi * r / 11.9e-3))
 
 
@@ -139,12 +139,12 @@ THIN_BACK = [*BACK, *THIN, 'body.plate.z_front="-6 mm"']
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
 @pytest.mark.parametrize("depth", [0.2e-3, 1.4e-3, 4.9e-3])
 def test_a_dish_is_no_hole(depth, options):
-    """A plate that has bent as a whole lacks nothing, and nothing of it has been ejected."""
+    """A plate bent as a whole has no missing material and has ejected none."""
     sim = simulation(*options)
     dish(sim, bowl(depth))
-    found = sim.craters[0].measure()
-    assert (found["entrance_diameter_m"], found["exit_diameter_m"], found["mean_diameter_m"]) == (0.0, None, None)
-    assert (found["depth_m"], found["volume_m3"], found["ejected_mass_kg"]) == pytest.approx((0.0, 0.0, 0.0), abs=1e-20)
+    hole = sim.craters[0].measure()
+    assert (hole["entrance_diameter_m"], hole["exit_diameter_m"], hole["mean_diameter_m"]) == (0.0, None, None)
+    assert (hole["depth_m"], hole["volume_m3"], hole["ejected_mass_kg"]) == pytest.approx((0.0, 0.0, 0.0), abs=1e-20)
     assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
 
 
@@ -153,31 +153,31 @@ def test_a_dish_is_no_hole(depth, options):
 def test_a_hole_through_a_dish_is_the_hole(depth, options):
     sim = simulation(*options)
     dish(sim, bowl(depth), (0.0, THICKNESS), (RADIUS, THICKNESS), (RADIUS + 1e-6, 0.0))
-    found = sim.craters[0].measure()
+    hole = sim.craters[0].measure()
     for key in ("entrance_diameter_m", "exit_diameter_m", "mean_diameter_m"):
-        assert found[key] == pytest.approx(2 * RADIUS, rel=0.03)
-    assert found["depth_m"] == pytest.approx(THICKNESS)
-    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * THICKNESS, rel=0.06)
+        assert hole[key] == pytest.approx(2 * RADIUS, rel=0.03)
+    assert hole["depth_m"] == pytest.approx(THICKNESS)
+    assert hole["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * THICKNESS, rel=0.06)
 
 
 @pytest.mark.parametrize("depth", [0.0, 0.2e-3, 1.4e-3, 4.9e-3])
 def test_a_dent_in_a_dish_is_the_dent(depth):
-    """A dent of 2.2 mm with a flat bottom, also where the dish around it is deeper than the dent."""
+    """A dent of 2.2 mm with a flat bottom, even where the dish around it is deeper than the dent."""
     sim = simulation(*THIN)
     dish(sim, bowl(depth), (0.0, 2.2e-3), (RADIUS, 2.2e-3), (RADIUS + 1e-6, 0.0))
-    found = sim.craters[0].measure()
-    assert found["depth_m"] == pytest.approx(2.2e-3, abs=0.25e-3)
-    assert found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.06)
-    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * 2.2e-3, rel=0.1)
+    hole = sim.craters[0].measure()
+    assert hole["depth_m"] == pytest.approx(2.2e-3, abs=0.25e-3)
+    assert hole["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=0.06)
+    assert hole["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * 2.2e-3, rel=0.1)
 
 
 def test_a_thick_target_is_measured_as_it_lies():
-    """Its rear has not moved, or is not in the mesh: nothing is moved back, to the last bit, lip and crater as they are."""
+    """Its rear has not moved, or is not in the mesh: nothing is moved back, to the last bit, lip and crater included."""
     for options in ((), ['body.plate.thickness="60 mm"']):
         sim = simulation(*options)
         carve(sim, (0.0, 9.3e-3), (RADIUS, 7.1e-3), (4.4e-3, 0.0), lip=1.3e-3)
-        for found, before in zip(sim.craters[0]._unbent(walls := sim.craters[0]._walls()), walls, strict=True):
-            np.testing.assert_array_equal(found, before)
+        for walls_after, before in zip(sim.craters[0]._unbent(walls := sim.craters[0]._walls()), walls, strict=True):
+            np.testing.assert_array_equal(walls_after, before)
 
 
 def test_a_bulge_closes_the_hole():
@@ -188,24 +188,24 @@ def test_a_bulge_closes_the_hole():
 
 
 def test_a_cone():
-    """Each row has the area of its part of the cone; of the tip only the last millimetre, thinner than a cell, is lost."""
+    """Each row has the area of its part of the cone; only the last millimetre of the tip, thinner than a cell, is lost."""
     sim = simulation()
     carve(sim, (0.0, 15.2e-3), (5.1e-3, 0.0))
     z, radius = sim.craters[0].profile()
     np.testing.assert_allclose(radius[:24], (5.1e-3 * (1 - z / 15.2e-3))[:24], atol=0.02e-3)
-    found = sim.craters[0].measure()
-    assert found["volume_m3"] == pytest.approx(np.pi / 3 * 5.1e-3**2 * 15.2e-3, rel=1e-3)
-    assert found["depth_m"] == pytest.approx(15.2e-3, abs=1.2e-3)
-    assert found["mean_diameter_m"] == pytest.approx(2 * 5.1e-3 / np.sqrt(3), rel=0.04)
+    hole = sim.craters[0].measure()
+    assert hole["volume_m3"] == pytest.approx(np.pi / 3 * 5.1e-3**2 * 15.2e-3, rel=1e-3)
+    assert hole["depth_m"] == pytest.approx(15.2e-3, abs=1.2e-3)
+    assert hole["mean_diameter_m"] == pytest.approx(2 * 5.1e-3 / np.sqrt(3), rel=0.04)
 
 
 def test_planar():
-    """The radius is the width of the slot's half, the volume that of the half per metre."""
+    """The radius is the half-width of the slot, the volume that of the half per metre."""
     sim = simulation(*PLANAR)
     carve(sim, *cylinder(7.2e-3))
-    found = sim.craters[0].measure()
-    assert found["entrance_diameter_m"] == found["mean_diameter_m"] == pytest.approx(2 * RADIUS, rel=1e-9)
-    assert found["volume_m3"] == pytest.approx(RADIUS * 7.2e-3, rel=1e-9)
+    hole = sim.craters[0].measure()
+    assert hole["entrance_diameter_m"] == hole["mean_diameter_m"] == pytest.approx(2 * RADIUS, rel=1e-9)
+    assert hole["volume_m3"] == pytest.approx(RADIUS * 7.2e-3, rel=1e-9)
     np.testing.assert_allclose(sim.craters[0].profile()[1][:14], RADIUS, rtol=1e-9)
 
 
@@ -237,16 +237,16 @@ def test_a_lip_is_in_the_profile_only():
     z, radius = sim.craters[0].profile()
     assert z[0] == pytest.approx(-1.75e-3)
     assert radius[:4] == pytest.approx(RADIUS + np.array([1.75e-3, 1.25e-3, 0.75e-3, 0.25e-3]), abs=0.02e-3)
-    found = sim.craters[0].measure()
-    assert found["mean_diameter_m"] == found["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=1e-9)
+    hole = sim.craters[0].measure()
+    assert hole["mean_diameter_m"] == hole["entrance_diameter_m"] == pytest.approx(2 * RADIUS, rel=1e-9)
 
 
 def test_a_target_that_is_shot_through():
     sim = simulation()
     carve(sim, (RADIUS, 24e-3), (RADIUS, 0.0))
-    found = sim.craters[0].measure()
-    assert found["depth_m"] == pytest.approx(24e-3)
-    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * 24e-3, rel=1e-9)
+    hole = sim.craters[0].measure()
+    assert hole["depth_m"] == pytest.approx(24e-3)
+    assert hole["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * 24e-3, rel=1e-9)
     assert sim.craters[0].profile()[0][[0, -1]] == pytest.approx([0.25e-3, 23.75e-3])
 
 
@@ -277,12 +277,12 @@ def test_rows_that_leave_the_mesh_are_kept(options):
     assert depth[0] < 0.5e-3
     assert depth[-1] == pytest.approx(20.75e-3)
     np.testing.assert_allclose(radius, radius_at(depth), atol=0.02e-3)
-    found = sim.craters[0].measure()
+    hole = sim.craters[0].measure()
     bottom = radius_at(21e-3)
     whole = np.pi / 3 * 21e-3 * (4e-3**2 + 4e-3 * bottom + bottom**2)
-    assert found["volume_m3"] == pytest.approx(whole, rel=2e-3)
-    assert found["depth_m"] == pytest.approx(21e-3, rel=1e-9)
-    assert found["entrance_diameter_m"] == pytest.approx(8e-3, rel=0.01)
+    assert hole["volume_m3"] == pytest.approx(whole, rel=2e-3)
+    assert hole["depth_m"] == pytest.approx(21e-3, rel=1e-9)
+    assert hole["entrance_diameter_m"] == pytest.approx(8e-3, rel=0.01)
 
 
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
@@ -290,16 +290,16 @@ def test_rows_that_leave_the_mesh_are_kept(options):
     pytest.param(far, marks=pytest.mark.xfail(strict=True, reason="6 % too wide once the mouth is far behind; cause not known"))
     for far in (13.2e-3, 15.1e-3))])  # fmt: skip
 def test_rows_of_a_dish_that_leave_the_mesh(options, end):
-    """A mesh that travels leaves the mouth of the hole in a dished plate behind: what it keeps of it is the hole."""
+    """A mesh that travels leaves the mouth of the hole in a dished plate behind: the stored rows are those of the hole."""
     sim = simulation(*options)
     for offset in np.arange(0.0, end, 0.17e-3):
         sim.grid.move(sim.penetrator.direction * offset)
         dish(sim, bowl(2.3e-3), (0.0, THICKNESS), (RADIUS, THICKNESS), (RADIUS + 1e-6, 0.0))
         sim.craters[0].record()
-    found = sim.craters[0].measure()
+    hole = sim.craters[0].measure()
     for key in ("entrance_diameter_m", "exit_diameter_m", "mean_diameter_m"):
-        assert found[key] == pytest.approx(2 * RADIUS, rel=0.03)
-    assert found["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * THICKNESS, rel=0.06)
+        assert hole[key] == pytest.approx(2 * RADIUS, rel=0.03)
+    assert hole["volume_m3"] == pytest.approx(np.pi * RADIUS**2 * THICKNESS, rel=0.06)
 
 
 def test_a_mesh_at_rest_records_nothing():
@@ -311,7 +311,7 @@ def test_a_mesh_at_rest_records_nothing():
 
 
 def test_restart():
-    """What a restart file holds, as JSON, continues to the same bits."""
+    """The contents of a restart file, as JSON, continue to the same bits."""
     whole, first, second = simulation(), simulation(), simulation()
     travel(whole, 19e-3)
     offset = travel(first, 14.5e-3, step=0.17e-3)
@@ -338,15 +338,15 @@ def shot(tmp_path_factory):
 
 
 def test_a_shot(shot):
-    found, depth = shot.summary["crater"], shot.summary["penetration_depth_m"]
+    hole, depth = shot.summary["crater"], shot.summary["penetration_depth_m"]
     assert depth > 1e-3
-    assert found["depth_m"] == pytest.approx(depth, abs=0.25e-3)
-    assert 2.0e-3 < 0.5 * found["entrance_diameter_m"] < 4e-3
-    assert found["volume_m3"] == pytest.approx(np.pi / 4 * found["mean_diameter_m"] ** 2 * found["depth_m"])
+    assert hole["depth_m"] == pytest.approx(depth, abs=0.25e-3)
+    assert 2.0e-3 < 0.5 * hole["entrance_diameter_m"] < 4e-3
+    assert hole["volume_m3"] == pytest.approx(np.pi / 4 * hole["mean_diameter_m"] ** 2 * hole["depth_m"])
     z, radius = shot.crater
     assert np.all(np.diff(z) > 0)
     assert abs(z[-1] - depth) < 0.5e-3
-    assert radius[z > 0][0] == pytest.approx(0.5 * found["entrance_diameter_m"])
+    assert radius[z > 0][0] == pytest.approx(0.5 * hole["entrance_diameter_m"])
 
 
 def test_the_history_has_it_as_a_group(shot):

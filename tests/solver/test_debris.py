@@ -1,4 +1,4 @@
-"""What flies behind a plate: masses, speeds, angles and fragments of bodies that are there from the start."""
+"""Debris behind a plate: masses, speeds, angles and fragments of bodies present from the start."""
 
 import math
 
@@ -63,56 +63,56 @@ def debris(*overrides):
 
 
 def test_the_totals():
-    found = debris()["plate"].totals
-    assert found["mass_kg"] == pytest.approx(PLUG + RING, rel=1e-12)
-    assert found["momentum_N_s"] == pytest.approx(300.0 * PLUG + 100.0 * RING, rel=1e-12)
-    assert found["kinetic_energy_J"] == pytest.approx(0.5 * (300.0**2 * PLUG + 2.0 * 100.0**2 * RING), rel=1e-12)
-    assert found["velocity_m_s"] == pytest.approx(found["momentum_N_s"] / found["mass_kg"], rel=1e-12)
-    assert found["leading_velocity_m_s"] == pytest.approx(300.0)
-    assert found["cone_angle_rad"] == pytest.approx(math.pi / 4.0)  # the ring is most of the mass
-    assert found["fragments"] == 2
-    assert found["largest_fragment_kg"] == pytest.approx(RING, rel=1e-12)
-    assert found["dust_kg"] == pytest.approx(0.0, abs=1e-15)
+    totals = debris()["plate"].totals
+    assert totals["mass_kg"] == pytest.approx(PLUG + RING, rel=1e-12)
+    assert totals["momentum_N_s"] == pytest.approx(300.0 * PLUG + 100.0 * RING, rel=1e-12)
+    assert totals["kinetic_energy_J"] == pytest.approx(0.5 * (300.0**2 * PLUG + 2.0 * 100.0**2 * RING), rel=1e-12)
+    assert totals["velocity_m_s"] == pytest.approx(totals["momentum_N_s"] / totals["mass_kg"], rel=1e-12)
+    assert totals["leading_velocity_m_s"] == pytest.approx(300.0)
+    assert totals["cone_angle_rad"] == pytest.approx(math.pi / 4.0)  # the ring is most of the mass
+    assert totals["fragments"] == 2
+    assert totals["largest_fragment_kg"] == pytest.approx(RING, rel=1e-12)
+    assert totals["dust_kg"] == pytest.approx(0.0, abs=1e-15)
 
 
 def test_the_distributions_and_the_fragments():
-    found = debris()["plate"]
-    assert found.bodies == ["plug", "ring"]
-    np.testing.assert_allclose(found.by_speed.sum(axis=0), [PLUG, RING], rtol=1e-12)
-    np.testing.assert_allclose(found.by_angle.sum(axis=0), [PLUG, RING], rtol=1e-12)
-    assert found.speeds[np.nonzero(found.by_speed[:, 0])[0][0] + 1] == pytest.approx(300.0)
-    inside = np.nonzero(found.by_angle[:, 1])[0]
-    assert found.angles[inside[0]] <= math.pi / 4.0 + 1e-12 <= found.angles[inside[0] + 1] + 1e-9
-    np.testing.assert_allclose(found.fragments[0], [RING, 9.03e-3, 12.5e-3, 100.0, 100.0], rtol=5e-3)
-    np.testing.assert_allclose(found.fragments[1, 3:], [0.0, 300.0], atol=1e-9)
-    assert found.kinds.tolist() == [1, 0]
+    behind = debris()["plate"]
+    assert behind.bodies == ["plug", "ring"]
+    np.testing.assert_allclose(behind.by_speed.sum(axis=0), [PLUG, RING], rtol=1e-12)
+    np.testing.assert_allclose(behind.by_angle.sum(axis=0), [PLUG, RING], rtol=1e-12)
+    assert behind.speeds[np.nonzero(behind.by_speed[:, 0])[0][0] + 1] == pytest.approx(300.0)
+    inside = np.nonzero(behind.by_angle[:, 1])[0]
+    assert behind.angles[inside[0]] <= math.pi / 4.0 + 1e-12 <= behind.angles[inside[0] + 1] + 1e-9
+    np.testing.assert_allclose(behind.fragments[0], [RING, 9.03e-3, 12.5e-3, 100.0, 100.0], rtol=5e-3)
+    np.testing.assert_allclose(behind.fragments[1, 3:], [0.0, 300.0], atol=1e-9)
+    assert behind.kinds.tolist() == [1, 0]
 
 
 @pytest.mark.parametrize("z", [("8.1 mm", "8.3 mm"), ("8.35 mm", "8.65 mm")], ids=["in a cell", "in two"])
 def test_a_piece_that_is_narrower_than_a_cell_is_a_fragment(z):
-    found = debris(f"body.plug.z={list(z)}")["plate"].totals
-    assert (found["fragments"], found["dust_kg"]) == (2, pytest.approx(0.0, abs=1e-15))
+    totals = debris(f"body.plug.z={list(z)}")["plate"].totals
+    assert (totals["fragments"], totals["dust_kg"]) == (2, pytest.approx(0.0, abs=1e-15))
 
 
 def test_crumbs_are_dust():
-    found = debris('body.plug.z=["8.1 mm", "8.104 mm"]')["plate"].totals
-    assert (found["fragments"], found["dust_kg"]) == (1, pytest.approx(PLUG * 0.002, rel=1e-9))
+    totals = debris('body.plug.z=["8.1 mm", "8.104 mm"]')["plate"].totals
+    assert (totals["fragments"], totals["dust_kg"]) == (1, pytest.approx(PLUG * 0.002, rel=1e-9))
 
 
 def test_the_last_target_has_nothing_behind_it():
-    found = debris()["wall"]
-    assert (found.bodies, found.totals["mass_kg"], found.totals["fragments"]) == ([], 0.0, 0)
-    assert found.totals["velocity_m_s"] is None
-    assert found.by_speed.shape == (40, 0)
+    behind = debris()["wall"]
+    assert (behind.bodies, behind.totals["mass_kg"], behind.totals["fragments"]) == ([], 0.0, 0)
+    assert behind.totals["velocity_m_s"] is None
+    assert behind.by_speed.shape == (40, 0)
 
 
 def test_a_piece_of_a_plate_that_still_holds_is_none():
-    """A plate that reaches beyond its rear face by something joined to it has no debris there."""
-    found = debris("body.plug.join=plate", "body.plug.velocity=0", "body.plug.z=['3 mm', '6 mm']")["plate"]
-    assert found.bodies == ["ring"]
+    """A plate that extends beyond its rear face by something joined to it has no debris there."""
+    behind = debris("body.plug.join=plate", "body.plug.velocity=0", "body.plug.z=['3 mm', '6 mm']")["plate"]
+    assert behind.bodies == ["ring"]
 
 
-def test_what_flies_down_is_counted_along_its_flight():
+def test_debris_that_flies_down_is_counted_along_its_flight():
     turned = DECK
     for old, new in (('centre = "-6.3 mm"', 'centre = "16.3 mm"'), ('velocity = "800 m/s"', 'velocity = "-800 m/s"'),
                      ('z = ["8 mm", "10 mm"]', 'z = ["-6 mm", "-4 mm"]'), ('velocity = "300 m/s"', 'velocity = "-300 m/s"'),
@@ -121,21 +121,21 @@ def test_what_flies_down_is_counted_along_its_flight():
                      ('z_front = "20 mm"', 'z_front = "-14 mm"')):  # fmt: skip
         assert old in turned
         turned = turned.replace(old, new)
-    found = Simulation(decks.loads(turned)).debris()["plate"]
+    behind = Simulation(decks.loads(turned)).debris()["plate"]
     straight = debris()["plate"]
-    assert found.totals == pytest.approx(straight.totals)
-    assert found.fragments[0, 4] == pytest.approx(-100.0)
+    assert behind.totals == pytest.approx(straight.totals)
+    assert behind.fragments[0, 4] == pytest.approx(-100.0)
 
 
-def test_the_file_has_it_beside_the_holes(tmp_path):
+def test_the_file_has_the_debris_as_well_as_the_holes(tmp_path):
     sim, file = Simulation(decks.loads(DECK)), History(tmp_path / "history.h5")
     file.append({"time": 0.0, "P/L": 0.5})
     file.craters, file.debris = sim.holes(), sim.debris()
     file.write()
-    found = read_debris(file.path)
-    assert list(found) == ["plate", "wall"]
-    assert list(found["plate"]["body"]) == ["plug", "ring"]
-    np.testing.assert_array_equal(found["plate"]["mass_by_speed_kg"], file.debris["plate"].by_speed)
-    np.testing.assert_array_equal(found["plate"]["fragment_velocity_z_m_s"], file.debris["plate"].fragments[:, 4])
+    stored = read_debris(file.path)
+    assert list(stored) == ["plate", "wall"]
+    assert list(stored["plate"]["body"]) == ["plug", "ring"]
+    np.testing.assert_array_equal(stored["plate"]["mass_by_speed_kg"], file.debris["plate"].by_speed)
+    np.testing.assert_array_equal(stored["plate"]["fragment_velocity_z_m_s"], file.debris["plate"].fragments[:, 4])
     assert list(read_craters(file.path)) == ["plate", "wall"]
     assert {name: column.tolist() for name, column in read(file.path).items()} == {"time": [0.0], "P/L": [0.5]}

@@ -1,4 +1,4 @@
-"""A deck whose mesh follows a body: what it may ask for, what `check` says, what enters, and how fast the mesh goes."""
+"""A deck whose mesh follows a body: what it may ask for, the output of `check`, what enters, and the speed of the mesh."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def message(*options: str, text: str = TEXT) -> str:
     ("[stop]", '[boundaries]\nz_max = "wall"\n[stop]', "deck.toml:29: boundaries.z_max: a mesh that follows"),
     ('z_front = "20 mm"', 'z_front = "-40 mm"', 'deck.toml:22: body[2]: "second" lies outside the mesh'),
 ])  # fmt: skip
-def test_what_a_following_mesh_cannot_do_is_one_error_with_its_line(old, new, said):
+def test_a_wrong_use_of_a_following_mesh_is_one_error_with_its_line(old, new, said):
     assert TEXT.count(old) == 1
     text = message(text=TEXT.replace(old, new))
     assert said in text
@@ -70,7 +70,7 @@ def test_a_deck_chooses_how_the_mesh_moves():
     assert moving.engine.mesh.leading == 1
 
 
-def test_a_strip_is_what_the_deck_placed_there():
+def test_a_strip_has_the_bodies_placed_by_the_deck():
     simulation = Simulation(decks.loads(TEXT.replace("[stop]", "radius = '2.25 mm'\n[stop]")))
     space = UndisturbedSpace(simulation.deck, simulation.table, simulation.grid)
     second = simulation.table.names.index("second")
@@ -80,7 +80,7 @@ def test_a_strip_is_what_the_deck_placed_there():
         np.testing.assert_allclose(strip["vof"][second], np.array([1] * 4 + [outer] + [0] * 11) * share, atol=1e-12)
         assert strip["vof"][simulation.table.names.index("plate")].max() == 0.0
         assert np.all(strip["rho"][second][strip["vof"][second] > 0] == simulation.table.rho0[second])
-    assert space.strip(24e-3, 24.1e-3) is space.strip(27e-3, 27.3e-3)  # between two levels it is looked up once
+    assert space.strip(24e-3, 24.1e-3) is space.strip(27e-3, 27.3e-3)  # between two levels it is computed once
     assert space.beyond(8e-3, 1.0) == {second}
     assert space.beyond(30e-3, 1.0) == set()
 
@@ -98,7 +98,7 @@ def test_the_mesh_takes_the_velocity_of_the_core():
     s.v[...] = np.where(s.v > 0, 700.0, 0.0)
     mesh.follow()
     assert mesh.velocity == pytest.approx(700.0, rel=1e-12)
-    s.dmg[0] = 1.0  # nothing is intact: the whole body, the crumb with it
+    s.dmg[0] = 1.0  # nothing is intact: the whole body counts, including the crumb
     mesh.follow()
     assert 600.0 < mesh.velocity < 700.0
     s.v[...] = -5.0
@@ -110,12 +110,12 @@ def test_impedances_of_an_elastic_cell():
     """rho c_l = sqrt(rho (K + 4 G/3)) and rho c_s = sqrt(rho G); with void, where no bulk modulus is known, no shear."""
     rho, bulk, shear = np.array([[2700.0]]), np.array([[70e9]]), 26e9
     cl = np.sqrt((bulk + 4 / 3 * shear) / rho)
-    found = impedances.py_func(0, 0, rho, cl, bulk)
-    assert found == pytest.approx((np.sqrt(2700.0 * (70e9 + 4 / 3 * shear)), np.sqrt(2700.0 * shear)))
+    values = impedances.py_func(0, 0, rho, cl, bulk)
+    assert values == pytest.approx((np.sqrt(2700.0 * (70e9 + 4 / 3 * shear)), np.sqrt(2700.0 * shear)))
     assert impedances.py_func(0, 0, rho, cl, np.zeros((1, 1)))[1] == 0.0
 
 
-def test_a_restart_places_anew_what_stands_ahead():
+def test_a_restart_places_bodies_ahead_anew():
     simulation = Simulation(decks.loads(TEXT, ['body.plate.thickness="12 mm"']))
     simulation.step()
     mesh, state = simulation.engine.mesh, simulation.state

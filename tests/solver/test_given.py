@@ -1,4 +1,4 @@
-"""What the phases of a step are given: every name has a value, always the array that is in use, and of one type."""
+"""The names given to the phases of a step: each has a value, always the array in use, and of one type."""
 
 from functools import partial
 
@@ -37,12 +37,12 @@ def started(options) -> Simulation:
     return Simulation(deck.loads(SHOT, options))
 
 
-def test_every_name_is_taken_by_a_phase():
-    """What no kernel asks for is no name of the step; the rows of q have names for those who read results."""
-    taken = frozenset().union(*(phase.takes for phase in PHASES.values()))
-    assert taken <= {name.symbol for name in names.NAMES}
+def test_every_name_is_used_by_a_phase():
+    """A name that no kernel uses is not a name of the step; the rows of q have names for those who read results."""
+    used = frozenset().union(*(phase.takes for phase in PHASES.values()))
+    assert used <= {name.symbol for name in names.NAMES}
     stated = (*names.OF_THE_CALL, *names.MESH, *names.BODIES, *names.METHOD, *names.TIES)
-    assert {name.symbol for name in stated} - taken == set()
+    assert {name.symbol for name in stated} - used == set()
 
 
 def test_ties_are_those_of_the_table():
@@ -63,13 +63,13 @@ def test_every_name_has_a_value(options):
 
 
 def test_one_compiled_phase_serves_all_decks():
-    """What is written down for compilation ahead of time has one tuple of types for each phase, whatever the deck."""
+    """The types recorded for compilation ahead of time are one tuple for each phase, for all decks."""
     types: dict[str, set] = {}
     for options in DECKS.values():
         for call in calls_of_a_cycle(partial(started, options)):
             if call.types == jit.PHASE_TYPES:
                 types.setdefault(call.name.split(".")[-1], set()).add(call.compiled)
-    assert {name: len(found) for name, found in types.items()} == dict.fromkeys(PHASES, 1)
+    assert {name: len(tuples) for name, tuples in types.items()} == dict.fromkeys(PHASES, 1)
 
 
 def same(one, other) -> bool:
@@ -81,7 +81,7 @@ def same(one, other) -> bool:
 
 @every_deck
 def test_values_are_those_of_now(options):
-    """After cycles, in which velocities take turns and ties need more slots, and after a restart."""
+    """After cycles, in which velocities swap arrays and ties need more slots, and after a restart."""
     simulation = started(options)
     engine = simulation.engine
 

@@ -119,7 +119,7 @@ def test_full_and_empty_cells_are_exact():
 
 
 def test_faces_on_the_mesh_cut_no_cells():
-    """A body whose surface lies on faces, up to the round-off of the decimals in the deck, leaves no mixed cell."""
+    """A body whose surface lies on faces, up to the round-off of the decimals in the deck, makes no mixed cell."""
     r, z = 0.0005 * np.arange(21), -0.02 + 0.0005 * np.arange(81)
     vof = insertion.fractions([shapes.box((0.0015, 0.0045), (-0.0125, 0.0105))], r, z, True)
     assert set(np.unique(vof)) == {0.0, 1.0}
@@ -141,8 +141,8 @@ def test_curves_that_cross_inside_cells_are_shared_exactly():
     a, b, d = 0.006, 0.005, 0.004
     first, second = shapes.sphere(0.0, 0.0, a), shapes.sphere(0.0, d, b)
     lens = math.pi * (a + b - d) ** 2 * (d**2 + 2 * d * (a + b) - 3 * (a - b) ** 2) / (12 * d)
-    found = volume([first, second])
-    assert found == pytest.approx([4 / 3 * math.pi * a**3, 4 / 3 * math.pi * b**3 - lens], rel=1e-12)
+    volumes = volume([first, second])
+    assert volumes == pytest.approx([4 / 3 * math.pi * a**3, 4 / 3 * math.pi * b**3 - lens], rel=1e-12)
 
 
 def test_bodies_are_cut_by_the_mesh():
@@ -158,13 +158,13 @@ def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz
     r, z = np.linspace(0, 0.012, nr + 1), np.linspace(-0.02, 0.01 + height, nz + 1)
     top = max(min(z[-1] - centre, radius), -radius)
     expected = math.pi * (radius**2 * (top + radius) - (top**3 + radius**3) / 3)
-    found = volume([shapes.sphere(0.0, centre, radius)], r, z)[0]
-    assert found == pytest.approx(expected, rel=1e-11, abs=1e-11 * radius**3)
+    computed = volume([shapes.sphere(0.0, centre, radius)], r, z)[0]
+    assert computed == pytest.approx(expected, rel=1e-11, abs=1e-11 * radius**3)
 
 
 @pytest.mark.parametrize("cylindrical", [True, False])
-def test_cells_hold_what_their_parts_hold(cylindrical):
-    """Shares of cells are those of cells cut in three by three, whose edges the curves cross elsewhere."""
+def test_cells_contain_the_sum_of_their_parts(cylindrical):
+    """Shares of cells equal those of cells cut in three by three, whose edges the curves cross elsewhere."""
     outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
                 shapes.sphere(3e-3, 2e-3, 6.1e-3)]
     r, z = np.linspace(0, 0.012, 8), np.linspace(-0.02, 0.02, 12)
@@ -187,7 +187,7 @@ def test_fractions_agree_with_sampling():
         for i in range(5):
             rr = np.sqrt(r[i] ** 2 + part * (r[i + 1] ** 2 - r[i] ** 2))
             zz = z[j] + part * (z[j + 1] - z[j])
-            taken = np.zeros((n, n), dtype=bool)
+            occupied = np.zeros((n, n), dtype=bool)
             for m, outline in enumerate(outlines):
                 inside = np.zeros((n, n), dtype=bool)
                 for slab in outline.slabs:
@@ -195,22 +195,22 @@ def test_fractions_agree_with_sampling():
                     low = np.array([slab.inner.r(x) for x in zz])
                     high = np.array([slab.outer.r(x) for x in zz])
                     inside |= rows[:, None] & (rr[None, :] >= low[:, None]) & (rr[None, :] <= high[:, None])
-                assert exact[m, j, i] == pytest.approx((inside & ~taken).mean(), abs=5e-3)
-                taken |= inside
+                assert exact[m, j, i] == pytest.approx((inside & ~occupied).mean(), abs=5e-3)
+                occupied |= inside
 
 
 # -------------------------------------------------------------------------------------------------------- centroids
 
 
 @pytest.mark.parametrize("cylindrical", [True, False])
-def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_what_it_has_there(cylindrical):
+def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_its_part_there(cylindrical):
     """Along r^2/2 (planar: r) and z, off the middle of the cell, in cells; a moment is that times the share."""
     r, z = np.array([0.001, 0.002, 0.004, 0.005]), np.array([-0.002, 0.0, 0.001, 0.004])
     ends_r, ends_z = (0.0013, 0.0043), (-0.0005, 0.0015)
     shares, moments = insertion.shares_and_moments([shapes.box(ends_r, ends_z)], r, z, cylindrical)
 
     def cut(edges, ends):
-        """Share of each interval, and where the middle of that lies."""
+        """Share of each interval, and the middle of that part."""
         low, high = np.clip(edges[:-1], *ends), np.clip(edges[1:], *ends)
         size = np.diff(edges)
         return (high - low) / size, np.where(high > low, 0.5 * (low + high - edges[:-1] - edges[1:]) / size, 0.0)
@@ -227,7 +227,7 @@ def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_what_it_has_there(c
 
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_moments_agree_with_sampling(cylindrical):
-    """Of a ball, and of a plate of which it takes a part, by a fine midpoint rule in (r^2/2, z)."""
+    """For a ball, and for a plate that it partly covers, by a fine midpoint rule in (r^2/2, z)."""
     r, z = np.linspace(0.0, 0.01, 6), np.linspace(-0.006, 0.008, 6)
     outlines = [shapes.sphere(0.0, 0.001, 0.0063), shapes.box((0.0, math.inf), (-0.0031, 0.0043))]
     shares, moments = insertion.shares_and_moments(outlines, r, z, cylindrical)
@@ -248,7 +248,7 @@ def test_moments_agree_with_sampling(cylindrical):
 
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_moments_of_cells_are_those_of_their_parts(cylindrical):
-    """Of cells cut in two by two: to round-off, as the volumes are."""
+    """For cells cut in two by two: to round-off, like the volumes."""
     outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
                 shapes.sphere(3e-3, 2e-3, 6.1e-3)]
     s = np.linspace(0.0, 1.0, 13)  # parts of equal volume
@@ -303,7 +303,7 @@ def test_velocity_is_momentum_over_mass():
     assert ((vof[0] > 0) & (vof[1] > 0)).any()
 
 
-def test_body_groups_keep_their_momentum_apart():
+def test_body_groups_keep_their_momentum_separate():
     d = deck.loads(TEXT, ["body.rod.velocity=[3.0, 1000.0]", 'body.rod.tip="0.3 mm"', "body.plate.velocity=-50"])
     grid, table = Grid(*deck.edges(d), d.mesh.geometry), library.resolve(d)
     state = insertion.initial_state(d, grid, table, np.array([1, 0]))
@@ -391,7 +391,7 @@ def test_centroids_of_the_initial_state_are_moments_over_shares_in_cells_that_a_
 
 
 def test_joined_bodies_have_one_centroid_where_they_meet():
-    """The plate goes on as the rod: in cells that both fill in part that of both together, and none where they fill them."""
+    """The plate continues as the rod: in cells that both fill in part that of both together, and none where they fill them."""
     text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 17500\nshape')
     d, _, _, state = start(text, ['body.rod.tip="0.75 mm"', 'body.plate.z_front="0.1 mm"'])
     shares, moments = insertion.shares_and_moments([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)

@@ -1,4 +1,4 @@
-"""A mesh that does not fit is refused before any memory is taken."""
+"""A mesh that does not fit in memory is refused before any is allocated."""
 
 import os
 
@@ -18,14 +18,14 @@ from tests.solver.test_sanity import TEXT
 
 @pytest.mark.parametrize("groups", [1, 2])
 @pytest.mark.parametrize("internal", [0, 3])
-def test_what_is_needed_is_what_is_taken(groups, internal):
+def test_the_estimated_memory_is_that_used(groups, internal):
     own = tuple(Field(f"x{k}", "", "body", "1", 1, "mass", True, "a number") for k in range(internal))
     grid = Grid(np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 70))
     state = State(grid, 2, [0, groups - 1], [(), own], remembers=internal > 0)
     arrays = [array for name, array in vars(state).items()
               if isinstance(array, np.ndarray) and name not in ("group", "rules", "initial")]
-    taken = sum(array.nbytes for array in arrays if array.base is None)
-    assert bytes_needed(*grid.shape, 2, groups, internal, internal > 0) == taken
+    used = sum(array.nbytes for array in arrays if array.base is None)
+    assert bytes_needed(*grid.shape, 2, groups, internal, internal > 0) == used
 
 
 LARGE = ['mesh.r=[{to="2 mm", cells=400000}]', 'mesh.z=[{to="20 mm", cells=400000}]']

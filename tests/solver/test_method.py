@@ -9,9 +9,9 @@ from hydro2d.solver.simulation import Simulation
 QUICK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 LAYER = ["sliding.method=slip-layer", "sliding.boundary_layer=2", "sliding.slip_layer=2", "sliding.yield_factor=radius"]
 CYCLES = 60
-#: round-off of other processors and libraries, after so few cycles
+#: round-off on other processors and libraries, after so few cycles
 SAME = 1e-9
-#: time in s, internal energy in J and length of the rod in m after these cycles, of this version
+#: time in s, internal energy in J and length of the rod in m after these cycles, with this version
 OF = "2026-11-28"
 NUMBERS = {
     "contact": ([], 9.940892320707457e-07, 37.363764680206046, 0.097644500354732),
@@ -28,7 +28,7 @@ def test_numbers_of_this_version(name):
     simulation = Simulation(decks.load(QUICK, overrides))
     for _ in range(CYCLES):
         simulation.step()
-    found = simulation.time, simulation.conservation()["internal_energy_J"], simulation.diagnostics()["rod_length_m"]
+    numbers = simulation.time, simulation.conservation()["internal_energy_J"], simulation.diagnostics()["rod_length_m"]
     why = "the numbers of a run have moved: give hydro2d/method.py the day of the change, and this test the new numbers"
-    assert found == pytest.approx((time, energy, length), rel=SAME), why
+    assert numbers == pytest.approx((time, energy, length), rel=SAME), why
     assert METHOD == OF, "the numbers of a run are as before: leave METHOD, or give this test its new numbers"

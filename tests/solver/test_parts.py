@@ -1,4 +1,4 @@
-"""The parts into which the rows of the active box are cut: their bounds, and when they are cut anew."""
+"""The parts into which the rows of the active box are divided: their bounds, and when they are divided anew."""
 
 from types import SimpleNamespace
 
@@ -10,7 +10,7 @@ from hydro2d.solver.parts import EMPTY, FEWEST, FULL, MIXED, RECUT, Parts, cut
 
 
 def shares(costs: np.ndarray, bounds: np.ndarray) -> np.ndarray:
-    """Sum of costs of every part."""
+    """Sum of the costs in every part."""
     return np.add.reduceat(costs, bounds[:-1])
 
 
@@ -36,8 +36,8 @@ def test_parts_cost_the_same_within_a_row(number):
     assert np.abs(parts - costs.sum() / number).max() <= costs.max()
 
 
-def test_what_is_dear_is_shared():
-    """Where half of the rows cost ten times as much, their part has a tenth of the rows that it would have."""
+def test_expensive_rows_are_shared():
+    """Where half of the rows cost ten times as much, their part has a tenth of the rows that it would otherwise have."""
     costs = np.ones(440)
     costs[400:] = 10.0
     assert cut(costs, 2, 2).tolist() == [2, 2 + 400, 2 + 440]
@@ -45,7 +45,7 @@ def test_what_is_dear_is_shared():
 
 @pytest.mark.parametrize(("dear", "expected"), [(0, [0, 4, 8, 12, 40]), (20, [0, 20, 24, 28, 40]), (39, [0, 28, 32, 36, 40])])
 def test_all_costs_in_one_row(dear, expected):
-    """The other parts have the fewest rows that a part may have, or what is beside the row."""
+    """The other parts have the smallest number of rows allowed, or the rows next to that row."""
     costs = np.full(40, 1e-12)
     costs[dear] = 1.0
     assert FEWEST == 4
@@ -54,7 +54,7 @@ def test_all_costs_in_one_row(dear, expected):
 
 @pytest.fixture
 def active(monkeypatch):
-    """Something like a state of 60 rows of 50 columns and two of ghosts around, with two threads."""
+    """A simple state of 60 rows of 50 columns and two of ghosts around, with two threads."""
     monkeypatch.setattr(jit, "parts_at_once", lambda: 2)
     ranges = np.tile([2, 52], (64, 1))
     return SimpleNamespace(active_range=ranges, mixed_count=np.zeros(64, dtype=np.int64))
@@ -90,13 +90,13 @@ def test_parts_are_kept_for_some_cycles(active):
 @pytest.mark.parametrize(("box", "expected"), [([2, 42, 2, 52], [2, 22, 42]), ([12, 62, 2, 52], [12, 37, 62]),
                                                ([2, 62, 12, 52], [2, 32, 62]), ([2, 9, 2, 52], [2, 9])])
 def test_parts_are_cut_anew_for_another_box(active, box, expected):
-    """Also for another range of columns, where the rows are the same."""
+    """And for another range of columns with the same rows."""
     parts = Parts(active)
     first = parts.of([2, 62, 2, 52])
-    found = parts.of(box)
-    assert found is not first
-    assert found.tolist() == expected
-    assert parts.of(box) is found
+    cut = parts.of(box)
+    assert cut is not first
+    assert cut.tolist() == expected
+    assert parts.of(box) is cut
 
 
 def test_parts_are_cut_anew_for_another_number_of_threads(active, monkeypatch):

@@ -1,4 +1,4 @@
-"""What is measured of a rod: lengths to a cell's share, and the regime by its stated rules."""
+"""Measurements of a rod: lengths to a fraction of a cell, and the regime by its stated rules."""
 
 import json
 
@@ -26,7 +26,7 @@ from tests.rules import source
 
 
 def text(**keys):
-    """A deck: a rod of 20.2 mm with these keys, before a plate."""
+    """A deck: a rod of 20.2 mm with these keys, in front of a plate."""
     return (
         mesh(("12 mm", 24), ("-25 mm", "25 mm", 100))
         + table("numerics", advection="ke")
@@ -50,16 +50,16 @@ def cells(simulation):
 
 
 def test_a_rod_before_impact(simulation):
-    found = simulation.diagnostics()
-    assert found["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
-    assert found["penetration_depth_m"] == 0.0
-    assert found["rod_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 20.2e-3 * 18160, rel=1e-9)
-    ends = 0.2e-3 / 20.2e-3  # the row at the tip is filled by less than half and no part of the core
-    assert found["rod_core_mass_kg"] == pytest.approx(found["rod_mass_kg"] * (1 - ends), rel=1e-9)
-    assert found["rod_max_radius_m"] == pytest.approx(3e-3, rel=1e-9)
-    assert found["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
-    assert found["rod_tail_velocity_m_s"] == pytest.approx(1000.0, rel=1e-9)
-    assert found["regime"] == "rigid"
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
+    assert diagnostics["penetration_depth_m"] == 0.0
+    assert diagnostics["rod_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 20.2e-3 * 18160, rel=1e-9)
+    ends = 0.2e-3 / 20.2e-3  # the row at the tip is less than half full and not part of the core
+    assert diagnostics["rod_core_mass_kg"] == pytest.approx(diagnostics["rod_mass_kg"] * (1 - ends), rel=1e-9)
+    assert diagnostics["rod_max_radius_m"] == pytest.approx(3e-3, rel=1e-9)
+    assert diagnostics["rod_mean_velocity_m_s"] == pytest.approx(1000.0, rel=2e-3)  # its tip shares a cell with the plate
+    assert diagnostics["rod_tail_velocity_m_s"] == pytest.approx(1000.0, rel=1e-9)
+    assert diagnostics["regime"] == "rigid"
 
 
 @pytest.mark.parametrize(("keys", "length"), [
@@ -67,11 +67,11 @@ def test_a_rod_before_impact(simulation):
     ({"nose": "hemispherical"}, 20.2e-3),
 ])  # fmt: skip
 def test_a_rod_has_the_length_of_the_deck(keys, length):
-    """And loses none of it while its cells show what they showed at the start; what they lose counts in proportion."""
+    """And loses none of it while its cells are as at the start; their losses count in proportion."""
     own = Simulation(deck.loads(text(tip="-0.3 mm", **keys)))
-    found = own.diagnostics()
+    diagnostics = own.diagnostics()
     shown = own.penetrator._length()[0]
-    assert (found["rod_initial_length_m"], found["rod_length_m"]) == pytest.approx((length, length), rel=1e-12)
+    assert (diagnostics["rod_initial_length_m"], diagnostics["rod_length_m"]) == pytest.approx((length, length), rel=1e-12)
     assert length - 1.5e-3 < shown < length - 1e-5
     fraction, z = cells(own)
     fraction[z < -15.4e-3] = 0.0
@@ -81,13 +81,13 @@ def test_a_rod_has_the_length_of_the_deck(keys, length):
 
 
 @pytest.mark.parametrize(("before", "after", "length"), [
-    (box("bore", "Al5083", r=["0 mm", "1 mm"], z=["-25 mm", "-18 mm"]), "", 17.7e-3),  # an earlier body has its place
+    (box("bore", "Al5083", r=["0 mm", "1 mm"], z=["-25 mm", "-18 mm"]), "", 17.7e-3),  # an earlier body takes its place
     ("", box("tail", "W_alloy", r=["0 mm", "3 mm"], z=["-22.5 mm", "-20.5 mm"], join="rod", velocity="1 km/s"), 22.2e-3),
 ])  # fmt: skip
 def test_a_rod_that_is_not_by_itself_has_the_length_of_its_cells(before, after, length):
     whole = text(nose="flat", tip="-0.3 mm").replace("[[body]]", before + "[[body]]", 1) + after
-    found = Simulation(deck.loads(whole))
-    assert found.penetrator.length == found.penetrator._length()[0] == pytest.approx(length, rel=1e-9)
+    shot = Simulation(deck.loads(whole))
+    assert shot.penetrator.length == shot.penetrator._length()[0] == pytest.approx(length, rel=1e-9)
 
 
 def test_depth_counts_the_share_of_the_last_cell(simulation):
@@ -100,22 +100,22 @@ def test_depth_counts_the_share_of_the_last_cell(simulation):
 
 
 def test_the_depth_of_a_rod_that_rebounds_is_the_largest(simulation):
-    """It was 4 mm deep and is at 1 mm again, by steps of a cell: both are told, also after a restart."""
+    """It was 4 mm deep and is at 1 mm again, by steps of a cell: both are reported, also after a restart."""
     sim = simulation
     fraction, z = cells(sim)
     fraction[(z > -0.5e-3) & (z < 4e-3), :6] = 1.0
     sim.penetrator.watch()
     fraction[z > 1e-3] = 0.0
-    found = sim.diagnostics()
-    assert (found["penetration_depth_m"], found["nose_depth_m"]) == pytest.approx((4e-3, 1e-3), rel=1e-9)
-    assert found["penetration_over_length"] == pytest.approx(4.0 / 20.2, rel=1e-9)
-    assert (sim.penetrator.nose(), sim.penetrator.perforates()) == (found["nose_depth_m"], False)
+    first = sim.diagnostics()
+    assert (first["penetration_depth_m"], first["nose_depth_m"]) == pytest.approx((4e-3, 1e-3), rel=1e-9)
+    assert first["penetration_over_length"] == pytest.approx(4.0 / 20.2, rel=1e-9)
+    assert (sim.penetrator.nose(), sim.penetrator.perforates()) == (first["nose_depth_m"], False)
     again = Simulation(sim.deck)
     again.penetrator.resume(json.loads(json.dumps(sim.penetrator.saved())))
-    assert again.diagnostics()["penetration_depth_m"] == found["penetration_depth_m"]
+    assert again.diagnostics()["penetration_depth_m"] == first["penetration_depth_m"]
     fraction[z > -5e-3] = 0.0
     sim.penetrator.watch()
-    assert (sim.diagnostics()["penetration_depth_m"], sim.diagnostics()["nose_depth_m"]) == (found["penetration_depth_m"], 0.0)
+    assert (sim.diagnostics()["penetration_depth_m"], sim.diagnostics()["nose_depth_m"]) == (first["penetration_depth_m"], 0.0)
 
 
 def test_fragments_behind_the_tail_do_not_count(simulation):
@@ -124,16 +124,16 @@ def test_fragments_behind_the_tail_do_not_count(simulation):
     assert simulation.diagnostics()["rod_length_m"] == pytest.approx(20.2e-3, rel=1e-9)
 
 
-@pytest.mark.parametrize(("length", "radius", "core", "found"), [
+@pytest.mark.parametrize(("length", "radius", "core", "expected"), [
     (1.0, 1.0, 1.0, RIGID), (0.951, 1.099, 0.901, RIGID), (1.0, 1.101, 1.0, DEFORMING), (0.949, 1.0, 1.0, DEFORMING),
     (0.667, 1.5, 0.901, DEFORMING), (0.666, 1.0, 1.0, ERODING), (0.22, 1.3, 1.0, ERODING), (1.0, 1.0, 0.899, ERODING),
     (0.0, 0.0, 0.0, ERODING),
 ])  # fmt: skip
-def test_the_rule_of_the_regimes(length, radius, core, found):
-    assert regime(length, radius, core) == found
+def test_the_rule_of_the_regimes(length, radius, core, expected):
+    assert regime(length, radius, core) == expected
 
 
-def test_the_rule_stands_among_the_words():
+def test_the_rule_is_among_the_words():
     """The page that explains the words has the numbers of the rule."""
     page = " ".join((source.ROOT / "docs/reference/words.md").read_text(encoding="utf-8").split())
     numbers = (f"{100 * RIGID_LENGTH:g} %", f"{1 + RIGID_RADIUS:g} times", f"{100 * ERODED_MASS:g} %",
@@ -149,43 +149,43 @@ def test_regimes(simulation):
     fraction[z < -19.1e-3] = 0.0  # 1.6 mm: 8 %
     assert simulation.diagnostics()["regime"] == "deforming"
     skirt = (z > -15e-3) & (z < -9e-3)
-    fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it what was turned back
+    fraction[np.ix_(skirt, np.arange(24) == 5)] = 0.0  # a gap, and outside of it material that was turned back
     fraction[np.ix_(skirt, np.arange(24) == 7)] = 1.0
-    found = simulation.diagnostics()
-    assert found["rod_core_mass_kg"] < 0.9 * found["rod_mass_kg"]
-    assert found["regime"] == "eroding"
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_core_mass_kg"] < 0.9 * diagnostics["rod_mass_kg"]
+    assert diagnostics["regime"] == "eroding"
 
 
-def test_what_has_failed_is_debris(simulation):
-    """The nose fails over 4 mm: it still counts for the depth and is mass of the rod, not of its core nor its length."""
+def test_failed_material_is_debris(simulation):
+    """The nose fails over 4 mm: it still counts for the depth and the mass of the rod, not for its core or its length."""
     before = simulation.diagnostics()
     _, z = cells(simulation)
     damage = simulation.grid.interior(simulation.state.dmg)
     damage[0][z > -4e-3] = 1.0
-    found = simulation.diagnostics()
-    assert found["rod_length_m"] == pytest.approx(16.5e-3, rel=1e-9)
-    assert found["penetration_depth_m"] == before["penetration_depth_m"]
-    assert found["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
-    assert found["rod_core_mass_kg"] < found["rod_mass_kg"] - found["rod_failed_mass_kg"] + 1e-12
-    assert (found["target_failed_mass_kg"], found["regime"]) == (0.0, "eroding")
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_length_m"] == pytest.approx(16.5e-3, rel=1e-9)
+    assert diagnostics["penetration_depth_m"] == before["penetration_depth_m"]
+    assert diagnostics["rod_failed_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 3.7e-3 * 18160, rel=1e-9)
+    assert diagnostics["rod_core_mass_kg"] < diagnostics["rod_mass_kg"] - diagnostics["rod_failed_mass_kg"] + 1e-12
+    assert (diagnostics["target_failed_mass_kg"], diagnostics["regime"]) == (0.0, "eroding")
 
 
-def test_what_flies_back_does_not_stop_the_run(simulation):
-    """Half of the mass is torn off and flies back as fast as the core goes on: the mean is at rest, the core is not."""
+def test_material_that_flies_back_does_not_stop_the_run(simulation):
+    """Half of the mass is torn off and flies back as fast as the core moves forward: the mean is at rest, the core is not."""
     fraction, z = cells(simulation)
     fraction[(z > -11e-3) & (z < -10e-3)] = 0.0
     v = simulation.grid.interior_vertices(simulation.state.v)[0]
     v[:] = np.where(simulation.grid.z_edges < -10.4e-3, -1000.0, 1000.0)[:, None]
-    found = simulation.diagnostics()
-    assert abs(found["rod_mean_velocity_m_s"]) < 100.0
-    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
-    assert simulation.penetrator.velocity() == found["rod_core_velocity_m_s"]
+    diagnostics = simulation.diagnostics()
+    assert abs(diagnostics["rod_mean_velocity_m_s"]) < 100.0
+    assert diagnostics["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=1e-12)
+    assert simulation.penetrator.velocity() == diagnostics["rod_core_velocity_m_s"]
     simulation.penetrator._intact = lambda rows, columns=slice(None): 0.0 * fraction[rows, columns]
-    assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # what flies on, over the mass of all
+    assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # momentum of the rest over the whole mass
 
 
 def test_debris_against_the_flank_is_not_of_the_core(simulation):
-    """Debris of more mass than the core flies back along half of it: the core still has the rod's velocity and mass."""
+    """Debris with more mass than the core flies back along half of it: the core keeps the rod's velocity and its mass."""
     before = simulation.diagnostics()
     fraction, z = cells(simulation)
     v = simulation.grid.interior_vertices(simulation.state.v)[0]
@@ -193,15 +193,15 @@ def test_debris_against_the_flank_is_not_of_the_core(simulation):
     fraction[np.ix_(beside, np.arange(24) >= 6)] = 1.0
     simulation.grid.interior(simulation.state.rho)[0][beside] = 18160.0
     v[np.ix_((simulation.grid.z_edges > -21e-3) & (simulation.grid.z_edges < -5e-3), np.arange(25) > 6)] = -400.0
-    found = simulation.diagnostics()
-    assert found["rod_mean_velocity_m_s"] < 0.0
-    assert found["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=0.01)
-    assert found["rod_core_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=1e-9)
-    assert simulation.penetrator.speed() == found["rod_core_velocity_m_s"]
+    diagnostics = simulation.diagnostics()
+    assert diagnostics["rod_mean_velocity_m_s"] < 0.0
+    assert diagnostics["rod_core_velocity_m_s"] == pytest.approx(1000.0, rel=0.01)
+    assert diagnostics["rod_core_mass_kg"] == pytest.approx(before["rod_core_mass_kg"], rel=1e-9)
+    assert simulation.penetrator.speed() == diagnostics["rod_core_velocity_m_s"]
 
 
 def test_a_run_does_not_end_while_the_tail_feeds_the_head():
-    """The mean of the core is at rest, its tail is not; a tail that only rings is no reason to go on."""
+    """The mean of the core is at rest, its tail is not; a tail that only oscillates does not keep the run going."""
     simulation = shot("stop.speed_below=10.0")
     v, z = simulation.grid.interior_vertices(simulation.state.v)[0], simulation.grid.z_edges
     for tail, reason in ((355.0, None), (0.9 * simulation.penetrator._ringing, "speed of rod below 10 m/s")):
@@ -223,21 +223,21 @@ def ball(*options):
     ("options", "reason"), [([], "perforation of plate"), (["stop.perforation=false"], "ball left the mesh")],
     ids=["perforation", "speed"])
 def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
-    """It goes through in pieces and flies out of the mesh: nothing that is left of it has a speed to end the run by."""
+    """It goes through in pieces and flies out of the mesh: no speed of the remains can end the run."""
     sim = ball(*options)
     while sim.stop_reason() is None:
         sim.step()
-    found = sim.diagnostics()
+    diagnostics = sim.diagnostics()
     assert sim.stop_reason() == reason
     assert sim.of_targets()["plate"]["exit_velocity_m_s"] > 3500.0
-    assert found["rod_residual_velocity_m_s"] > 3500.0
-    assert found["rod_residual_mass_kg"] > 0.5 * sim.penetrator.mass
-    assert found["penetration_depth_m"] > 6e-3
-    assert (found["regime"] == LEFT) is (reason == "ball left the mesh")
+    assert diagnostics["rod_residual_velocity_m_s"] > 3500.0
+    assert diagnostics["rod_residual_mass_kg"] > 0.5 * sim.penetrator.mass
+    assert diagnostics["penetration_depth_m"] > 6e-3
+    assert (diagnostics["regime"] == LEFT) is (reason == "ball left the mesh")
 
 
 def test_a_rod_that_earlier_bodies_cover_has_no_speed():
-    """Where bodies overlap the earlier is there: of a rod inside a block that comes first nothing is."""
+    """Where bodies overlap the earlier one counts: nothing remains of a rod inside a block that comes first."""
     text = TEXT.replace("TIP", "-0.3").replace('[[body]]\nname = "rod"', '[[body]]\nname = "block"\nmaterial = "Al5083"\n'
                         'shape = "box"\nz = ["-25 mm", "0 mm"]\n[[body]]\nname = "rod"')  # fmt: skip
     sim = Simulation(deck.loads(text, ["stop.speed_below=1.0"]))
@@ -246,7 +246,7 @@ def test_a_rod_that_earlier_bodies_cover_has_no_speed():
 
 
 def test_a_body_that_is_gone_has_no_speed():
-    """Without [penetration]: a block flies out of an empty mesh, and the wake of 1e-6 of it does not end the run as slow."""
+    """Without [penetration]: a block flies out of an empty mesh; the 1e-6 of it left behind does not end the run as slow."""
     text = TEXT[:TEXT.index('[[body]]\nname = "plate"')] + '[stop]\nbody = "rod"\nspeed_below = "5 m/s"\ntime = "100 us"\n'
     sim = Simulation(deck.loads(text.replace("TIP", "20"), ["mesh.r.0.cells=12", "mesh.z.0.cells=40"]))
     while sim.stop_reason() is None:
@@ -269,7 +269,7 @@ def shot(*options):
 
 @pytest.mark.parametrize("options", [SHORT, BACKWARD], ids=["to +z", "to -z"])
 def test_a_rod_that_leaves_the_mesh(options):
-    """Its velocity and mass are those of the moment when the nose reached the edge, and so is its depth."""
+    """Its velocity and mass are those at the moment when the nose reached the edge, and so is its depth."""
     sim = shot(*options)
     before, masses = {}, []
     while not sim.penetrator.left:
@@ -278,19 +278,19 @@ def test_a_rod_that_leaves_the_mesh(options):
         if sim.penetrator.exit is None:
             before = sim.diagnostics()
             masses.append(before["rod_core_mass_kg"])
-    found = sim.diagnostics()
-    assert found["regime"] == LEFT
+    diagnostics = sim.diagnostics()
+    assert diagnostics["regime"] == LEFT
     assert before["regime"] != LEFT
-    assert found["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
-    assert found["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
+    assert diagnostics["penetration_depth_m"] == pytest.approx(11e-3, abs=0.4e-3)
+    assert diagnostics["rod_residual_velocity_m_s"] == pytest.approx(before["rod_core_velocity_m_s"], rel=0.01)
     shortly = masses[-40:]  # the row of its tail is core in one cycle and debris in the next
-    assert 0.99 * min(shortly) < found["rod_residual_mass_kg"] < 1.01 * max(shortly)
-    assert found["rod_mass_kg"] < 0.99 * sim.penetrator.mass
+    assert 0.99 * min(shortly) < diagnostics["rod_residual_mass_kg"] < 1.01 * max(shortly)
+    assert diagnostics["rod_mass_kg"] < 0.99 * sim.penetrator.mass
     names = ("regime", "penetration_depth_m", "rod_residual_velocity_m_s", "rod_residual_mass_kg")
     while sim.penetrator._length()[0] > 0.0:
         sim.step()
     assert sim.penetrator.gone
-    assert {name: sim.diagnostics()[name] for name in names} == {name: found[name] for name in names}
+    assert {name: sim.diagnostics()[name] for name in names} == {name: diagnostics[name] for name in names}
 
 
 def test_a_rod_that_has_perforated_flies_on():
@@ -298,12 +298,12 @@ def test_a_rod_that_has_perforated_flies_on():
     while not sim.penetrator.perforates():
         assert sim.diagnostics()["rod_residual_mass_kg"] is None
         sim.step()
-    found = sim.diagnostics()
-    assert found["rod_residual_velocity_m_s"] == found["rod_core_velocity_m_s"] > 500.0
-    assert found["rod_residual_mass_kg"] == found["rod_core_mass_kg"]
-    assert found["rod_residual_length_m"] == found["rod_length_m"]
-    assert found["regime"] != LEFT
-    assert found["exit_time_s"] is None or found["exit_time_s"] == sim.time
+    diagnostics = sim.diagnostics()
+    assert diagnostics["rod_residual_velocity_m_s"] == diagnostics["rod_core_velocity_m_s"] > 500.0
+    assert diagnostics["rod_residual_mass_kg"] == diagnostics["rod_core_mass_kg"]
+    assert diagnostics["rod_residual_length_m"] == diagnostics["rod_length_m"]
+    assert diagnostics["regime"] != LEFT
+    assert diagnostics["exit_time_s"] is None or diagnostics["exit_time_s"] == sim.time
     while sim.cycle % WATCH_EVERY:
         sim.step()
     when = sim.diagnostics()["exit_time_s"]
@@ -330,7 +330,7 @@ def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
 
 
 def test_debris_does_not_leave_for_the_rod(simulation):
-    """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, says nothing."""
+    """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, does not count."""
     sim, sink = simulation, simulation.audit.sinks["outflow"]
     fraction, z = cells(sim)
     sink.mass[0] += 0.3 * sim.penetrator.mass
@@ -340,10 +340,10 @@ def test_debris_does_not_leave_for_the_rod(simulation):
     fraction[-4:, :6] = 1.0  # a fragment flies out before the rod
     sim.penetrator.watch()
     assert sim.penetrator.exit is None
-    fraction[z < -20e-3, :6] = 1.0  # the tail reaches the edge behind it, and flies away from it
+    fraction[z < -20e-3, :6] = 1.0  # the tail reaches the edge behind it, and moves away from it
     sim.penetrator.watch()
     assert sim.penetrator.exit is None
-    fraction[z > -1e-3, :6] = 1.0  # the nose reaches the one before it
+    fraction[z > -1e-3, :6] = 1.0  # the nose reaches the edge ahead of it
     sim.penetrator.watch()
     assert sim.penetrator.exit is not None
     assert sim.diagnostics()["regime"] != LEFT
@@ -362,7 +362,7 @@ def test_a_mesh_that_travels_faster_than_the_rod_leaves_it_behind(simulation):
 
 
 def test_the_edge_behind_the_rod_of_a_mesh_that_follows_it_is_no_way_out():
-    """Debris that fills the hole behind an eroding rod hangs together with what is left of it; ahead, the edge counts."""
+    """Debris that fills the hole behind an eroding rod is connected with the rest of it; ahead, the edge counts."""
     following = ("mesh.follow=rod", "boundaries.z_max=transmit")
     assert [vertex for vertex, _ in shot().penetrator._open] == [0, 100]
     assert [vertex for vertex, _ in shot(*following).penetrator._open] == [100]

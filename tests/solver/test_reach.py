@@ -1,4 +1,4 @@
-"""What energy a body can reach: against Hugoniots and isentropes in closed form, and gases beside metals held to it."""
+"""Energies that a body can reach: against Hugoniots and isentropes in closed form, and for gases next to metals."""
 
 import json
 
@@ -31,24 +31,24 @@ def reach(*options):
 
 def test_a_gas_is_shocked_and_then_compressed_along_its_isentrope():
     """The shock that stops an ideal gas, U = (g + 1)/4 v + sqrt(((g + 1)/4 v)^2 + c^2), then e ~ p^((g - 1)/g)."""
-    found, gamma, rho, p0 = reach(), 1.4, 1.2, 1e5
-    v, c2 = found.speed, gamma * p0 / rho
+    bounds, gamma, rho, p0 = reach(), 1.4, 1.2, 1e5
+    v, c2 = bounds.speed, gamma * p0 / rho
     assert v == pytest.approx(1000.0, rel=0.01)
     shock = (gamma + 1) / 4 * v + np.sqrt(((gamma + 1) / 4 * v) ** 2 + c2)
     p = p0 + rho * shock * v
     e = p0 / rho / (gamma - 1) + 0.5 * v**2 + p0 * v / (rho * shock)
-    assert found.highest[2] == pytest.approx(e * (found.pressure / p) ** ((gamma - 1) / gamma), rel=5e-3)
-    assert found.lowest[2] == pytest.approx(0.0, abs=1e-6)
-    assert found.gas.tolist() == [False, False, True]
+    assert bounds.highest[2] == pytest.approx(e * (bounds.pressure / p) ** ((gamma - 1) / gamma), rel=5e-3)
+    assert bounds.lowest[2] == pytest.approx(0.0, abs=1e-6)
+    assert bounds.gas.tolist() == [False, False, True]
 
 
 def test_a_solid_stops_on_its_hugoniot():
     """p = rho0 (c0 + s v) v and e = v^2/2, with the constants of 5083 in the library."""
-    found = reach()
-    v = found.speed
-    assert found.pressure == pytest.approx(2670.0 * (5340.0 + 1.34 * v) * v, rel=0.02)
-    assert found.highest[0] == pytest.approx(0.5 * v**2, rel=1e-6)
-    assert -4e5 < found.lowest[0] < -2e5  # the heat that it has at room temperature
+    bounds = reach()
+    v = bounds.speed
+    assert bounds.pressure == pytest.approx(2670.0 * (5340.0 + 1.34 * v) * v, rel=0.02)
+    assert bounds.highest[0] == pytest.approx(0.5 * v**2, rel=1e-6)
+    assert -4e5 < bounds.lowest[0] < -2e5  # its heat at room temperature
 
 
 @pytest.mark.parametrize(("option", "speed"), [
@@ -68,9 +68,9 @@ def test_where_two_bodies_meet_the_softer_one_sets_the_pressure():
 def test_a_body_beyond_its_reach_is_a_fault(body):
     """Far too little to show in the energy of the shot."""
     simulation = Simulation(decks.loads(SHOT))
-    s, found = simulation.state, simulation._reach
+    s, bounds = simulation.state, simulation._reach
     assert simulation.faults() == []
-    for energy in (3.0 * found.highest[body], 2.5 * found.lowest[body] - 0.1 * found.highest[body]):
+    for energy in (3.0 * bounds.highest[body], 2.5 * bounds.lowest[body] - 0.1 * bounds.highest[body]):
         kept = s.e[body].copy()
         s.e[body][s.vof[body] > 0] = energy
         assert any(f'body "{simulation.table.names[body]}" has ' in fault for fault in simulation.faults())
@@ -84,12 +84,12 @@ def doubted(simulation):
 
 @pytest.mark.parametrize("body", [0, 2])
 def test_a_body_that_is_too_hot_or_too_cold_in_one_cell_is_a_doubt(body):
-    """In a cell that it fills; what fills less than a hundredth of its cell does not count."""
+    """In a cell that it fills; a body that fills less than a hundredth of its cell does not count."""
     simulation = Simulation(decks.loads(SHOT))
-    s, found, name = simulation.state, simulation._reach, simulation.table.names[body]
+    s, bounds, name = simulation.state, simulation._reach, simulation.table.names[body]
     assert doubted(simulation) == []
     j, i = np.argwhere(s.vof[body] == 1.0)[5]
-    for energy, what in ((1.3 * found.cell_highest[body], "hot"), (1.1 * found.cell_lowest[body], "cold"), (np.nan, "hot")):
+    for energy, what in ((1.3 * bounds.cell_highest[body], "hot"), (1.1 * bounds.cell_lowest[body], "cold"), (np.nan, "hot")):
         s.e[body, j, i] = energy
         assert doubted(simulation)[0].startswith(f'body "{name}" is too {what} with ')
     s.vof[body, j, i] = 0.005
@@ -115,7 +115,7 @@ def test_a_temperature_of_zero_is_a_doubt():
     assert sentence.startswith('body "plate" is too cold with -')
 
 
-#: bodies that begin at no temperature, alone in the void, as in Sedov's problem
+#: bodies that start at zero temperature, alone in the void, as in Sedov's problem
 COLD = (
     mesh(("1 mm", 4), ("-4 mm", "8 mm", "0.25 mm"), geometry="planar")
     + box("hot", "gas", z=["-4 mm", "2 mm"], density=1.0, energy=1e6)
@@ -127,29 +127,29 @@ COLD = (
 
 @pytest.mark.parametrize(("share", "doubtful"), [(1e-6, False), (9e-4, False), (1.1e-3, True), (0.1, True)])
 def test_a_temperature_of_zero_is_missed_by_round_off(share, doubtful):
-    """A gas behind a blast, of 0.034 J/kg below no temperature where it can reach 20 500, is sound."""
+    """A gas behind a blast, 0.034 J/kg below zero temperature where it can reach 20 500, is sound."""
     simulation = Simulation(decks.loads(COLD))
-    found = simulation._reach
-    simulation.state.e[0, 20, 4] = -share * (found.highest[0] - found.lowest[0])
+    bounds = simulation._reach
+    simulation.state.e[0, 20, 4] = -share * (bounds.highest[0] - bounds.lowest[0])
     assert len(doubted(simulation)) == doubtful
 
 
 def test_elastic_energy_is_no_heat():
-    """In a cell under a stress of its own, whatever the shot: p^2/(2 K rho) + q^2/(6 G rho)."""
+    """In a cell with a stress of its own, in any shot: p^2/(2 K rho) + q^2/(6 G rho)."""
     simulation = Simulation(decks.loads(SHOT, ["body.flyer.velocity=[0.0, 10.0]", "body.air.pressure=1.0"]))
-    s, found = simulation.state, simulation._reach
+    s, bounds = simulation.state, simulation._reach
     j, i = np.argwhere(s.vof[0] == 1.0)[5]
     rho = s.rho[0, j, i]
     s.srr[0, j, i], s.szz[0, j, i] = 0.5e9, -1e9  # von Mises 1.5 GPa
     own = 3 * (0.25e18 + 1e18 - 0.5e18) / (6.0 * simulation.table.strength_par[0, SHEAR] * rho)
-    s.e[0, j, i] = found.cell_highest[0] + 0.99 * own
+    s.e[0, j, i] = bounds.cell_highest[0] + 0.99 * own
     assert doubted(simulation) == []
-    s.e[0, j, i] = found.cell_highest[0] + 1.3 * own
+    s.e[0, j, i] = bounds.cell_highest[0] + 1.3 * own
     assert len(doubted(simulation)) == 1
 
 
 def test_an_elastic_element_that_a_piston_squeezes_is_sound():
-    """By a fourteenth: 89 kJ/kg, where 50 m/s alone give 1.25. What the edge has not done is no excuse."""
+    """By a fourteenth: 89 kJ/kg, where 50 m/s alone give 1.25. More work than the edge has done is doubted."""
     simulation = Simulation(decks.loads(
         mesh(("4 mm", 4), ("20 mm", 20), geometry="planar")
         + walls("r_max", "z_min", z_max="piston", z_max_piston=[[0.0, 0.0], [5e-6, -50.0], [1e-3, -50.0]])
@@ -178,40 +178,40 @@ GASES = (
 
 @pytest.mark.parametrize("to", [3e5, 1e7])
 def test_work_compresses_all_bodies_to_one_pressure(to):
-    """e ~ p^((g - 1)/g) along the isentrope of each. A light gas has more of it for every kg than what is beside it."""
+    """e ~ p^((g - 1)/g) along the isentrope of each. A light gas gets more of it per kg than its neighbour."""
     simulation = Simulation(decks.loads(GASES))
     gamma, p0, rho = np.array([1.4, 5 / 3]), np.array([1e5, 2e5]), np.array([0.1, 10.0])
     heat = p0 / rho / (gamma - 1) * ((to / p0) ** ((gamma - 1) / gamma) - 1)
     work = simulation.audit.start.mass @ heat
-    found = simulation._reach.given_by(work)
-    assert found == pytest.approx(np.maximum(heat, work / simulation.audit.start.mass.sum()), rel=2e-3)
-    assert found[0] == pytest.approx(heat[0], rel=2e-3)
+    heats = simulation._reach.given_by(work)
+    assert heats == pytest.approx(np.maximum(heat, work / simulation.audit.start.mass.sum()), rel=2e-3)
+    assert heats[0] == pytest.approx(heat[0], rel=2e-3)
 
 
-def test_what_a_source_gives_to_one_body_reaches_the_others():
-    """A gas that is heated presses the one beside it, to eight times its energy: no doubt, but where nothing was heated."""
+def test_energy_given_to_one_body_by_a_source_reaches_the_others():
+    """A gas that is heated presses its neighbour, to eight times its energy: doubtful only without enough heat."""
     beam = entry("source", name="beam", kind="heating", body="heavy", power=[[0.0, 0.0], [1.0, 1.0]])
     simulation = Simulation(decks.loads(GASES + beam))
-    s, audit, found = simulation.state, simulation.audit, simulation._reach
+    s, audit, bounds = simulation.state, simulation.audit, simulation._reach
     s.e[0, 8, 3] *= 8.0
     gained = totals(s).energy - audit.start.energy
-    needs = np.interp(7.0 * 2.5e6 / 3.0, found.squeezed[0], found.work)  # three times the heat is within reach
-    assert s.e[0, 8, 3] > 1.5 * found.cell_highest[0]
+    needs = np.interp(7.0 * 2.5e6 / 3.0, bounds.squeezed[0], bounds.work)  # three times the heat is within reach
+    assert s.e[0, 8, 3] > 1.5 * bounds.cell_highest[0]
     for given, doubtful in ((1.1 * needs, False), (0.1 * needs, True)):
         audit.sinks["beam"].energy, audit.sinks["outflow"].energy = -given, given - gained
         simulation.refuse_nonsense()
         assert bool(simulation.doubts()) == doubtful
 
 
-#: edges beside which bodies fly along z and meet nothing: none, the walls of a tube, the axis and a wall
+#: edges next to which bodies fly along z and hit nothing: none, the walls of a tube, the axis and a wall
 BESIDE = {"nothing": ["boundaries.r_max=outflow", "boundaries.r_min=outflow"], "tube": [],
           "axis": ["mesh.geometry=cylindrical"]}
 
 
 @pytest.mark.parametrize("open_ends", BESIDE.values(), ids=BESIDE)
 @pytest.mark.parametrize("by", [3000.0, -500.0])
-def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by, open_ends):
-    """But where an edge stands across their way, which they meet."""
+def test_a_velocity_added_to_all_bodies_changes_no_verdict(by, open_ends):
+    """Unless an edge lies across their path, which they hit."""
     moved = [f"body.{name}.velocity=[0.0, {by + own}]" for name, own in (("flyer", 1000.0), ("plate", 0.0), ("air", 0.0))]
     here, there = reach(*open_ends), reach(*open_ends, *moved)
     for name in ("lowest", "highest", "cell_lowest", "cell_highest", "worked", "speed", "pressure", "stands"):
@@ -229,7 +229,7 @@ def test_a_velocity_that_all_bodies_have_more_changes_no_verdict(by, open_ends):
     assert reach(*open_ends, *moved, "boundaries.z_max=anvil").speed == pytest.approx(meets, abs=5.0)
 
 
-def test_what_was_doubtful_once_is_not_forgotten(tmp_path):
+def test_a_doubt_is_not_forgotten(tmp_path):
     """Not even after a restart: the run goes on, and is not trusted."""
     simulation = Simulation(decks.loads(SHOT, ["body.air.pressure=0.0", "body.air.material=Al5083"]))
     s = simulation.state
@@ -248,7 +248,7 @@ def test_what_was_doubtful_once_is_not_forgotten(tmp_path):
 
 
 def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):
-    """Once 2.3e8 J/kg, 320 000 K, and trusted: the heat of the viscosity and the pressure of the metal went into the air."""
+    """It used to reach 2.3e8 J/kg, 320 000 K, and was trusted: the viscous heat and the metal's pressure went into the air."""
     summary = run(decks.loads(SHOT), tmp_path / "run", quiet=True)
     assert exit_status(summary) == 3
     assert not summary["trustworthy"]
@@ -256,8 +256,8 @@ def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):
     assert "Leave the space empty" in summary["stop_reason"]
 
 
-def test_a_gas_beside_a_moving_metal_has_the_heat_of_its_shock():
-    """Air before a flyer at 1 km/s, not yet crushed: some 7e5 J/kg behind the shock, where metal and air share cells."""
+def test_a_gas_next_to_a_moving_metal_has_the_heat_of_its_shock():
+    """Air ahead of a flyer at 1 km/s, not yet crushed: some 7e5 J/kg behind the shock, where metal and air share cells."""
     simulation = Simulation(decks.loads(SHOT))
     while simulation.time < 0.45e-6:
         simulation.step()

@@ -1,4 +1,4 @@
-"""Nonsense is not called done: what a state may not be, whatever the audit says."""
+"""Nonsense is not called done: states that are refused, whatever the audit says."""
 
 import dataclasses
 import json
@@ -32,7 +32,7 @@ def shot():
 
 
 def close(simulation, sink="advection"):
-    """Records by the name of a sink what the audit does not explain, as a limit of the method would."""
+    """Records the part that the audit does not explain under the name of a sink, as a limit of the method would."""
     audit = simulation.audit
     gone = audit.start.energy - totals(simulation.state).energy - sum(sink.energy for sink in audit.sinks.values())
     audit.add(sink, energy=gone)
@@ -73,7 +73,7 @@ def test_the_heat_of_plastic_work_is_no_fault(shot):
     assert not [fault for fault in shot.faults() if fault.startswith('body "flyer" has')]
 
 
-def test_what_is_left_of_a_body_is_not_looked_at_as_a_whole(shot):
+def test_the_remains_of_a_body_are_not_judged_as_a_whole(shot):
     """The last twentieth of a rod, which is about to leave the mesh, may be hot."""
     state, mass = shot.state, totals(shot.state).mass[0]
     full = np.nonzero((state.vof[0] > 0).any(axis=1))[0]
@@ -102,12 +102,12 @@ def test_a_clip_that_took_much(shot, clip):
     assert shot.faults(share=0.06) == []
 
 
-def test_what_is_no_number_is_a_fault(shot):
+def test_a_nan_is_a_fault(shot):
     shot.state.e[0, 10, 3] = np.nan
     assert shot.faults()
 
 
-def test_what_edges_put_in_counts(shot):
+def test_energy_put_in_by_edges_counts(shot):
     """A piston may bring any energy."""
     work = 10.0 * shot.audit.start.energy
     shot.state.e[1][shot.state.vof[1] > 0] += work / totals(shot.state).mass[1]
@@ -126,7 +126,7 @@ def test_a_run_with_a_fault_ends_within_ten_cycles(shot):
 
 
 def spoil(monkeypatch, cycle):
-    """Lets ke_bound take a twentieth of the energy in one cycle."""
+    """Lets ke_bound remove a twentieth of the energy in one cycle."""
     step = Simulation.step
 
     def spoiled(self):
@@ -163,7 +163,7 @@ def step_with(simulation, **changes):
 
 
 def test_a_cell_that_a_step_turns_inside_out_ends_the_run_with_its_place():
-    """Half of the flyer is hurled into the other half; the step was chosen by the velocities before that."""
+    """Half of the flyer is hurled into the other half; the step was chosen from the velocities before that."""
     text = TEXT + entry("source", name="gun", kind="acceleration", body="flyer", z=["2 mm", "5 mm"], axial="2e12 m/s^2")
     simulation = Simulation(deck.loads(text, ["numerics.initial_dt_factor=1.0"]))
     with pytest.raises(UnphysicalState, match=r'cycle 0, time 0 s, cell \(r, z\) = \(0.00025, 0.00475\) m, body "flyer": the '
@@ -171,7 +171,7 @@ def test_a_cell_that_a_step_turns_inside_out_ends_the_run_with_its_place():
         simulation.step()
 
 
-#: products of TNT beside steel: number 46 of the random decks of tests/trials/crowd.py, in which a body lost 7e-8 of its mass
+#: products of TNT next to steel: number 46 of the random decks of tests/trials/crowd.py, in which a body lost 7e-8 of its mass
 PRODUCTS = (
     mesh(("9 mm", 9), ("22 mm", 22))
     + box("rod", "steel_4340", r=[0.0, 0.0036121999238876903], z=[-0.001, 0.010876512815477373], velocity=213.7214512771238)
@@ -185,7 +185,7 @@ PRODUCTS = (
 
 
 def test_no_mass_is_lost_where_a_contact_might_turn_a_cell_inside_out():
-    """One did in cycle 73, when the burning of the explosive lagged behind its front."""
+    """One was turned in cycle 73, when the burning of the explosive lagged behind its front."""
     simulation = Simulation(deck.loads(PRODUCTS))
     while simulation.cycle < 120:
         simulation.step()

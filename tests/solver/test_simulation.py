@@ -1,4 +1,4 @@
-"""What a simulation tells of itself after a cycle, held against the same in numpy."""
+"""Values that a simulation reports after a cycle, compared with numpy."""
 
 import numpy as np
 import pytest
@@ -29,11 +29,11 @@ def test_totals(moving):
     state, grid = moving.state, moving.grid
     mass = grid.interior(state.vof * state.rho * grid.volume)
     vertex_mass, u, v = (grid.interior_vertices(field) for field in (state.mass, state.u, state.v))
-    found = totals(state)
-    np.testing.assert_allclose(found.mass, mass.sum(axis=(1, 2)), rtol=1e-13)
-    assert found.internal == pytest.approx(np.sum(mass * grid.interior(state.e)), rel=1e-12)
-    assert found.momentum == pytest.approx(np.sum(vertex_mass * v), rel=1e-12)
-    assert found.kinetic == pytest.approx(0.5 * np.sum(vertex_mass * (u**2 + v**2)), rel=1e-12)
+    sums = totals(state)
+    np.testing.assert_allclose(sums.mass, mass.sum(axis=(1, 2)), rtol=1e-13)
+    assert sums.internal == pytest.approx(np.sum(mass * grid.interior(state.e)), rel=1e-12)
+    assert sums.momentum == pytest.approx(np.sum(vertex_mass * v), rel=1e-12)
+    assert sums.kinetic == pytest.approx(0.5 * np.sum(vertex_mass * (u**2 + v**2)), rel=1e-12)
 
 
 @pytest.mark.parametrize("m", [0, 1])
@@ -48,7 +48,7 @@ def test_mean_velocity(moving, m):
 
 
 def test_velocity_at_points(moving):
-    """Linear fields are found exactly, and points beyond the mesh have the velocity of its edge."""
+    """Linear fields are found exactly, and points outside the mesh have the velocity of its edge."""
     grid, state = moving.grid, moving.state
     z, r = np.meshgrid(grid.z, grid.r, indexing="ij")
     kept = state.u.copy(), state.v.copy()
@@ -90,7 +90,7 @@ def test_a_run_stops_at_the_same_cycle_after_a_restart():
 
 
 def test_a_rod_that_perforates_ends_the_run():
-    """At 2 km/s the rod is through 3 mm of aluminium, and its radius further, before the run's 50 us."""
+    """At 2 km/s the rod passes 3 mm of aluminium, and its radius further, before the run's 50 us."""
     text = TEXT.replace('"10 mm"\n[[tracer]]', '"3 mm"\n[[tracer]]').replace("60 m/s", "2 km/s")
     simulation = Simulation(deck.loads(text, ["stop.perforation=true"]))
     while (reason := simulation.stop_reason()) is None:
@@ -113,8 +113,8 @@ def until_it_ends(simulation: Simulation) -> tuple[str, int]:
     return reason, simulation.cycle
 
 
-def test_a_body_at_rest_is_waited_for_until_it_has_moved():
-    """It is hit after 3.3 us; then it is not rid of its velocity any more."""
+def test_a_run_waits_until_a_body_at_rest_has_moved():
+    """It is hit after 3.3 us; from then on it keeps its velocity."""
     simulation = Simulation(deck.loads(TWO + stop("20 us", body="second", speed_below="5 m/s")))
     assert until_it_ends(simulation)[0] == "end time"
     assert simulation.mean_velocity(1) > 100.0

@@ -1,4 +1,4 @@
-"""Gauges that stay on a surface: where it is, on which side, and the velocity of a free surface."""
+"""Gauges that stay on a surface: its position, its side, and the velocity of a free surface."""
 
 import numpy as np
 import pytest
@@ -49,8 +49,8 @@ time = "2 us"
 def test_the_ends_of_a_body_on_a_line():
     edges = np.linspace(0.0, 1.0, 11)
     column = np.array([0.0, 0.3, 1.0, 1.0, 0.8, 0.1, 0.0, 0.0, 0.6, 1.0])
-    found = surfaces(column, edges)
-    assert found == [(pytest.approx(0.17), -1), (pytest.approx(0.49), 1), (pytest.approx(0.84), -1)]
+    ends = surfaces(column, edges)
+    assert ends == [(pytest.approx(0.17), -1), (pytest.approx(0.49), 1), (pytest.approx(0.84), -1)]
     assert surfaces(np.ones(4), np.arange(5.0)) == surfaces(np.zeros(4), np.arange(5.0)) == []
 
 
@@ -58,8 +58,8 @@ def test_the_place_of_a_surface_is_smooth_as_it_moves():
     edges = np.linspace(0.0, 1.0, 11)
     for end in np.linspace(0.35, 0.75, 41):
         column = np.clip((end - edges[:-1]) / 0.1, 0.0, 1.0)
-        ((found, side),) = surfaces(column, edges)
-        assert (found, side) == (pytest.approx(end, abs=1e-12), 1)
+        ((position, side),) = surfaces(column, edges)
+        assert (position, side) == (pytest.approx(end, abs=1e-12), 1)
 
 
 def test_a_gauge_begins_on_the_nearest_surface():
@@ -75,11 +75,11 @@ def test_the_velocity_of_a_free_surface():
         sim.step()
         speed = sim.stations.measure()["gauge_rear"]["velocity_z_m_s"]
         way, peak = way + speed * sim.dt, max(peak, speed)
-    found = sim.stations.measure()["gauge_rear"]
-    assert found["z_m"] - 4.04e-3 == pytest.approx(way, rel=0.02)
+    measured = sim.stations.measure()["gauge_rear"]
+    assert measured["z_m"] - 4.04e-3 == pytest.approx(way, rel=0.02)
     assert 0.93 * 400.0 < peak < 1.03 * 400.0
-    assert found["peak_speed_m_s"] >= peak
-    assert abs(found["pressure_Pa"]) < 0.1 * sim.stations.measure()["gauge_rear"]["peak_pressure_Pa"] + 1e9
+    assert measured["peak_speed_m_s"] >= peak
+    assert abs(measured["pressure_Pa"]) < 0.1 * sim.stations.measure()["gauge_rear"]["peak_pressure_Pa"] + 1e9
 
 
 def test_it_continues_from_a_restart_to_the_same_bits():
@@ -99,9 +99,9 @@ def test_a_surface_that_has_gone_is_nowhere():
     sim = Simulation(decks.loads(DECK))
     sim.state.vof[1] = 0.0
     sim.stations.record()
-    found = sim.stations.measure()["gauge_rear"]
-    assert found["z_m"] is None
-    assert found["velocity_z_m_s"] is None
+    measured = sim.stations.measure()["gauge_rear"]
+    assert measured["z_m"] is None
+    assert measured["velocity_z_m_s"] is None
     sim.stations.record()
     assert sim.stations.measure()["gauge_rear"]["z_m"] is None
 
@@ -129,7 +129,7 @@ def test_a_gauge_along_r():
         ("gauge.rear.along=x", "along"),
     ],
 )
-def test_what_is_refused(override, said):
+def test_refused_gauges(override, said):
     if not said:
         assert decks.loads(DECK, [override]).gauge[0].along == "z"
         return
@@ -175,7 +175,7 @@ time = "2 us"
 
 @pytest.mark.parametrize("thickness", [0.03, 0.06, 0.09, 0.15])
 def test_gauges_stay_on_a_body_narrower_than_a_cell(thickness):
-    """Ten cells of way: both surfaces, and the velocity of the foil between them."""
+    """Over ten cells of flight: both surfaces, and the velocity of the foil between them."""
     sim = Simulation(decks.loads(THIN.replace("END", f"{1.03 + thickness}")))
     places = np.array([1.03 + thickness, 1.03]) * 1e-3
     np.testing.assert_allclose(sim.stations.places[:, 1], places, atol=1e-9)

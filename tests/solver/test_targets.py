@@ -1,4 +1,4 @@
-"""Several targets, one behind the other: which they are, and what is measured of the rod behind each and of the hole in it."""
+"""Several targets, one behind the other: which they are, and measurements of the rod behind each and of its hole."""
 
 import json
 
@@ -27,7 +27,7 @@ TEXT = (
     + stop("30 us", perforation=True)
     + table("output", history_interval="0.05 us", vtk_interval="10 us")
 )
-#: the same, flying to -z
+#: as above, but flying to -z
 BACK = ['body.ball.centre="6 mm"', 'body.ball.velocity="-1500 m/s"', 'body.rear.z_front="-16 mm"',
         'body.front.z_front="-3 mm"', 'mesh.z_start="-31 mm"', 'mesh.z.0.to="13 mm"']  # fmt: skip
 RING = '[[body]]\nname = "ring"\nmaterial = "Al6061_T6"\nshape = "box"\nr = ["10 mm", "12 mm"]\nz = ["5 mm", "8 mm"]\n'
@@ -41,8 +41,8 @@ def penetration(text: str, *options: str):
 
 @pytest.mark.parametrize("options", [(), BACK], ids=["to +z", "to -z"])
 def test_plates_in_the_way_are_targets_in_the_order_of_the_flight(options):
-    found = penetration(TEXT, *options)
-    assert (found.rod, found.target, found.targets, found.surface) == ("ball", "front", ("front", "rear"), 0.0)
+    targets = penetration(TEXT, *options)
+    assert (targets.rod, targets.target, targets.targets, targets.surface) == ("ball", "front", ("front", "rear"), 0.0)
 
 
 def test_rings_and_plates_behind_the_rod_are_none():
@@ -60,8 +60,8 @@ def test_a_resolved_deck_says_the_same_again():
      ('target = "front"\ntargets = ["front", "rear"]', ("front", "rear"))],
 )  # fmt: skip
 def test_named_targets(keys, targets):
-    found = penetration(TEXT + NAMED + keys)
-    assert (found.target, found.targets) == (targets[0], targets)
+    section = penetration(TEXT + NAMED + keys)
+    assert (section.target, section.targets) == (targets[0], targets)
 
 
 @pytest.mark.parametrize(
@@ -93,9 +93,9 @@ def test_the_rod_behind_each_target(shot):
     assert front["exit_mass_kg"] == pytest.approx(shot.summary["rod_mass_kg"], rel=0.02)
     assert 10e-3 > front["exit_length_m"] > rear["exit_length_m"] > 5e-3
     times, depths = shot.history["time"], shot.history["penetration_depth_m"]
-    for found, rear_face in ((front, 3e-3), (rear, 16e-3)):
-        seen = int(np.argmin(np.abs(times - found["exit_time_s"])))
-        assert times[seen] == pytest.approx(found["exit_time_s"], rel=1e-12)
+    for behind, rear_face in ((front, 3e-3), (rear, 16e-3)):
+        seen = int(np.argmin(np.abs(times - behind["exit_time_s"])))
+        assert times[seen] == pytest.approx(behind["exit_time_s"], rel=1e-12)
         assert depths[seen - WATCH_EVERY] < rear_face + 4.966e-3 <= depths[seen]  # its radius on this mesh; every cycle is kept
     assert shot.summary["exit_time_s"] == rear["exit_time_s"]
     assert shot.summary["rod_residual_velocity_m_s"] == pytest.approx(rear["exit_velocity_m_s"], rel=1e-3)
@@ -149,9 +149,9 @@ def test_a_restart_keeps_what_was_passed():
 def test_a_mirrored_shot_does_the_same(tmp_path, shot):
     """Its exits differ by 6e-6: round-off decides in cells with crumbs of a body, by up to 250 m/s there."""
     run(decks.loads(TEXT, [*BACK, "output.history_interval=1e-6"]), tmp_path / "run", quiet=True)
-    found = Results(tmp_path / "run").summary["targets"]
+    results = Results(tmp_path / "run").summary["targets"]
     for name, one in shot.summary["targets"].items():
-        assert found[name]["exit_velocity_m_s"] == pytest.approx(-one["exit_velocity_m_s"], rel=1e-5)
+        assert results[name]["exit_velocity_m_s"] == pytest.approx(-one["exit_velocity_m_s"], rel=1e-5)
 
 
 def test_the_models_take_one_target(tmp_path, capsys):

@@ -1,4 +1,4 @@
-"""Forces per mass: free fall, hydrostatic pressure, what audits say of them, walls, two bodies, restarts."""
+"""Forces per mass: free fall, hydrostatic pressure, their audit, walls, two bodies, restarts."""
 
 import numpy as np
 import pytest
@@ -53,9 +53,9 @@ def test_free_fall_is_exact(advection):
     np.testing.assert_allclose(simulation.grid.interior_vertices(simulation.state.v[0])[moving], v, rtol=1e-9)
     assert face(simulation) == pytest.approx(12e-3 + 100.0 * t + 0.5 * G * t * t, abs=1e-9)
     assert abs(simulation.grid.interior(simulation.state.e)).max() < 1e-6 * 0.5 * v * v
-    found, sink = simulation.conservation(), simulation.audit.sinks["gravity"]
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance, sink = simulation.conservation(), simulation.audit.sinks["gravity"]
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
     assert sink.momentum == pytest.approx(-mass * G * t, rel=1e-12)
     assert sink.energy == pytest.approx(-0.5 * mass * (v**2 - 100.0**2), rel=1e-9)
     assert simulation.doubts() == []
@@ -68,7 +68,7 @@ def test_a_table_gives_its_integral():
     assert v[28] == pytest.approx(100.0 + 100.0, rel=1e-9)
 
 
-def test_what_is_not_within_reach_is_not_pushed():
+def test_material_out_of_reach_is_not_pushed():
     """A source over the lower half of the plate gives half of the momentum."""
     lower_half = ['source.gravity.z=["0 mm", "14.5 mm"]', 'stop.time="0.1 us"', "body.plate.velocity=0"]
     simulation = Simulation(deck.loads(FALL, lower_half))
@@ -93,7 +93,7 @@ def test_wrong_tables(override, words):
 
 #: cells, their height, and the material of the column
 N, H = 20, 0.5e-3
-#: its energy at the start, J/kg: with none, what round-off changes would be more than all there is
+#: its energy at the start, J/kg: at zero energy, changes by round-off would exceed the whole
 ENERGY = 1e3
 
 
@@ -107,8 +107,8 @@ def density_at(material, p):
 
 
 def column(names):
-    """Densities from the top down in which every vertex is in balance: its half cells weigh what the pressure differs by."""
-    found, p = [], 0.0
+    """Densities from the top down in which every vertex is in balance: the pressure difference carries its half cells."""
+    densities, p = [], 0.0
     weight = 0.0  # of the half cell above
     for name in names:
         material = library.load(name)
@@ -116,8 +116,8 @@ def column(names):
         for _ in range(60):
             rho = density_at(material, p + weight - 0.5 * G * H * rho)
         p, weight = p + weight - 0.5 * G * H * rho, -0.5 * G * H * rho
-        found.append((rho, p))
-    return found
+        densities.append((rho, p))
+    return densities
 
 
 def standing(names, extra=""):
@@ -176,17 +176,17 @@ def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
     pressure = simulation.grid.interior(simulation.state.p)[:N, 1]
     np.testing.assert_allclose(pressure, expected, rtol=1e-6)
     assert abs(simulation.state.v).max() < 1e-6
-    found, sinks = simulation.conservation(), simulation.audit.sinks
+    balance, sinks = simulation.conservation(), simulation.audit.sinks
     weight = simulation.audit.start.mass.sum() * G * simulation.time
     given = sum(sinks[f"gravity on {name}"].momentum for name in set(names))
     assert given == pytest.approx(-weight, rel=1e-12)
     assert sinks["walls"].momentum == pytest.approx(weight, rel=1e-12)  # the momentum of the column itself is round-off
-    assert abs(found["total_energy"]) < 1e-12
+    assert abs(balance["total_energy"]) < 1e-12
     assert simulation.doubts() == []
 
 
 def test_without_the_source_the_same_column_rises():
-    """The check above can fail: without its weight the column springs up."""
+    """The check above can fail: without its weight the column expands upwards."""
     text = standing(["Al5083"] * N)
     simulation = Simulation(deck.loads(text[: text.index("[[source]]")]))
     for _ in range(20):
@@ -209,8 +209,8 @@ hard = ["block"]
 
 
 @pytest.mark.parametrize("pushed", ["plate", "block"])
-def test_a_force_beside_a_contact_passes_on_through_it(pushed):
-    """A plate falls onto a block, or the block is driven into the plate: momentum of both, but for crumbs, and the audit."""
+def test_a_force_next_to_a_contact_passes_through_it(pushed):
+    """A plate falls onto a block, or the block is driven into the plate: momentum of both, except for crumbs, and the audit."""
     push = G if pushed == "plate" else -G
     text = FALL.replace('body = "plate"', f'body = "{pushed}"').replace("axial = -2e8", f"axial = {push}")
     text = text.replace('velocity = "100 m/s"', "velocity = 0.0")
@@ -223,9 +223,9 @@ def test_a_force_beside_a_contact_passes_on_through_it(pushed):
     (other,) = set(mass) - {pushed}
     assert means[other] * given > 0.0
     assert abs(means[other]) > 0.01 * abs(means[pushed])
-    found = simulation.conservation()
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance = simulation.conservation()
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
     assert simulation.audit.sinks["gravity"].momentum == pytest.approx(-given, rel=1e-8)
 
 

@@ -1,4 +1,4 @@
-"""Detonations in decks: light times in bodies, what a deck is told, what burns and what stays as it is."""
+"""Detonations in decks: light times in bodies, messages for decks, what burns and what stays as it is."""
 
 import math
 
@@ -50,12 +50,12 @@ def light(simulation, variable=jwl.LIGHT):
 
 def test_light_times_are_straight_and_bend_around_the_plug():
     simulation = Simulation(deck.loads(TEXT))
-    found, grid = light(simulation), simulation.grid
+    times, grid = light(simulation), simulation.grid
     rows, columns = grid.inside
     r, z = grid.rc[columns], grid.zc[rows]
-    assert found[19, 3] == pytest.approx(math.hypot(r[3], z[19]) / 6930.0, rel=1e-12)
+    assert times[19, 3] == pytest.approx(math.hypot(r[3], z[19]) / 6930.0, rel=1e-12)
     behind = math.hypot(5e-3, 10e-3) + 2e-3 + math.hypot(5e-3 - r[0], z[30] - 12e-3)
-    assert behind - 1e-6 < found[30, 0] * 6930.0 < behind + 0.5e-3
+    assert behind - 1e-6 < times[30, 0] * 6930.0 < behind + 0.5e-3
     far = np.hypot(*np.meshgrid(r[:16], z[:20])) > 0.8e-3
     np.testing.assert_allclose(light(simulation, jwl.BURN_TIME)[:20, :16][far], 2.5 * 0.5e-3 / 6930.0, rtol=1e-12)
     assert simulation.warnings == []
@@ -65,21 +65,21 @@ def test_an_own_speed_and_width_and_several_sources():
     second = TEXT[TEXT.index("[[source]]"): TEXT.index("[numerics]")].replace("fuse", "other").replace(
         '["0 mm", "0 mm", "0 us"]', '["8 mm", "18 mm", "1 us"]')
     simulation = Simulation(deck.loads(TEXT + second, ["source.fuse.speed=4000 m/s", "source.fuse.widths=3"]))
-    found, duration = light(simulation), light(simulation, jwl.BURN_TIME)
-    assert found[0, 2] == pytest.approx(math.hypot(1.25e-3, 0.25e-3) / 4000.0, rel=1e-12)
+    times, duration = light(simulation), light(simulation, jwl.BURN_TIME)
+    assert times[0, 2] == pytest.approx(math.hypot(1.25e-3, 0.25e-3) / 4000.0, rel=1e-12)
     assert duration[0, 2] == pytest.approx(3 * 0.5e-3 / 4000.0)
-    assert found[33, 15] == pytest.approx(1e-6 + math.hypot(0.25e-3, 1.25e-3) / 6930.0, rel=1e-12)
+    assert times[33, 15] == pytest.approx(1e-6 + math.hypot(0.25e-3, 1.25e-3) / 6930.0, rel=1e-12)
     assert duration[33, 15] == pytest.approx(2.5 * 0.5e-3 / 6930.0)
 
 
 def test_nothing_burns_before_its_point_is_lit():
-    """The cells at a point begin to burn with it, and have burnt when they would have; where it is lit later as well."""
+    """The cells at a point start to burn with it, and have burnt at the expected time; also if it is lit later."""
     simulation = Simulation(deck.loads(TEXT, ['source.fuse.points=[[0, 0, 0], ["8 mm", "18 mm", "1 us"]]']))
-    found, duration = light(simulation), light(simulation, jwl.BURN_TIME)
+    times, duration = light(simulation), light(simulation, jwl.BURN_TIME)
     arrival, whole = math.hypot(0.25e-3, 0.25e-3) / 6930.0, 2.5 * 0.5e-3 / 6930.0
     for cell, start in (((0, 0), 0.0), ((35, 15), 1e-6)):
-        assert found[cell] - jwl.LEAD * duration[cell] == pytest.approx(start, abs=1e-15)
-        assert found[cell] + (1.0 - jwl.LEAD) * duration[cell] == pytest.approx(start + arrival + (1.0 - jwl.LEAD) * whole)
+        assert times[cell] - jwl.LEAD * duration[cell] == pytest.approx(start, abs=1e-15)
+        assert times[cell] + (1.0 - jwl.LEAD) * duration[cell] == pytest.approx(start + arrival + (1.0 - jwl.LEAD) * whole)
 
 
 def test_the_reach_limits_what_is_lit():
@@ -105,10 +105,10 @@ def test_wrong_tables(override, words):
 
 @pytest.mark.parametrize("point", ['"9 mm", "2 mm"', '"2 mm", "11 mm"', '"0 mm", "-3 mm"', '"0 mm", "25 mm"'])
 def test_a_point_outside_of_the_explosive(point):
-    found = deck.loads(TEXT, [f'source.fuse.points=[[{point}, 0]]'])
+    loaded = deck.loads(TEXT, [f'source.fuse.points=[[{point}, 0]]'])
     for start in (check, Simulation):
         with pytest.raises(DeckError, match=r'source "fuse": the point .* lies outside of its explosive, body "charge"$'):
-            start(found)
+            start(loaded)
 
 
 @pytest.mark.parametrize("point", ['"8 mm", "18 mm"', '"8 mm", "0 mm"', '"5 mm", "10 mm"'])
@@ -117,19 +117,19 @@ def test_a_point_on_the_surface_is_inside(point):
 
 
 def test_an_explosive_that_nothing_lights():
-    found = deck.loads(TEXT.replace(TEXT[TEXT.index("[[source]]"): TEXT.index("[numerics]")], ""))
+    loaded = deck.loads(TEXT.replace(TEXT[TEXT.index("[[source]]"): TEXT.index("[numerics]")], ""))
     said = 'body "charge": an explosive without a source of kind "detonation"; no time lights it'
-    assert said in deck.warnings(found)
-    assert said in check(found).warnings
+    assert said in deck.warnings(loaded)
+    assert said in check(loaded).warnings
     assert said not in deck.warnings(deck.loads(TEXT))
 
 
 def test_parts_that_no_detonation_reaches():
     """A plug as wide as the charge: a third of it, 6 of 16 mm, lies behind."""
-    found = deck.loads(TEXT, ['body.plug.r=["0 mm", "8 mm"]'])
+    loaded = deck.loads(TEXT, ['body.plug.r=["0 mm", "8 mm"]'])
     said = [f'source "fuse": no detonation reaches {6 / 16:.2%} of body "charge", which does not burn']
-    assert Simulation(found).warnings == said
-    assert [text for text in check(found).warnings if "fuse" in text] == said
+    assert Simulation(loaded).warnings == said
+    assert [text for text in check(loaded).warnings if "fuse" in text] == said
 
 
 def test_a_mesh_that_follows_is_refused():

@@ -1,4 +1,4 @@
-"""Sources of energy: the tables of a deck, what they give and what the audit says of it."""
+"""Sources of energy: the tables of a deck, the energy deposited and its audit."""
 
 import numpy as np
 import pytest
@@ -71,7 +71,7 @@ def test_two_sources_of_one_name():
 
 
 def test_the_share_of_cells_within_reach():
-    """In r-z the share of the volume: of a cell from 1 to 2 mm, what lies within 1.5 mm is 5/12 of it."""
+    """In r-z the share of the volume: of a cell from 1 to 2 mm, the part within 1.5 mm is 5/12."""
     grid = Grid([0.0, 1e-3, 2e-3, 3e-3], [0.0, 1e-3, 2e-3])
     beam = Heating(name="beam", kind="heating", body="plate", r=[0.0, 1.5e-3], z=[0.25e-3, 5e-3], power=ROWS)
     np.testing.assert_allclose(beam.share(grid), np.outer([0.75, 1.0], [1.0, 5 / 12, 0.0]), rtol=1e-13, atol=1e-15)
@@ -85,21 +85,21 @@ def test_energy_and_audit_close_to_round_off():
     simulation.run()
     given = -simulation.audit.sinks["beam"].energy
     assert given == pytest.approx(4e4 * 2660.0 * 2.5e-3 * 2.25e-3, rel=2e-3)
-    found = simulation.conservation()
-    assert abs(found["total_energy"]) < 1e-13
-    assert found["sinks"]["beam"] == {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": -given}
+    balance = simulation.conservation()
+    assert abs(balance["total_energy"]) < 1e-13
+    assert balance["sinks"]["beam"] == {"mass_kg": 0.0, "momentum_N_s": 0.0, "energy_J": -given}
     assert simulation.sources.given == pytest.approx([4e4], rel=1e-12)
     assert simulation.conservation()["kinetic_energy_J"] > 0.0
     assert simulation.doubts() == []
 
 
-def test_what_is_not_within_reach_stays_cold():
+def test_material_out_of_reach_stays_cold():
     simulation = Simulation(deck.loads(TEXT))
     while simulation.time < 0.15e-6:
         simulation.step()
     e = simulation.grid.interior(simulation.state.e)[0]
     assert e[11, 1] > 4e3
-    assert np.all(np.abs(e[20:]) < 1e-30)  # what sound of a few bits leaves of its motion as heat
+    assert np.all(np.abs(e[20:]) < 1e-30)  # heat left by sound waves of a few bits
     assert np.all(np.abs(e[:9]) < 1e-30)
 
 
@@ -118,7 +118,7 @@ def test_a_restart_goes_on_heating_to_the_same_bits():
 
 
 def test_a_source_may_set_variables_before_the_first_step(monkeypatch):
-    """What programmed burn needs: a made-up kind gives every cell of a porous block another distention."""
+    """Programmed burn needs this: a made-up kind gives every cell of a porous block another distention."""
     simulation = Simulation(deck.load("problems/verification/porous_compaction.toml"))
 
     class Crushed(Source):
@@ -128,5 +128,5 @@ def test_a_source_may_set_variables_before_the_first_step(monkeypatch):
 
     simulation.sources._all = [(Crushed(name="press", body="block"), 0)]
     assert simulation.sources.begin() == [f"{2117.647 * 0.4e-3 * 39e-3:.3g} kg"]
-    found = simulation.grid.interior(simulation.state.q[7, 0])
-    np.testing.assert_array_equal(found[:, 1], 1.0 + simulation.grid.zc[simulation.grid.inside[0]])
+    distention = simulation.grid.interior(simulation.state.q[7, 0])
+    np.testing.assert_array_equal(distention[:, 1], 1.0 + simulation.grid.zc[simulation.grid.inside[0]])

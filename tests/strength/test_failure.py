@@ -25,7 +25,7 @@ def test_pressure_delays_and_tension_hastens():
 
 
 def test_constant_fracture_strain():
-    """All but D1 off: damage is plastic strain over D1, whatever the state."""
+    """All but D1 off: damage is plastic strain over D1, in every state."""
     row = damage.row({"D1": 1.5})
     for p, seq, T, rate in ((-1e9, 1e9, 298.0, 1e5), (1e11, 0.0, 5e3, 0.0), (-1e11, 0.0, 0.0, 1e9)):
         assert damage.damage_increment(0.3, rate, T, p, seq, row) == pytest.approx(0.2, rel=1e-15)
@@ -46,7 +46,7 @@ def test_slow_rates_do_not_matter():
 
 
 def test_power_of_the_rate():
-    """5083-H116 of Clausen & others (2004): 1 + rate/rate0 to a power, in the place of the logarithm; both make no sense."""
+    """5083-H116 of Clausen & others (2004): 1 + rate/rate0 to a power instead of the logarithm; both together are refused."""
     values = {"D1": 0.0261, "D2": 0.263, "D3": -0.349, "rate_exponent": 0.147}
     expected = (0.0261 + 0.263 * math.exp(-0.349 / 3)) * 1001.0**0.147
     assert damage.fracture_strain(1000.0, 298.0, -3e8, 9e8, damage.row(values)) == pytest.approx(expected, rel=1e-14)

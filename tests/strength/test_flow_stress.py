@@ -204,7 +204,7 @@ def test_steinberg_guinan_modulus_does_not_turn_negative():
 @settings(max_examples=400, deadline=None)
 @given(eta=st.floats(0.3, 4.0), ratio=st.floats(0.2, 3.0), gamma=st.floats(0.5, 3.0), a=st.floats(0.0, 2.5))
 def test_melting_curve(eta, ratio, gamma, a):
-    """Equation 8, and no strength from there on."""
+    """Equation 8, and no strength from that temperature on."""
     row = steinberg_guinan.row({**TUNGSTEN, "grueneisen": gamma, "melt_exponent": a, "temperature_coefficient": 0.0})
     melt = 2263.0 * math.exp(2 * a * (1 - 1 / eta)) * eta ** (2 * (gamma - a - 1 / 3))
     line = (row[slot] for slot in (steinberg_guinan.MELT, steinberg_guinan.TWO_A, steinberg_guinan.K))
@@ -245,7 +245,7 @@ def test_zerilli_armstrong_by_hand(ep, rate, T, MPa):
 
 
 def test_zerilli_armstrong_numbers():
-    """What the constants were made for: iron at 300 K yields at 0.37 GPa at 1e3/s, and a tenfold rate adds some 0.1 GPa."""
+    """The purpose of the constants: iron at 300 K yields at 0.37 GPa at 1e3/s, and a tenfold rate adds some 0.1 GPa."""
     slow, fast = (zerilli_armstrong.flow_stress(0.0, rate, 300.0, 0.0, 0.0, IRON) for rate in (1e3, 1e4))
     assert slow == pytest.approx(0.366e9, rel=3e-3)
     assert fast - slow == pytest.approx(0.1e9, rel=0.05)

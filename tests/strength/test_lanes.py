@@ -1,4 +1,4 @@
-"""Cells that are solved together: every cell has the answer of `plastic_increment`, whatever its place and its company."""
+"""Cells solved together: each has the answer of `plastic_increment`, wherever it is and whichever cells are with it."""
 
 import inspect
 import math
@@ -15,7 +15,7 @@ from strength.dispatch import WEAKENS
 from strength.radial_return import next_trial, plastic_increment, return_together
 from tests.contract.test_models import STRENGTH_CASES
 
-#: what a cell brings, in the order of the arguments of `plastic_increment`
+#: input of a cell, in the order of the arguments of `plastic_increment`
 BROUGHT = (lanes.TRIAL, lanes.STRAIN, lanes.HEAT, lanes.PRESSURE, lanes.DENSITY)
 RANDOM = np.random.default_rng(7)
 
@@ -26,13 +26,13 @@ def materials():
         for variant in (None, *library.load(name).variants):
             material = library.load(name, variant)
             module = STRENGTH_MODELS[material.strength.name]
-            if module.NAME != "hydrodynamic" and module.ID not in WEAKENS:  # those are solved cell by cell
+            if module.NAME != "hydrodynamic" and module.ID not in WEAKENS:  # they are solved cell by cell
                 yield pytest.param(module, material.strength, material.eos.values["reference_density"],
                                    id=name if variant is None else f"{name}-{variant}")
 
 
 def states(module, par, density, number):
-    """trial, strain, temperature, pressure, density and shear modulus of cells, melted and unstrained ones among them."""
+    """trial, strain, temperature, pressure, density and shear modulus of cells, some of them melted or unstrained."""
     strain = np.where(RANDOM.random(number) < 0.1, 0.0, 10.0 ** RANDOM.uniform(-20.0, 1.5, number))
     T = np.where(RANDOM.random(number) < 0.1, 5000.0, RANDOM.uniform(0.0, 1500.0, number))
     p, rho = RANDOM.uniform(-2e9, 3e10, number), density * RANDOM.uniform(0.94, 1.4, number)
@@ -53,13 +53,13 @@ def together(model, par, dt, factor, trial, strain, T, p, rho, G):
 
 
 def alone(model, par, dt, factor, *cells):
-    """The same of `plastic_increment`, cell by cell."""
-    found = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par, 0.0)
-             for trial, ep, T, p, rho, G in zip(*cells, strict=True)]
-    return tuple(np.array(found).T)
+    """(dep, flow stress) of `plastic_increment`, cell by cell."""
+    answers = [plastic_increment(model, trial, ep, dt, T, p, rho, G, factor, par, 0.0)
+               for trial, ep, T, p, rho, G in zip(*cells, strict=True)]
+    return tuple(np.array(answers).T)
 
 
-def test_the_rows_of_lanes_are_apart_and_fill_the_array():
+def test_the_rows_of_lanes_do_not_overlap_and_fill_the_array():
     places = [value for name, value in inspect.getmembers(lanes) if name not in ("WIDTH", "LANES") and isinstance(value, int)]
     assert sorted(places) == list(range(0, LANE_ROWS * LANES, LANES))
     assert LANES % lanes.WIDTH == 0
@@ -74,11 +74,11 @@ def test_together_is_alone(module, strength, density):
     for k in range(60):
         cells = states(module, par, density, 1 + k % LANES)
         dt, factor = 10.0 ** RANDOM.uniform(-12.0, -5.0), (1.0, 1.5625)[k % 2]
-        found, expected = together(module.ID, par, dt, factor, *cells), alone(module.ID, par, dt, factor, *cells)
-        for mine, other in zip(found, expected, strict=True):
+        answers, expected = together(module.ID, par, dt, factor, *cells), alone(module.ID, par, dt, factor, *cells)
+        for mine, other in zip(answers, expected, strict=True):
             np.testing.assert_array_equal(mine, other)
-        plastic += np.count_nonzero(found[0])
-        melted += np.count_nonzero((found[1] == 0.0) & (found[0] > 0.0))
+        plastic += np.count_nonzero(answers[0])
+        melted += np.count_nonzero((answers[1] == 0.0) & (answers[0] > 0.0))
     assert plastic > 200
     assert (melted > 0) == (melts and module.CONSTANT_MODULUS)
 
@@ -96,12 +96,12 @@ def test_neither_place_nor_company_changes_a_bit(name):
         np.testing.assert_array_equal(np.ravel(one), whole[:, k])
     spoilt = [values.copy() for values in cells]
     spoilt[0][::2] = math.nan
-    found = np.array(together(module.ID, par, 1e-8, 1.0, *spoilt))
-    np.testing.assert_array_equal(found[:, 1::2], whole[:, 1::2])
-    assert np.isnan(found[:, ::2][:, cells[5][::2] > 0.0]).all()
+    answers = np.array(together(module.ID, par, 1e-8, 1.0, *spoilt))
+    np.testing.assert_array_equal(answers[:, 1::2], whole[:, 1::2])
+    assert np.isnan(answers[:, ::2][:, cells[5][::2] > 0.0]).all()
 
 
-#: of what the flow stress of each model depends on
+#: arguments on which the flow stress of each model depends
 FEELS = {
     "johnson-cook": ("strain", "T"), "steinberg-guinan": ("strain", "T", "p", "rho"), "power-law": ("strain",),
     "zerilli-armstrong": ("strain", "T"), "elastic-plastic": ("strain", "T"), "kinematic-hardening": ("strain",),
@@ -117,8 +117,8 @@ def test_no_nan_ends_as_an_elastic_step(name):
     for what in ("trial", *FEELS[name]):
         given = {"trial": trial, "strain": strain, "T": T, "p": p, "rho": rho, what: math.nan}
         cell = [np.array([value]) for value in (*given.values(), G)]
-        for found in (alone(module.ID, par, 1e-8, 1.0, *cell), together(module.ID, par, 1e-8, 1.0, *cell)):
-            assert np.isnan(found).all(), what
+        for answer in (alone(module.ID, par, 1e-8, 1.0, *cell), together(module.ID, par, 1e-8, 1.0, *cell)):
+            assert np.isnan(answer).all(), what
 
 
 def test_a_flow_stress_that_turns_nan_ends_the_search():

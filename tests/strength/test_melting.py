@@ -1,4 +1,4 @@
-"""The melting line of a material: Lindemann's slope, what is solid, and the lines of the library."""
+"""The melting line of a material: Lindemann's slope, which states are solid, and the lines of the library."""
 
 import math
 
@@ -71,8 +71,8 @@ def test_a_nan_is_not_hidden():
 @pytest.mark.parametrize("name", WITH_LINE)
 def test_lines_of_the_library_rise_without_a_jump(name):
     line, eta = line_of(name), np.linspace(0.9, 2.0, 2201)
-    found = np.array([melting.temperature(x, line) for x in eta])
-    rises = np.diff(found) / found[1:]
+    temperatures = np.array([melting.temperature(x, line) for x in eta])
+    rises = np.diff(temperatures) / temperatures[1:]
     assert (rises > 0.0).all()
     assert rises.max() < 0.005
     assert library.load(name).eos.numbers["specific_heat"].source
@@ -145,12 +145,12 @@ def test_a_resolved_deck_keeps_the_line():
     ('based_on = "nylon"\nmelting.melt_exponent = 1.0', "needs melt_temperature"),
     ('based_on = "Al_porous"\nmelting.melt_temperature = 1220.0', "does not say the density of the solid"),
 ])  # fmt: skip
-def test_what_a_line_refuses(text, words):
+def test_refused_melting_lines(text, words):
     with pytest.raises(deck.DeckError, match=words):
         deck.loads(DECK + text)
 
 
-def test_a_body_that_never_melts_is_told():
+def test_a_body_that_never_melts_is_reported():
     from hydro2d.deck.warnings import warnings
 
     def said(name):

@@ -1,4 +1,4 @@
-"""Return to the yield surface: on the surface, whatever the model, the step and the trial stress."""
+"""Return to the yield surface: on the surface, for every model, step and trial stress."""
 
 import math
 

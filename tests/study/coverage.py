@@ -1,4 +1,4 @@
-"""How often the 90 % intervals of searches with a budget hold the truth: `python -m tests.study.coverage [SEARCHES] [RUNS]`.
+"""How often the 90 % intervals of searches with a budget contain the truth: `python -m tests.study.coverage [SEARCHES] [RUNS]`.
 
 Every outcome is made up: it is logistic in velocity, with known v50 and width. The searches begin on several intervals, with
 seeds that no test uses. A search ends as `hydro2d transition` ends it: with its budget, or after two rounds of one outcome.
@@ -41,7 +41,7 @@ TRANSITIONS = (
 
 
 class Held(NamedTuple):
-    """Of searches for one transition, those with an estimate, and of these those whose intervals hold v50 and the width."""
+    """Number of searches for one transition that give an estimate, and of those whose intervals contain v50 and the width."""
 
     told: int
     v50: int
@@ -60,30 +60,30 @@ def searched(true: Transition, seed: int, runs: int = 40) -> tuple[list[float], 
 
 
 def within(value: float, low: float | None, high: float | None) -> bool:
-    """Whether an interval holds a value; an end that is None is open."""
+    """Whether an interval contains a value; an end that is None is open."""
     return (low is None or low <= value) and (high is None or value <= high)
 
 
 def measure(searches: int, runs: int) -> list[Held]:
-    """Searches so many times for each transition with so many runs, prints how often the intervals hold, and returns it."""
+    """Makes so many searches for each transition with so many runs, prints how often the intervals hold, and returns it."""
     print(f"{'v50':>6} {'width':>6}  {'interval':<12} {'told':>5} {'v50 held':>9} {'width held':>11}  "
           "median size of the interval of v50 and median estimate of the width, both over the width")  # fmt: skip
-    held = []
+    counts = []
     for number, true in enumerate(TRANSITIONS):
         first = FIRST + number * searches
         fits = [logit.fit(*searched(true, seed, runs)) for seed in range(first, first + searches)]
-        found = [each for each in fits if each is not None]
-        held.append(Held(len(found), sum(within(true.v50, each.v50_low, each.v50_high) for each in found),
-                         sum(within(true.width, each.width_low, each.width_high) for each in found)))  # fmt: skip
-        size = _median([_size(each.v50_low, each.v50_high) for each in found]) / true.width
-        estimate = _median([each.width for each in found]) / true.width
-        print(f"{true.v50:6g} {true.width:6g}  {true.ends[0]:4g} to {true.ends[1]:4g} {held[-1].told:5} {held[-1].v50:9} "
-              f"{held[-1].width:11}  {size:.2f}, {estimate:.2f}", flush=True)  # fmt: skip
-    told = sum(each.told for each in held)
-    for what, number in (("v50", sum(each.v50 for each in held)), ("width", sum(each.width for each in held))):
-        share = chance.wilson(number, told)
+        estimates = [each for each in fits if each is not None]
+        counts.append(Held(len(estimates), sum(within(true.v50, each.v50_low, each.v50_high) for each in estimates),
+                           sum(within(true.width, each.width_low, each.width_high) for each in estimates)))  # fmt: skip
+        size = _median([_size(each.v50_low, each.v50_high) for each in estimates]) / true.width
+        estimate = _median([each.width for each in estimates]) / true.width
+        print(f"{true.v50:6g} {true.width:6g}  {true.ends[0]:4g} to {true.ends[1]:4g} {counts[-1].told:5} {counts[-1].v50:9} "
+              f"{counts[-1].width:11}  {size:.2f}, {estimate:.2f}", flush=True)  # fmt: skip
+    estimated = sum(each.told for each in counts)
+    for what, number in (("v50", sum(each.v50 for each in counts)), ("width", sum(each.width for each in counts))):
+        share = chance.wilson(number, estimated)
         print(f"{runs} runs: the 90 % interval of {what} holds it in {100 * share.fraction:.1f} %: {share.words}")
-    return held
+    return counts
 
 
 def _size(low: float | None, high: float | None) -> float:

@@ -1,4 +1,4 @@
-"""Run directories and studies that nobody ran: what a report reads, written in milliseconds."""
+"""Run directories and studies that nobody ran: the input of a report, written in milliseconds."""
 
 from __future__ import annotations
 
@@ -132,6 +132,6 @@ def velocities(*speeds: int) -> dict[str, tuple[str, ...]]:
 
 def edit_json(file: Path, **changes) -> None:
     """Replaces entries of a JSON file."""
-    found = json.loads(file.read_text()) | changes
-    found.pop("sha256", None)
-    file.write_text(json.dumps(found))
+    entries = json.loads(file.read_text()) | changes
+    entries.pop("sha256", None)
+    file.write_text(json.dumps(entries))

@@ -8,9 +8,9 @@ VOID = {"meta", "img", "br", "wbr"}
 
 
 class Page(HTMLParser):
-    """Elements, their attributes and the text of a page; ``faults`` lists what is not well-formed or leads outside.
+    """Elements, their attributes and the text of a page; ``faults`` lists markup that is not well-formed or leads outside.
 
-    Words that may break in two lines are one in the text.
+    Words that may break into two lines are one in the text.
     """
 
     def __init__(self, text: str):
@@ -37,7 +37,7 @@ class Page(HTMLParser):
             value = attributes.get(key)
             if value is None or (value.startswith("data:") and (key == "src" or attributes.get("download"))):
                 continue
-            if key == "href" and value.startswith("../") and value.endswith("/view.html"):  # of a run beside the report
+            if key == "href" and value.startswith("../") and value.endswith("/view.html"):  # of a run next to the report
                 continue
             if not value.startswith("#"):
                 yield f"<{name}> leads to {value[:60]}"

@@ -1,4 +1,4 @@
-"""A dask client whose workers write made-up runs at once: for tests of what a sweep or a search chooses to run."""
+"""A dask client whose workers write made-up runs at once: for tests of the runs that a sweep or a search chooses."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def regime(velocity: float, deforming: float, eroding: float) -> str:
 
 
 class Client:
-    """What sweeps need of distributed.Client. Runs end in the order in which they were submitted.
+    """The part of distributed.Client that sweeps need. Runs end in the order in which they were submitted.
 
-    outcome : from the velocity in m/s and the resolved deck to entries of the summary, or to an Outcome that is none
+    outcome : from the velocity in m/s and the resolved deck to entries of the summary, or to an Outcome other than done
     interrupt_at : number of the submission at which SIGINT comes; its run leaves a restart file
     submitted : names of the cases in their order
-    ahead : how many had been submitted whenever what became of a case was asked
+    ahead : how many had been submitted each time that the outcome of a case was requested
     """
 
     def __init__(self, outcome: Callable, workers: int = 1, interrupt_at: int | None = None):
@@ -39,14 +39,14 @@ class Client:
         self.ahead: list[int] = []
 
     def connect(self):
-        """As cluster.local."""
+        """In place of cluster.local."""
         return contextlib.nullcontext(self)
 
     def scheduler_info(self, n_workers: int) -> dict:
         return {"workers": dict.fromkeys(range(self.workers))}
 
     def run(self, function, *arguments, on_error) -> None:
-        """Stops workers, which have ended."""
+        """Stops workers; here they have ended."""
 
     def submit(self, work, sweep, directory, text, threads, overwrite, *, key, pure):
         place = Path(directory)
@@ -63,11 +63,11 @@ class Client:
             os.kill(os.getpid(), signal.SIGINT)
             return Outcome("interrupted", "SIGINT", fresh=True)
         deck = tomllib.loads(text)
-        found = self.outcome(deck["body"][0]["velocity"][1], deck)
-        if isinstance(found, Outcome):
-            return found
+        outcome = self.outcome(deck["body"][0]["velocity"][1], deck)
+        if isinstance(outcome, Outcome):
+            return outcome
         try:
-            write(place, text, **found)
+            write(place, text, **outcome)
         except OSError as error:
             return Outcome("failed", f"{place}: {error.strerror}", type(error).__name__, host="here")
         return Outcome("done", host="here", wall_s=1.0)

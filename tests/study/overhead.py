@@ -1,4 +1,4 @@
-"""What a sweep costs beyond its cases: `python -m tests.study.overhead [CASES] [WORKERS]`.
+"""Cost of a sweep beyond its cases: `python -m tests.study.overhead [CASES] [WORKERS]`.
 
 The cases' own time is the sum of the times that run_case took in the workers. A case's first call in a process also loads
 its kernels from the cache; this counts as the case's. The sweep is timed as a command, from start to exit.

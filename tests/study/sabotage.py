@@ -1,4 +1,4 @@
-"""A preload of dask workers for tests: what HYDRO2D_SABOTAGE says befalls cases, {"case": what befalls it}."""
+"""A preload of dask workers for tests: HYDRO2D_SABOTAGE holds the fate of cases, {"case": fate}."""
 
 import json
 import os
@@ -17,7 +17,7 @@ def _befall(what):
     if what == "raise":
         raise ZeroDivisionError("a fault that nobody foresaw")
     if what == "full":
-        with open("/dev/full", "w") as file:  # every write to it fails as on a full disk
+        with open("/dev/full", "w") as file:  # every write fails as on a full disk
             file.write("x")
 
 

@@ -1,4 +1,4 @@
-"""The search alone, on made-up regimes: brackets hold the transition and are one step wide; it ends, whatever runs say."""
+"""The search alone, on made-up regimes: brackets contain the transition and are one step wide; every search ends."""
 
 import math
 
@@ -13,7 +13,7 @@ RIGID, DEFORMING, ERODING = GROWING
 
 
 def ordered(count, deforming, eroding):
-    """Regimes that grow: the positions of the first deforming and the first eroding rod."""
+    """Regimes in order: the positions of the first deforming and the first eroding rod."""
     return [GROWING[(n >= deforming) + (n >= eroding)] for n in range(count)]
 
 

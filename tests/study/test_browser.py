@@ -1,4 +1,4 @@
-"""The page in a real browser: on a phone, on a desk, on paper."""
+"""The page in a real browser: on a phone, on a desktop, on paper."""
 
 import json
 from unicodedata import normalize
@@ -18,7 +18,7 @@ AXES = {
 PHONE, DESK = 360, 1440
 SCHEMES = ("light", "dark")
 
-#: what the questions use: contrast of two colours, the background behind an element, words that stand in two lines
+#: helpers of the questions: contrast of two colours, the background behind an element, words that break into two lines
 TOOLS = r"""
   const all = (selector) => [...document.querySelectorAll(selector)];
   const numbers = (colour) => colour.match(/[\d.]+/g).map(Number);
@@ -140,75 +140,75 @@ def page(tmp_path_factory):
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_the_page_is_whole_alone_and_legible(browser, page, width, scheme):
-    found = browser.ask(page, STATE, width, scheme)
-    assert found["faults"] == []
-    assert found["inner"] == width
-    assert found["scroll"] <= width
-    assert found["widest"] <= width
-    assert len(found["pictures"]) == 1
-    assert min(found["pictures"]) > 0
-    assert (found["dark"], found["paper"] < 0.05) == (scheme == "dark", scheme == "dark")
-    assert len(found["plots"]) == 2
-    assert min(found["plots"]) > 4
-    assert found["points"] == 4 + 1 + 3  # ended, unfinished, experiments
-    assert min(found["read"]) >= 3
-    assert found["faint"] == []
-    assert found["cut"] == []
-    assert found["torn"] == found["spilt"] == []
-    assert "body.rod.velocity" in found["keys"]
-    assert found["requests"] == []
-    assert set(found["boxes"]) == {"auto"}
+    answer = browser.ask(page, STATE, width, scheme)
+    assert answer["faults"] == []
+    assert answer["inner"] == width
+    assert answer["scroll"] <= width
+    assert answer["widest"] <= width
+    assert len(answer["pictures"]) == 1
+    assert min(answer["pictures"]) > 0
+    assert (answer["dark"], answer["paper"] < 0.05) == (scheme == "dark", scheme == "dark")
+    assert len(answer["plots"]) == 2
+    assert min(answer["plots"]) > 4
+    assert answer["points"] == 4 + 1 + 3  # ended, unfinished, experiments
+    assert min(answer["read"]) >= 3
+    assert answer["faint"] == []
+    assert answer["cut"] == []
+    assert answer["torn"] == answer["spilt"] == []
+    assert "body.rod.velocity" in answer["keys"]
+    assert answer["requests"] == []
+    assert set(answer["boxes"]) == {"auto"}
 
 
 def test_values_zoom_and_pictures_are_offered(browser, page):
-    found = browser.ask(page, ASKED, DESK)
-    assert found["faults"] == []
-    assert "1086m-s_ke" in found["shown"]
-    assert "depth [cm]: 35" in found["shown"]
-    assert max(found["after"]) - min(found["after"]) < max(found["before"]) - min(found["before"])
-    assert "Download plot as a PNG" in found["buttons"]
-    assert not [title for title in found["buttons"] if "loud" in title or "hare" in title]
-    assert "impact velocity [m/s]" in found["picture"]
+    answer = browser.ask(page, ASKED, DESK)
+    assert answer["faults"] == []
+    assert "1086m-s_ke" in answer["shown"]
+    assert "depth [cm]: 35" in answer["shown"]
+    assert max(answer["after"]) - min(answer["after"]) < max(answer["before"]) - min(answer["before"])
+    assert "Download plot as a PNG" in answer["buttons"]
+    assert not [title for title in answer["buttons"] if "loud" in title or "hare" in title]
+    assert "impact velocity [m/s]" in answer["picture"]
 
 
 def test_table_decks_and_pictures_can_be_saved(browser, page):
-    found = {entry["name"]: entry for entry in browser.ask(page, LINKS, PHONE)}
-    assert found["cases.csv"]["start"].startswith("case,velocity,")
-    assert found["cases.csv"]["kind"] == "data:text/csv;charset=utf-8;base64"
-    assert "[[body]]" in found["1086m-s_ke.toml"]["start"]
-    assert found["rods_01.png"]["start"].startswith("\x89PNG")
-    assert len(found) == 2 + 5  # a case has no deck
+    links = {entry["name"]: entry for entry in browser.ask(page, LINKS, PHONE)}
+    assert links["cases.csv"]["start"].startswith("case,velocity,")
+    assert links["cases.csv"]["kind"] == "data:text/csv;charset=utf-8;base64"
+    assert "[[body]]" in links["1086m-s_ke.toml"]["start"]
+    assert links["rods_01.png"]["start"].startswith("\x89PNG")
+    assert len(links) == 2 + 5  # a case has no deck
 
 
 def test_faults_are_seen(browser, page, tmp_path):
-    """A picture that is none, an error of a script, a request, a box that is too wide, a torn key and faint text are found."""
+    """An invalid picture, an error of a script, a request, a box that is too wide, a torn key and faint text are found."""
     spoilt = tmp_path / "spoilt.html"
     text = page.read_text(encoding="utf-8")
     wrong = ('<img alt="x" src="data:image/png;base64,AAAA"><img alt="y" src="https://example.invalid/x.png">'
              '<div style="width: 900px">wide</div><script>nothing.there();</script>')  # fmt: skip
     wrong += '<p style="color: #222">faint</p><p class="key" style="width: 3em; word-break: break-all">body.anotherlongword</p>'
     spoilt.write_text(text.replace("</main>", f"{wrong}</main>"), encoding="utf-8")
-    found = browser.ask(spoilt, STATE, PHONE, "dark")
-    said = " ".join(found["faults"])
+    answer = browser.ask(spoilt, STATE, PHONE, "dark")
+    said = " ".join(answer["faults"])
     assert "nothing is not defined" in said
     assert "fetched https://example.invalid/x.png" in said
     assert 'alt="x"' in said
-    assert found["pictures"].count(0) == 2
-    assert found["torn"] == ["body.anotherlongword"]
-    assert ["faint" in each for each in found["faint"]] == [True]
-    assert found["scroll"] > PHONE
+    assert answer["pictures"].count(0) == 2
+    assert answer["torn"] == ["body.anotherlongword"]
+    assert ["faint" in each for each in answer["faint"]] == [True]
+    assert answer["scroll"] > PHONE
 
 
 def test_tables_are_sorted(browser, page):
-    found = browser.ask(page, SORT, DESK)
-    assert found["faults"] == []
+    answer = browser.ask(page, SORT, DESK)
+    assert answer["faults"] == []
     by_depth = [
-        name for name in found["before"] if name != "1296m-s_momentum-conserving"
+        name for name in answer["before"] if name != "1296m-s_momentum-conserving"
     ]  # depths fall in the order of the study
-    assert found["up"] == [*reversed(by_depth), "1296m-s_momentum-conserving"]
-    assert found["down"] == [*by_depth, "1296m-s_momentum-conserving"]
-    assert found["byName"] == sorted(found["before"])
-    assert (found["upward"], found["downward"], found["left"]) == ("ascending", "descending", None)
+    assert answer["up"] == [*reversed(by_depth), "1296m-s_momentum-conserving"]
+    assert answer["down"] == [*by_depth, "1296m-s_momentum-conserving"]
+    assert answer["byName"] == sorted(answer["before"])
+    assert (answer["upward"], answer["downward"], answer["left"]) == ("ascending", "descending", None)
 
 
 def test_a_link_opens_a_folded_case(browser, page):
@@ -246,7 +246,7 @@ def test_it_prints(browser, page):
 
 
 def test_headings_are_repeated_on_paper(browser, page, tmp_path):
-    """A table of several sheets, made of one of the page's rows."""
+    """A table of several sheets, made from one of the page's rows."""
     text = page.read_text(encoding="utf-8")
     row = text[text.index("<tbody>") + len("<tbody>") :].split("</tr>")[0] + "</tr>"
     long = tmp_path / "long.html"
@@ -269,7 +269,7 @@ TICKS = """
 def test_ticks_are_numbers_as_decks_write_them(browser, tmp_path, speeds, shown):
     """Without separators of thousands, and at the velocity itself where there is one."""
     study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(*speeds)})
-    found = browser.ask(report([study], y=["rod_length_m"], say=lambda line: None), TICKS, DESK)
-    assert set(shown) <= set(found)
-    assert not any("," in label for label in found)
-    assert len(speeds) > 1 or found == shown
+    answer = browser.ask(report([study], y=["rod_length_m"], say=lambda line: None), TICKS, DESK)
+    assert set(shown) <= set(answer)
+    assert not any("," in label for label in answer)
+    assert len(speeds) > 1 or answer == shown

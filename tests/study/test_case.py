@@ -1,4 +1,4 @@
-"""A case can be called any number of times, after anything."""
+"""A case can be run any number of times, after any outcome."""
 
 import json
 import os
@@ -64,7 +64,7 @@ def test_a_finished_case_is_not_run_again(text, place):
 
 
 def test_a_failure_that_is_written_down_stays_until_a_run_has_ended(monkeypatch, text, place):
-    """A sweep writes it; dask may then repeat the case, if its worker has died before dask knew that its result was taken."""
+    """A sweep writes it; dask may then repeat the case, if its worker died before dask knew that its result was received."""
     place.mkdir()
     (place / "failed.json").write_text('{"reason": "a fault"}')
 
@@ -98,7 +98,7 @@ def test_a_case_that_died_before_its_first_restart_file_begins_anew(text, place)
     assert run_case(place, text).status == "done"
 
 
-def test_another_deck_is_a_failure_unless_told(text, place):
+def test_another_deck_is_a_failure_without_overwrite(text, place):
     run_case(place, text)
     kept = (place / "summary.json").read_text()
     other = decks.loads(DECK, ["numerics.courant=0.3"]).to_toml()
@@ -126,8 +126,8 @@ def test_a_fault_is_a_result_with_its_trace(simulation, text, place):
     assert outcome.first == outcome.message
 
 
-def test_what_fails_by_chance_is_tried_once_more(simulation, monkeypatch, text, place, tmp_path):
-    """Such as two threads of Python that parse at once."""
+def test_a_chance_failure_is_tried_once_more(simulation, monkeypatch, text, place, tmp_path):
+    """For example two threads of Python that parse at once."""
     step, failed = simulation.step, []
 
     def once(self):
@@ -147,7 +147,7 @@ def test_what_fails_by_chance_is_tried_once_more(simulation, monkeypatch, text, 
 
 @pytest.mark.parametrize("reason", ["the disk is full", "its worker died 4 times"])
 def test_a_case_that_is_done_is_done(text, place, reason):
-    """Whatever was written down before its user finished it by hand, or as its worker died at its end."""
+    """Whatever was written before its user finished it by hand, or while its worker died at its end."""
     assert run_case(place, text).status == "done"
     (place / "failed.json").write_text(json.dumps({"reason": reason}))
     sha256 = deck_hash(text)
@@ -159,7 +159,7 @@ def test_a_case_that_is_done_is_done(text, place, reason):
 
 
 def test_a_worker_that_is_still_ending_is_waited_for(text, place):
-    """As right after a sweep that was killed: its worker writes a restart file yet."""
+    """As right after a sweep that was killed: its worker is still writing a restart file."""
     place.mkdir()
     with ExitStack() as stack:
         stack.enter_context(held(place / "run.lock"))
@@ -219,7 +219,7 @@ def _alive(place, skew):
         (lambda place: _alive(place, -1e4), "in use by process 1 on elsewhere"),
     ],
 )
-def test_what_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
+def test_a_fault_that_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
     monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.5)
     monkeypatch.setattr("hydro2d.study.case.ENDING", 0.1)
     place = tmp_path / "cases" / "case"

@@ -1,4 +1,4 @@
-"""Searches with a budget: which shots run, what is told of them, interruptions, bad input, and a real shot."""
+"""Searches with a budget: which shots run, the report on them, interruptions, bad input, and a real shot."""
 
 import base64
 import csv
@@ -36,8 +36,8 @@ def write(folder, text=STUDY):
 
 def search(folder, client, text=STUDY, **options):
     """A search with a made-up client: exit status and the only combination of transition.json."""
-    status, found = made_up.search(folder, client, text, **options)
-    return status, found["combinations"][0]
+    status, result = made_up.search(folder, client, text, **options)
+    return status, result["combinations"][0]
 
 
 def erodes(velocity, deck, scale=25.0):
@@ -56,7 +56,7 @@ def names(folder):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    """A search of one worker that nobody disturbed: folder, client, exit status, result."""
+    """An undisturbed search of one worker: folder, client, exit status, result."""
     folder, client = tmp_path_factory.mktemp("chance"), made_up.Client(chancy)
     return folder, client, *search(folder, client)
 
@@ -65,11 +65,11 @@ def whole(tmp_path_factory):
 
 
 def test_the_budget_is_spent_and_v50_found(whole):
-    _, client, status, found = whole
+    _, client, status, result = whole
     assert (status, len(client.submitted)) == (0, 16)
-    assert found["estimate"]["v50_low_m_s"] < 1180.0 < found["estimate"]["v50_high_m_s"]
-    assert found["transitions"][0]["settled"]
-    assert (found["estimate"]["runs"], found["estimate"]["budget"]) == (16, 16)
+    assert result["estimate"]["v50_low_m_s"] < 1180.0 < result["estimate"]["v50_high_m_s"]
+    assert result["transitions"][0]["settled"]
+    assert (result["estimate"]["runs"], result["estimate"]["budget"]) == (16, 16)
 
 
 def test_every_shot_is_another_draw(whole):
@@ -90,9 +90,9 @@ def test_every_shot_is_another_draw(whole):
 @pytest.mark.parametrize("workers", [2, 3, 7])
 def test_the_same_seed_gives_the_same_search_with_any_number_of_workers(tmp_path, whole, workers):
     client = made_up.Client(chancy, workers=workers)
-    found = search(tmp_path, client)[1]
+    result = search(tmp_path, client)[1]
     assert names(tmp_path) == names(whole[0])
-    assert found["estimate"] == whole[3]["estimate"]
+    assert result["estimate"] == whole[3]["estimate"]
 
 
 def test_another_seed_gives_other_draws(tmp_path, whole):
@@ -120,14 +120,14 @@ def test_a_deck_whose_mesh_must_not_move_is_drawn_by_its_first_step_alone():
 @pytest.mark.parametrize("workers", [1, 3])
 def test_an_interrupted_search_goes_on_to_the_same_end(tmp_path, whole, workers):
     first = made_up.Client(chancy, workers=workers, interrupt_at=7)
-    status, found = search(tmp_path, first)
+    status, result = search(tmp_path, first)
     assert status == 130
-    assert not found["transitions"][0]["settled"]
-    assert "the budget is not spent; --resume continues" in found["notes"]
+    assert not result["transitions"][0]["settled"]
+    assert "the budget is not spent; --resume continues" in result["notes"]
     again = made_up.Client(chancy, workers=workers)
-    status, found = search(tmp_path, again, resume=True)
+    status, result = search(tmp_path, again, resume=True)
     assert status == 0
-    assert found["estimate"] == whole[3]["estimate"]
+    assert result["estimate"] == whole[3]["estimate"]
     assert names(tmp_path) == names(whole[0])
     assert set(first.submitted) & set(again.submitted) == {first.submitted[6]}
 
@@ -135,9 +135,9 @@ def test_an_interrupted_search_goes_on_to_the_same_end(tmp_path, whole, workers)
 def test_a_larger_budget_goes_on_with_the_shots_that_are_there(tmp_path, whole):
     search(tmp_path, made_up.Client(chancy), STUDY.replace("16", "8"))
     client = made_up.Client(chancy)
-    status, found = search(tmp_path, client, resume=True)
+    status, result = search(tmp_path, client, resume=True)
     assert (status, len(client.submitted)) == (0, 8)
-    assert found["estimate"] == whole[3]["estimate"]
+    assert result["estimate"] == whole[3]["estimate"]
 
 
 def test_another_seed_is_not_mixed_with_the_shots_that_are_there(tmp_path, capsys):
@@ -149,25 +149,25 @@ def test_another_seed_is_not_mixed_with_the_shots_that_are_there(tmp_path, capsy
 
 def test_outcomes_that_are_all_alike_end_the_search(tmp_path, capsys):
     client = made_up.Client(lambda velocity, deck: {"regime": "rigid"})
-    status, found = search(tmp_path, client)
+    status, result = search(tmp_path, client)
     assert (status, len(client.submitted)) == (0, 8)
     assert "8 of 8 shots not eroding; it lies above 1500 m/s, or chance hid it" in capsys.readouterr().out
-    assert found["estimate"]["v50_m_s"] is None
-    assert found["transitions"][0]["settled"]
+    assert result["estimate"]["v50_m_s"] is None
+    assert result["transitions"][0]["settled"]
 
 
 def test_shots_that_fail_cost_their_part_of_the_budget(tmp_path, capsys):
     client = made_up.Client(lambda v, deck: Outcome("failed", "a fault") if v == 1300.0 else chancy(v, deck))
-    status, found = search(tmp_path, client)
-    assert (status, len(client.submitted), found["estimate"]["runs"]) == (3, 16, 15)
+    status, result = search(tmp_path, client)
+    assert (status, len(client.submitted), result["estimate"]["runs"]) == (3, 16, 15)
     assert "bought with 15 of 16 runs" in capsys.readouterr().out
 
 
 def test_a_search_whose_shots_all_fail_ends(tmp_path):
     client = made_up.Client(lambda velocity, deck: Outcome("failed", "the disk is full"))
-    status, found = search(tmp_path, client)
+    status, result = search(tmp_path, client)
     assert (status, len(client.submitted)) == (3, 4)
-    assert found["notes"][0] == "v50 is not known: no run has an outcome"
+    assert result["notes"][0] == "v50 is not known: no run has an outcome"
 
 
 AXIS = """[[axis]]
@@ -181,16 +181,16 @@ def test_every_combination_has_its_budget_and_its_v50(tmp_path):
     client = made_up.Client(chancy, workers=2)
     search(tmp_path, client, STUDY + AXIS)
     assert sum(name.startswith("ke_") for name in client.submitted) == 16
-    found = json.loads((tmp_path / "out" / "transition.json").read_text())
-    assert [each["title"] for each in found["combinations"]] == ["advection = ke", "advection = momentum"]
-    assert all(each["estimate"]["v50_m_s"] for each in found["combinations"])
+    result = json.loads((tmp_path / "out" / "transition.json").read_text())
+    assert [each["title"] for each in result["combinations"]] == ["advection = ke", "advection = momentum"]
+    assert all(each["estimate"]["v50_m_s"] for each in result["combinations"])
 
 
 def test_a_combination_whose_deck_is_wrong_does_not_sink_the_rest(tmp_path):
     client = made_up.Client(chancy)
-    status, found = search(tmp_path, client, STUDY + AXIS.replace('"momentum"', '"kinetic"'))
+    status, result = search(tmp_path, client, STUDY + AXIS.replace('"momentum"', '"kinetic"'))
     assert (status, len(client.submitted)) == (3, 16)
-    assert found["estimate"]["v50_m_s"] is not None
+    assert result["estimate"]["v50_m_s"] is not None
 
 
 # ------------------------------------------------------------------------------------------------ other outcomes
@@ -205,43 +205,43 @@ def plate(velocity, deck):
 
 def test_a_ballistic_limit_has_the_estimate_of_the_military_standard_as_well(tmp_path, capsys):
     text = STUDY.replace("erosion", "perforation").replace("16", "40")
-    status, found = search(tmp_path, made_up.Client(plate), text)
+    status, result = search(tmp_path, made_up.Client(plate), text)
     assert status == 0
     shown = capsys.readouterr().out
-    assert f"V50 of MIL-STD-662F: {found['estimate']['mil_std_662f_m_s']:.1f} m/s from" in shown
-    assert found["estimate"]["mil_std_662f_m_s"] == pytest.approx(1180.0, abs=40.0)
-    assert found["estimate"]["outcome"] == "perforated"
+    assert f"V50 of MIL-STD-662F: {result['estimate']['mil_std_662f_m_s']:.1f} m/s from" in shown
+    assert result["estimate"]["mil_std_662f_m_s"] == pytest.approx(1180.0, abs=40.0)
+    assert result["estimate"]["outcome"] == "perforated"
 
 
 @pytest.mark.parametrize(("of", "slow", "fast"), [("deeper", "shallower", "deeper"), ("shallower", "deeper", "shallower")])
 def test_a_threshold_of_depth(tmp_path, of, slow, fast):
-    """Fast shots go less deep here, so that only the search for that finds a transition."""
+    """Fast shots go less deep here, so only the search for a depth finds a transition."""
     text = STUDY.replace('"erosion"', f'"{of}"\ndepth = "30 cm"')
-    found = search(tmp_path, made_up.Client(chancy), text)[1]
-    assert {run["regime"] for run in found["runs"]} == {slow, fast}
-    assert (found["estimate"]["v50_m_s"] is None) == (of == "deeper")
+    result = search(tmp_path, made_up.Client(chancy), text)[1]
+    assert {run["regime"] for run in result["runs"]} == {slow, fast}
+    assert (result["estimate"]["v50_m_s"] is None) == (of == "deeper")
 
 
 def test_a_rod_that_left_the_mesh_before_the_depth_has_no_outcome(tmp_path):
     gone = {"depth": 0.1, "regime": "left the mesh", "rod_mass_kg": 0.0}
     text = STUDY.replace('"erosion"', '"shallower"\ndepth = "30 cm"')
-    found = search(tmp_path, made_up.Client(lambda v, deck: gone if v == 1300.0 else chancy(v, deck)), text)[1]
-    assert [run["regime"] for run in found["runs"] if run["velocity_m_s"] == 1300.0] == [None]
+    result = search(tmp_path, made_up.Client(lambda v, deck: gone if v == 1300.0 else chancy(v, deck)), text)[1]
+    assert [run["regime"] for run in result["runs"] if run["velocity_m_s"] == 1300.0] == [None]
 
 
 def test_erosion_is_found_by_bisection_too(tmp_path):
     text = STUDY.replace("budget = 16\nseed = 3", 'tolerance = "50 m/s"')
     outcome = {False: {"regime": "deforming"}, True: {"regime": "eroding"}}
     client = made_up.Client(lambda velocity, deck: outcome[velocity > 1185.0])
-    found = search(tmp_path, client, text)[1]
-    assert (found["transitions"][0]["low_m_s"], found["transitions"][0]["high_m_s"]) == (1150, 1200)
-    assert found["estimate"] is None
+    result = search(tmp_path, client, text)[1]
+    assert (result["transitions"][0]["low_m_s"], result["transitions"][0]["high_m_s"]) == (1150, 1200)
+    assert result["estimate"] is None
 
 
-# ------------------------------------------------------------------------------------------------ what is told
+# ------------------------------------------------------------------------------------------------ the report
 
 
-def test_what_is_printed_and_drawn(tmp_path, capsys):
+def test_the_printed_and_drawn_results(tmp_path, capsys):
     search(tmp_path, made_up.Client(chancy))
     shown = capsys.readouterr().out
     for words in ("v50 = ", "90 % interval", "width, 10 to 90 %", "bought with 16 of 16 runs", "wrote ", "velocity "):
@@ -256,9 +256,9 @@ def test_status_and_report_show_v50(whole, capsys):
     assert call(["report", str(out)]) == 0
     page = Page((out / "report" / "report.html").read_text(encoding="utf-8"))
     assert page.faults == []
-    found = whole[3]["estimate"]
-    for words in (f"V50 = {found['v50_m_s']:.1f} m/s, 90 % interval {found['v50_low_m_s']:.1f} to {found['v50_high_m_s']:.1f}",
-                  f"width, 10 to 90 %: {found['width_m_s']:.3g} m/s", "bought with 16 of 16 runs"):
+    fit = whole[3]["estimate"]
+    for words in (f"V50 = {fit['v50_m_s']:.1f} m/s, 90 % interval {fit['v50_low_m_s']:.1f} to {fit['v50_high_m_s']:.1f}",
+                  f"width, 10 to 90 %: {fit['width_m_s']:.3g} m/s", "bought with 16 of 16 runs"):
         assert page.text.count(words) == 1
     (shots,) = [each for each in page.all("img") if each["alt"].startswith("Outcome of 16 shots against impact velocity")]
     picture = (out / "report" / "transition_01.png").read_bytes()
@@ -319,7 +319,7 @@ def test_a_real_shot_whose_outcome_is_rough_in_velocity(tmp_path):
     process = tubes.start(write(tmp_path, text), "--workers", 1, "--out", out, command="transition")
     said, _ = process.communicate(timeout=300)
     assert process.returncode == 0, said
-    found = json.loads((out / "transition.json").read_text())["combinations"][0]
-    assert 1000.0 < found["estimate"]["v50_m_s"] < 1400.0
+    result = json.loads((out / "transition.json").read_text())["combinations"][0]
+    assert 1000.0 < result["estimate"]["v50_m_s"] < 1400.0
     assert "bought with 8 of 8 runs" in said
-    assert {run["regime"] for run in found["runs"]} == {"eroding", "not eroding"}
+    assert {run["regime"] for run in result["runs"]} == {"eroding", "not eroding"}

@@ -1,4 +1,4 @@
-"""Workers that others have started, and those of SLURM."""
+"""Workers started by others, and those of SLURM."""
 
 import sys
 from types import SimpleNamespace
@@ -23,7 +23,7 @@ job_script_prologue = ["module load python"]
 
 @pytest.fixture
 def others():
-    """A cluster that somebody else has started, with as many threads per worker as asked for."""
+    """A cluster started by somebody else, with the requested number of threads per worker."""
     started = []
 
     def start(threads):
@@ -78,7 +78,7 @@ def test_workers_of_several_threads_are_refused(tmp_path, others, capsys):
 def test_no_scheduler(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cluster, "ANSWER", 0.5)
     arguments = ["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9"]
-    for _ in range(2):  # the second finds the directory of the first, in which nothing has begun
+    for _ in range(2):  # the second finds the first one's directory, without a run
         assert call(arguments) == 2
         assert "no scheduler answers" in capsys.readouterr().err
 
@@ -104,7 +104,7 @@ def test_slurm(tmp_path, monkeypatch):
 
 
 def test_slurm_arguments_are_those_of_dask_jobqueue():
-    """What a file may say, SLURMCluster knows."""
+    """SLURMCluster knows every key that a file may contain."""
     jobqueue = pytest.importorskip("dask_jobqueue")
     every = cluster.Slurm(**{name: _example(field) for name, field in cluster.Slurm.model_fields.items()})
     job = jobqueue.SLURMCluster(**{**every.arguments(1), "interface": "lo"})
@@ -163,13 +163,13 @@ def test_arguments(tmp_path, capsys, arguments, said):
 
 
 def test_a_sweep_on_this_machine_listens_to_nobody_else():
-    """Neither the scheduler nor a worker nor a page of theirs can be reached from elsewhere, nor without the certificate."""
+    """Neither the scheduler nor a worker nor a page of theirs can be reached from elsewhere, or without the certificate."""
     with cluster.local(1, 1) as client:
         workers = psutil.Process().children(recursive=True)
         places = {
-            (process.pid, found.laddr.ip)
+            (process.pid, connection.laddr.ip)
             for process in (psutil.Process(), *workers)
-            for found in process.net_connections("tcp") if found.status == psutil.CONN_LISTEN
+            for connection in process.net_connections("tcp") if connection.status == psutil.CONN_LISTEN
         }
         assert {ip for _, ip in places} == {"127.0.0.1"}
         assert len({pid for pid, _ in places}) >= 2

@@ -1,4 +1,4 @@
-"""Meshes with scatter: what is extrapolated, what is not and why, and how the mesh of a deck is refined."""
+"""Meshes with scatter: which results are extrapolated, which are not and why, and how the mesh of a deck is refined."""
 
 import dataclasses
 import json
@@ -26,9 +26,9 @@ def limit(means, scatter, count=4, seed=0, cells=CELLS):
 
 @pytest.mark.parametrize(("order", "factor"), [(1.0, 10.0), (2.0, 60.0)])
 def test_the_interval_covers_the_true_value(order, factor):
-    """45 + factor / cells^order with scatter: a 90 % interval covers 45 in at least 32 of 40 repeats, and is not idle."""
-    found = [limit([45.0 + factor * cells**-order for cells in CELLS], 0.02, seed=seed) for seed in range(40)]
-    given = [each for each in found if each.value is not None]
+    """45 + factor / cells^order with scatter: a 90 % interval covers 45 in at least 32 of 40 repeats, and is not too wide."""
+    estimates = [limit([45.0 + factor * cells**-order for cells in CELLS], 0.02, seed=seed) for seed in range(40)]
+    given = [each for each in estimates if each.value is not None]
     assert len(given) >= 36
     assert sum(each.low <= 45.0 <= each.high for each in given) >= 0.8 * len(given)
     assert np.median([each.order for each in given]) == pytest.approx(order, rel=0.2)
@@ -36,8 +36,8 @@ def test_the_interval_covers_the_true_value(order, factor):
 
 
 def test_without_scatter_it_is_richardson():
-    found = limit([45.0 + 10.0 / cells for cells in (4, 8, 16)], 0.0, cells=(4, 8, 16))
-    assert (found.value, found.order) == pytest.approx((45.0, 1.0), abs=0.01)
+    estimate = limit([45.0 + 10.0 / cells for cells in (4, 8, 16)], 0.0, cells=(4, 8, 16))
+    assert (estimate.value, estimate.order) == pytest.approx((45.0, 1.0), abs=0.01)
 
 
 @pytest.mark.parametrize(("means", "scatter", "said"), [
@@ -46,9 +46,9 @@ def test_without_scatter_it_is_richardson():
     ((45, 45, 45), 1.0, "chance"),
 ])  # fmt: skip
 def test_where_it_does_not_it_says_why(means, scatter, said):
-    found = [limit(means, scatter, seed=seed) for seed in range(10)]
-    assert all(each.value is None for each in found)
-    assert sum(said in each.words for each in found) >= 6
+    estimates = [limit(means, scatter, seed=seed) for seed in range(10)]
+    assert all(each.value is None for each in estimates)
+    assert sum(said in each.words for each in estimates) >= 6
 
 
 def test_two_meshes_show_no_order():
@@ -57,7 +57,7 @@ def test_two_meshes_show_no_order():
 
 @pytest.mark.parametrize("file", [SHOT, "problems/classic/long_rod.toml", "problems/cth_nose_shape/hemi_5083_1086_layer.toml"])
 def test_a_mesh_is_refined_by_one_factor(file):
-    """Exactly so many cells across the rod; the ends of the mesh stay within a cell; cells grow as fast over a length."""
+    """Exactly so many cells across the rod; the ends of the mesh move by less than a cell; cells grow as fast over a length."""
     before = decks.load(file)
     _, radius = members.projectile(before)
     after = decks.load(file, meshes.settings(before, 11.5))
@@ -85,7 +85,7 @@ def study(folder, regimes=("rigid",) * 3, scatter=0.001):
     return place
 
 
-def test_scatter_and_change_are_told_apart(tmp_path):
+def test_scatter_and_change_are_distinguished(tmp_path):
     place = study(tmp_path)
     depth, _ = convergence.sequences(collect(layout.load(place)))
     assert [each.cells for each in depth.levels] == [5.5, 8.5, 12.5]
@@ -99,15 +99,15 @@ def test_scatter_and_change_are_told_apart(tmp_path):
 
 
 def test_a_mean_of_several_ends_is_not_extrapolated(tmp_path):
-    found = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
-    assert found.limit.value is None
-    assert "end in 2 ways (eroding, rigid)" in found.limit.words
+    sequences = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
+    assert sequences.limit.value is None
+    assert "end in 2 ways (eroding, rigid)" in sequences.limit.words
 
 
 def test_meshes_without_a_value_are_one_line(tmp_path):
-    found = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
-    title, _, said = dataclasses.replace(found, levels=[], regimes=[]).lines()
-    assert title == found.response.title
+    sequences = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
+    title, _, said = dataclasses.replace(sequences, levels=[], regimes=[]).lines()
+    assert title == sequences.response.title
     assert "does not extrapolate" in said
 
 

@@ -1,4 +1,4 @@
-"""Study files: what is wrong is told in one line with file, line, key and the nearest name; the cases that come out."""
+"""Study files: each error is reported in one line with file, line, key and the nearest name; the resulting cases."""
 
 import re
 import tomllib
@@ -56,7 +56,7 @@ NOSES = ["ogive", "hemispherical", "conical"]
 
 
 def noses(folder, more="", overrides=(), change=("", "")):
-    """The cases of the axis over noses in the guide, of a deck with an ogive."""
+    """The cases of the guide's axis over noses, for a deck with an ogive."""
     page = (source.ROOT / "docs/how-to/run-a-study.md").read_text(encoding="utf-8")
     axis = next(block for block in re.findall(r"```toml\n(.*?)```", page, flags=re.S) if 'name = "nose"' in block)
     text = 'deck = "problems/cth_nose_shape/ogive_7039_1291.toml"\n' + more + re.sub("^deck = .*", "", axis).replace(*change)
@@ -65,12 +65,12 @@ def noses(folder, more="", overrides=(), change=("", "")):
 
 def test_an_axis_over_noses_removes_the_keys_of_the_others(tmp_path):
     """The example of the guide: all of its decks are valid, and only the ogive has a crh."""
-    found = noses(tmp_path).cases
-    assert [case.message for case in found] == ["", "", ""]
-    rods = [tomllib.loads(case.text)["body"][0] for case in found]
+    planned = noses(tmp_path).cases
+    assert [case.message for case in planned] == ["", "", ""]
+    rods = [tomllib.loads(case.text)["body"][0] for case in planned]
     assert [rod["nose"] for rod in rods] == NOSES
     assert [rod.get("crh") for rod in rods] == [3.0, None, None]
-    assert "body.rod.crh=" in found[1].overrides
+    assert "body.rod.crh=" in planned[1].overrides
 
 
 def test_keys_are_removed_for_every_case(tmp_path):
@@ -90,7 +90,7 @@ def test_keys_are_removed_for_every_case(tmp_path):
     (('["body.rod.crh"]', '"body.rod.crh"'), "remove: expected a list of deck keys"),
     (('["body.rod.crh"]', '["body.rod.nose"]'), "remove: body.rod.nose is given a value as well"),
 ])  # fmt: skip
-def test_what_cannot_be_removed(tmp_path, change, said):
+def test_keys_that_cannot_be_removed(tmp_path, change, said):
     with pytest.raises(StudyError) as raised:
         noses(tmp_path, change=change)
     assert said in str(raised.value)
@@ -126,9 +126,9 @@ def test_one_wrong_case_does_not_sink_the_others(tmp_path):
     ],
 )
 def test_ranges(given, expected):
-    found = ranges.values(Range.model_validate(given))
-    assert found == expected
-    assert [type(value) for value in found] == [type(value) for value in expected]
+    values = ranges.values(Range.model_validate(given))
+    assert values == expected
+    assert [type(value) for value in values] == [type(value) for value in expected]
 
 
 def test_names_are_short_safe_and_unique():

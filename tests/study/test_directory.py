@@ -1,4 +1,4 @@
-"""A study directory is read back as it was written, in any state of completion."""
+"""A study directory is read back as it was written, at any stage of completion."""
 
 import io
 from dataclasses import replace
@@ -35,7 +35,7 @@ def state(directory, name):
 
 
 def pretend(directory, plan, name, status, **extra):
-    """What a run of a case leaves behind."""
+    """The files that the run of a case leaves behind."""
     place = directory / "cases" / name
     place.mkdir(exist_ok=True)
     planned = next(case for case in plan.cases if case.name == name)
@@ -48,21 +48,21 @@ def pretend(directory, plan, name, status, **extra):
 
 
 def test_round_trip(plan, written):
-    found = hydro2d.open_study(written)
-    assert (found.title, found.name, found.directory) == ("Shock tubes", "tubes", written)
-    assert [(axis.name, axis.key, axis.values) for axis in found.axes] == [
+    study = hydro2d.open_study(written)
+    assert (study.title, study.name, study.directory) == ("Shock tubes", "tubes", written)
+    assert [(axis.name, axis.key, axis.values) for axis in study.axes] == [
         ("advection", "numerics.advection", ("ke", "momentum")),
         ("pressure", "body.low.pressure", ("0.1", "0.2", "2 mm")),
     ]
-    assert [case.name for case in found.cases] == [case.name for case in plan.cases]
-    first = found.cases[0]
+    assert [case.name for case in study.cases] == [case.name for case in plan.cases]
+    first = study.cases[0]
     assert first.values == {"advection": "ke", "pressure": "0.1"}
     assert first.directory == written / "cases" / "ke_0.1"
     assert (first.base, first.status, first.summary, first.deck) == ("tube.toml", "waiting", {}, None)
     assert first.deck_sha256 == plan.cases[0].sha256
-    assert "ke_2mm" == found.cases[2].name
-    assert found.cases[2].status == "invalid"
-    assert "body[1].pressure" in found.cases[2].message
+    assert "ke_2mm" == study.cases[2].name
+    assert study.cases[2].status == "invalid"
+    assert "body[1].pressure" in study.cases[2].message
     assert (written / "study.toml").read_text() == plan.text
 
 
@@ -116,8 +116,8 @@ def test_time_left():
     assert monitor.left([done, waiting, running], 1, further=2) == 340.0
 
 
-def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
-    sweep.changes(plan, written, resume=False, overwrite=False)  # nothing has begun
+def test_an_existing_study_is_kept_without_overwrite(plan, written, tmp_path):
+    sweep.changes(plan, written, resume=False, overwrite=False)  # no case has begun
     pretend(written, plan, "ke_0.1", "done")
     with pytest.raises(StudyError, match=r"1 of 6 done.*--resume continues it"):
         sweep.changes(plan, written, resume=False, overwrite=False)
@@ -134,22 +134,22 @@ def test_an_existing_study_is_kept_unless_told(plan, written, tmp_path):
         layout.make(tmp_path / "tube.toml" / "out")
 
 
-def test_a_changed_study_is_told(plan, written, tmp_path):
+def test_a_changed_study_is_reported(plan, written, tmp_path):
     pretend(written, plan, "ke_0.1", "done")
     wider = cases.plan(tubes.write(tmp_path, tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.3]")))
-    told = sweep.changes(wider, written, resume=True, overwrite=False)
-    assert told == [
+    changes = sweep.changes(wider, written, resume=True, overwrite=False)
+    assert changes == [
         "2 cases (ke_0.3, momentum_0.3) new",
         "4 cases (ke_0.2, ke_2mm, momentum_0.2, momentum_2mm) no longer in the study; the files in cases are kept",
     ]
-    search = Velocities("body.rod.velocity", ("100 m/s",), 1.0)  # it may draw again what had not ended
-    assert sweep.changes(replace(wider, search=search), written, resume=True, overwrite=False) == told[:1]
+    search = Velocities("body.rod.velocity", ("100 m/s",), 1.0)  # it may draw unfinished velocities again
+    assert sweep.changes(replace(wider, search=search), written, resume=True, overwrite=False) == changes[:1]
     layout.write(wider, written)
     other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
     with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had a different deck.*--overwrite"):
         sweep.changes(other, written, resume=True, overwrite=False)
-    told = sweep.changes(other, written, resume=True, overwrite=True)
-    assert "1 case (ke_0.1) with a different deck than before" in told
+    changes = sweep.changes(other, written, resume=True, overwrite=True)
+    assert "1 case (ke_0.1) with a different deck than before" in changes
 
 
 def test_the_board_tells_of_running_cases(plan, written, capsys, monkeypatch):
@@ -183,7 +183,7 @@ def test_the_live_table_fits_the_terminal(plan, written):
 
 
 def test_the_board_says_how_far_compilation_is(tmp_path):
-    """The cases wait for it meanwhile."""
+    """The cases wait meanwhile."""
     board = monitor.Board(layout.Study(tmp_path, "", "a", (), ()), io.StringIO(), quiet=True)
     board.compiling = lambda: "compiling kernels: 14 of 23, 21 s"
     assert board.summary() == "0 of 0 done; compiling kernels: 14 of 23, 21 s"

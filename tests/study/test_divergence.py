@@ -1,4 +1,4 @@
-"""Where and when two runs part: growth times, the first cell, what is refused. The runs are made up; their growth is known."""
+"""Where and when two runs diverge: growth times, the first cell, refusals. The runs are made up, with known growth."""
 
 import csv
 import shutil
@@ -48,34 +48,34 @@ def runs(tmp_path):
 
 
 def curve(runs, name):
-    found = divergence.compare(*map(Results, runs))
-    return next(each for each in found.curves if each.name == name)
+    curves = divergence.compare(*map(Results, runs))
+    return next(each for each in curves.curves if each.name == name)
 
 
 def test_the_growth_time_of_a_depth(runs):
-    found = curve(runs, "penetration_depth_m").growth(1e-2)
-    assert found.time == pytest.approx(GROWTH, rel=0.02)
-    assert found.error < 0.05 * GROWTH
+    measured = curve(runs, "penetration_depth_m").growth(1e-2)
+    assert measured.time == pytest.approx(GROWTH, rel=0.02)
+    assert measured.error < 0.05 * GROWTH
 
 
 def test_the_growth_time_of_a_field_and_the_cell(runs):
-    found = curve(runs, "pressure")
-    assert found.growth(0.9).time == pytest.approx(GROWTH, rel=0.02)
-    assert {(place.row, place.column, place.body) for place in found.places[1:]} == {(2, 3, "rod")}
-    assert (found.places[-1].z, found.places[-1].r) == pytest.approx((-0.5e-3, 3.5e-3))
+    measured = curve(runs, "pressure")
+    assert measured.growth(0.9).time == pytest.approx(GROWTH, rel=0.02)
+    assert {(place.row, place.column, place.body) for place in measured.places[1:]} == {(2, 3, "rod")}
+    assert (measured.places[-1].z, measured.places[-1].r) == pytest.approx((-0.5e-3, 3.5e-3))
 
 
 def test_the_time_at_which_a_size_is_exceeded(runs):
     """The depth ends at 0.06 m: the difference is 1 % of its largest value, 6.33 cm, after GROWTH ln(0.01 scale / FIRST)."""
-    found = curve(runs, "penetration_depth_m")
-    expected = GROWTH * np.log(0.01 * found.scale / FIRST)
-    assert found.time[found.first_beyond(0.01)] == pytest.approx(expected, abs=1e-7)
-    assert found.first_beyond(0.9) is None
+    measured = curve(runs, "penetration_depth_m")
+    expected = GROWTH * np.log(0.01 * measured.scale / FIRST)
+    assert measured.time[measured.first_beyond(0.01)] == pytest.approx(expected, abs=1e-7)
+    assert measured.first_beyond(0.9) is None
 
 
-def test_what_does_not_differ_has_no_growth(runs):
-    found = curve(runs, "rod_length_m")
-    assert (found.growth(0.01), found.first_beyond(1e-12)) == (None, None)
+def test_equal_quantities_have_no_growth(runs):
+    measured = curve(runs, "rod_length_m")
+    assert (measured.growth(0.01), measured.first_beyond(1e-12)) == (None, None)
 
 
 @pytest.mark.parametrize("difference", [lambda t: 1e-3 + 0.0 * t, lambda t: np.where(t > 2e-5, 8e-3, 2e-5), lambda t: 80.0 * t])
@@ -85,7 +85,7 @@ def test_a_level_a_jump_and_a_straight_line_are_no_exponential_growth(difference
     assert divergence.Curve("x", "history", 1.0, time, 1e-5 * np.exp(time / 1e-5)).growth(0.01).time == pytest.approx(1e-5)
 
 
-def test_what_is_printed_drawn_and_written(runs, tmp_path, capsys):
+def test_the_printed_drawn_and_written_results(runs, tmp_path, capsys):
     files = [tmp_path / "apart.png", tmp_path / "apart.csv"]
     assert call(["diverge", *map(str, runs), "--size", "0.001", "-o", str(files[0]), "--csv", str(files[1])]) == 0
     shown = capsys.readouterr().out
@@ -98,7 +98,7 @@ def test_what_is_printed_drawn_and_written(runs, tmp_path, capsys):
     assert {row["cell_body"] for row in rows if row["kind"] == "field"} == {"rod"}
 
 
-def test_keys_in_which_the_decks_differ_are_told(tmp_path, capsys):
+def test_keys_in_which_the_decks_differ_are_reported(tmp_path, capsys):
     one = write_run(tmp_path / "a")
     other = shutil.copytree(one, tmp_path / "b")
     text = fake.deck_text("body.rod.velocity=1086.0 m/s", "numerics.initial_dt_factor=0.0999999999")
@@ -109,7 +109,7 @@ def test_keys_in_which_the_decks_differ_are_told(tmp_path, capsys):
     assert "no field differs by more than 0.01 of its largest value" in shown
 
 
-def test_dumps_at_slightly_other_times_are_compared_and_that_is_told(tmp_path, capsys):
+def test_dumps_at_slightly_other_times_are_compared_with_a_note(tmp_path, capsys):
     one, other = write_run(tmp_path / "a", grown=True), write_run(tmp_path / "b", grown=True, late=2e-7)
     assert call(["diverge", str(one), str(other), "--size", "0.001"]) == 0
     assert "the times of the dumps differ, which alone makes up to" in capsys.readouterr().out
@@ -123,7 +123,7 @@ def test_dumps_at_slightly_other_times_are_compared_and_that_is_told(tmp_path, c
         ({"late": 2.4e-6}, "no dumps of the same time"),
     ],
 )
-def test_fields_that_cannot_be_compared_are_told(tmp_path, capsys, change, said):
+def test_fields_that_cannot_be_compared_are_reported(tmp_path, capsys, change, said):
     one, other = write_run(tmp_path / "a"), write_run(tmp_path / "b", **change)
     assert call(["diverge", str(one), str(other)]) == 0
     assert f"the fields are not compared: {said}" in capsys.readouterr().out

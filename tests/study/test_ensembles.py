@@ -1,4 +1,4 @@
-"""Ensembles in tables, figures and scores: what the members say together."""
+"""Ensembles in tables, figures and scores: the combined result of the members."""
 
 import csv
 import json
@@ -29,7 +29,7 @@ def contents(study):
 
 
 def drawn(contents, **options):
-    """The traces of the figure of depths by what they are."""
+    """The traces of the figure of depths by kind."""
     choice = responses.choose(contents.study, contents.records, **options)
     panel = panels.panels(contents, choice)[0]
     figure = charts.response(panel.setup, panel.series, choice.x, choice.y[0], contents.belonging, panel.shots, (), ())
@@ -52,7 +52,7 @@ def test_unfinished_members_do_not_count(study, tmp_path, contents):
 
 
 def test_members_that_are_all_cut_are_compared_at_their_end_time(study, tmp_path):
-    """One that has ended is not mixed with those that still moved."""
+    """One that has ended is not mixed with those still moving."""
     shutil.copytree(study, tmp_path / "copy")
     for member in ("", "_m1", "_m2", "_m3", "_m4"):
         file = tmp_path / "copy" / "cases" / f"1086m-s{member}" / "summary.json"
@@ -91,9 +91,9 @@ def test_members_are_dots_behind_the_mark_of_their_median(contents):
 def test_members_make_no_series_of_their_own(tmp_path):
     """Decks of members differ; without an axis they are still one series."""
     place = fake.write_study(tmp_path / "study", {}, repeats=3)
-    found = collect(layout.load(place))
-    choice = responses.choose(found.study, found.records)
-    assert len(panels.panels(found, choice)[0].series) == 1
+    collected = collect(layout.load(place))
+    choice = responses.choose(collected.study, collected.records)
+    assert len(panels.panels(collected, choice)[0].series) == 1
 
 
 def test_an_experiment_is_scored_by_how_probable_its_outcome_was(contents):
@@ -190,7 +190,7 @@ def test_the_ensembles_of_several_studies_are_kept(several):
 
 
 def test_members_of_several_studies_are_dots_of_the_series_of_their_case(several):
-    """Series are told apart by what the studies differ in, not by what the members do."""
+    """Series are distinguished by the differences between studies, not by those between members."""
     contents = collect(layout.gather(several))
     choice = responses.choose(contents.study, contents.records)
     panel = panels.panels(contents, choice)[0]
@@ -219,13 +219,13 @@ def test_the_page_of_several_studies_has_their_ensembles(several, tmp_path):
     assert (single["ensemble"], single["member"]) == ("", "")
 
 
-def test_ensembles_of_bodies_without_a_projectile_are_not_told_apart_by_member(tmp_path):
-    """Without a velocity that varies, each case has one place on the x axis."""
+def test_ensembles_of_bodies_without_a_projectile_are_not_split_by_member(tmp_path):
+    """If the velocity does not vary, each case has one place on the x axis."""
     for name in ("one", "other"):
         fake.write_study(tmp_path / name, {}, repeats=3)
-    found = collect(layout.gather([tmp_path / "one", tmp_path / "other"]))
-    for record in found.records:
+    collected = collect(layout.gather([tmp_path / "one", tmp_path / "other"]))
+    for record in collected.records:
         record.velocity = None
-    cases = responses.choose(found.study, found.records).x
+    cases = responses.choose(collected.study, collected.records).x
     assert cases.order == ("one/cases/one", "other/cases/other")
-    assert {cases.value(each) for each in found.records} == set(cases.order)
+    assert {cases.value(each) for each in collected.records} == set(cases.order)

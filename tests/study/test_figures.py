@@ -1,4 +1,4 @@
-"""Figures show what they say."""
+"""Figures show their subject."""
 
 from dataclasses import replace
 
@@ -44,7 +44,7 @@ def lines(axes):
     return {line.get_label(): line for line in axes.lines}
 
 
-def test_series_are_what_the_velocity_does_not_tell_apart(panel, contents):
+def test_series_are_cases_that_differ_in_more_than_velocity(panel, contents):
     assert [(each.label, [record.velocity for record in each.records]) for each in panel.series] == [
         ("ke", [1086, 1200, 1296]), ("momentum", [1086, 1200, 1296])]  # fmt: skip
     assert [each.label for each in grouped(contents, ())] == ["advection ke", "advection momentum"]
@@ -57,8 +57,8 @@ def test_a_variant_for_each_velocity_makes_no_series(tmp_path):
     study = fake.write_study(tmp_path / "study", {"shot": shots, "courant": {"0.5": (), "0.4": ("numerics.courant=0.4",)}})
     for case, speed in (("shot4345_0.5", 1200), ("shot4345_0.4", 1200)):
         (study / "cases" / case / "deck.toml").write_text(fake.deck_text(f"body.rod.velocity={speed} m/s"))
-    found = collect(layout.load(study))
-    groups = grouped(found, found.study.axes)
+    collected = collect(layout.load(study))
+    groups = grouped(collected, collected.study.axes)
     assert [each.label for each in groups] == ["courant 0.5", "courant 0.4"]
 
 
@@ -86,20 +86,20 @@ def test_colours_are_seen_on_light_and_on_dark():
 
 def test_runs_experiments_rear_and_models_are_drawn(contents, panel):
     curves = theory.curves(contents.records[0].shot, 1000.0, 1300.0)
-    found = drawn(contents, panel, curves=curves)
-    assert list(found["ke"].x) == [1086, 1200, 1296]
-    assert list(found["ke"].y) == pytest.approx([35.0, 34.8, 34.6])
-    assert found["ke"].mode == "lines+markers"
-    assert "1086m-s_ke" in found["ke"].text[0]
-    assert "depth [cm]: 35" in found["ke"].text[0]
-    assert list(zip(found["experiment"].x, found["experiment"].y, strict=True)) == [
+    traces = drawn(contents, panel, curves=curves)
+    assert list(traces["ke"].x) == [1086, 1200, 1296]
+    assert list(traces["ke"].y) == pytest.approx([35.0, 34.8, 34.6])
+    assert traces["ke"].mode == "lines+markers"
+    assert "1086m-s_ke" in traces["ke"].text[0]
+    assert "depth [cm]: 35" in traces["ke"].text[0]
+    assert list(zip(traces["experiment"].x, traces["experiment"].y, strict=True)) == [
         (1086, pytest.approx(44.8)), (1200, 20.0), (1296, pytest.approx(21.6))]  # fmt: skip
-    assert found["rear of the target"].y[0] == pytest.approx(53.34)
+    assert traces["rear of the target"].y[0] == pytest.approx(53.34)
     for title in ("Forrestal's rigid rod", "Tate-Alekseevskii", "Walker-Anderson", "Hydrodynamic theory"):
-        assert title in found
+        assert title in traces
 
 
-#: what is said of a run that ended before its projectile stood
+#: the label of a run that ended before its projectile stopped
 CUT = "reached its end time, still moving at 80 m/s"
 
 
@@ -108,26 +108,26 @@ def test_unfinished_runs_are_open_and_bounds_stand_in_a_triangle(tmp_path):
     fake.write_run(runs / "a", 1086.0, 0.30)
     fake.write_run(runs / "b", 1200.0, 0.31, stop_reason="end time", rod_core_velocity_m_s=80.0)
     fake.write_run(runs / "c", 1296.0, 0.54)
-    found = collect(layout.load(runs))
-    assert [each.unfinished for each in found.records] == ["", CUT, ""]
-    traces = drawn(found, panels.panels(found, choose(found))[0])
+    collected = collect(layout.load(runs))
+    assert [each.unfinished for each in collected.records] == ["", CUT, ""]
+    traces = drawn(collected, panels.panels(collected, choose(collected))[0])
     assert list(traces["hydro2d"].x) == [1086, 1296]
     assert (list(traces["unfinished"].x), traces["unfinished"].marker.symbol) == ([1200], "circle-open")
     assert CUT in traces["unfinished"].text[0]
     assert "open: unfinished, as far as it went" in traces
     assert list(next(trace for trace in traces.values() if trace.meta == "bound").x) == [1296]
-    assert [row["depth_error_m"] is None for row in found.rows] == [False, True, False]
+    assert [row["depth_error_m"] is None for row in collected.rows] == [False, True, False]
 
 
 def test_words_stand_below_in_the_order_of_the_study(contents, panel):
-    found = drawn(contents, panel, x="advection", by=("velocity",))
+    traces = drawn(contents, panel, x="advection", by=("velocity",))
     choice = choose(contents, x="advection")
     assert choice.x.order == ("ke", "momentum")
     assert [each.label for each in panels.panels(contents, choice)[0].series] == ["velocity 1086 m/s", "velocity 1200 m/s",
                                                                                  "velocity 1296 m/s"]  # fmt: skip
-    assert list(found["ke"].x) == ["ke"] * 3
-    assert set(found["experiment"].x) == {"ke", "momentum"}
-    assert "rear of the target" not in found
+    assert list(traces["ke"].x) == ["ke"] * 3
+    assert set(traces["experiment"].x) == {"ke", "momentum"}
+    assert "rear of the target" not in traces
 
 
 def test_legends_are_short_enough_for_a_phone():
@@ -142,7 +142,7 @@ def test_legends_are_short_enough_for_a_phone():
 
 
 def test_models_are_those_of_the_command(contents):
-    """Tate's depth as `hydro2d model` gives it; a model without its inputs is a reason, not a line."""
+    """Tate's depth is that of `hydro2d model`; a model without its inputs gives a reason, not a line."""
     from hydro2d.analytic import models
 
     shot = contents.records[0].shot
@@ -169,7 +169,7 @@ def test_histories_are_thinned(panel):
 
 
 def patches(axes):
-    """Extents in cm of the rod as it began and as it ended: r_min, z_min, r_max, z_max."""
+    """Extents in cm of the rod at the start and at the end: r_min, z_min, r_max, z_max."""
     return [patch.get_path().get_extents().extents for patch in axes.patches]
 
 
@@ -195,7 +195,7 @@ def test_a_rod_in_a_planar_mesh_with_both_sides_is_drawn_as_it_is(contents):
     np.testing.assert_allclose(after[[0, 2]], [-0.2, radius - 0.2])
 
 
-def test_rods_far_apart_stand_tip_beside_tip(contents):
+def test_rods_far_apart_are_drawn_tip_to_tip(contents):
     measured = {contents.records[0].case.name: contents.belonging[contents.records[0].case.name]}
     assert rods.at_their_depths(contents.records, measured)
     assert lines(rods.draw(contents.records, measured, contents.records).axes[0])  # the experiment

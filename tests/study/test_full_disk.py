@@ -1,4 +1,4 @@
-"""No space at any write of a search: it ends with a message, and with --resume finds what an undisturbed one finds."""
+"""No space at any write of a search: it ends with a message, and with --resume gets the result of an undisturbed one."""
 
 import json
 
@@ -19,8 +19,8 @@ BUDGET = test_chance.STUDY.replace("budget = 16", "budget = 5\nround = 3")
     pytest.param(BUDGET, test_chance.chancy, True, id="budget, full for one file", marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_no_space_at_any_write_of_a_search(tmp_path, monkeypatch, capsys, text, becomes, once):
-    """A search with a budget goes on without the outcome of a shot for which there was no space, and makes it later: only then
-    may other velocities be chosen."""
+    """A search with a budget goes on without the outcome of a shot for which there was no space, and makes it later; only then
+    may it choose other velocities."""
     disk = Disk(monkeypatch)
 
     def search(folder, **options):
@@ -34,22 +34,22 @@ def test_no_space_at_any_write_of_a_search(tmp_path, monkeypatch, capsys, text, 
     for full in range(1, number + 1):
         place = tmp_path / str(full)
         disk.begin(full, once)
-        found, refused = {}, ""
+        result, refused = {}, ""
         try:
-            status, found = search(place)
+            status, result = search(place)
         except OSError as error:
             refused = str(error)
-        assert bool(found) != refused.startswith("[Errno 28] No space left on device")
-        lost = bool(found) and any(run["status"] != "done" for run in found["combinations"][0]["runs"])
-        assert not found or status == (3 if lost else 0)
+        assert bool(result) != refused.startswith("[Errno 28] No space left on device")
+        lost = bool(result) and any(run["status"] != "done" for run in result["combinations"][0]["runs"])
+        assert not result or status == (3 if lost else 0)
         said = capsys.readouterr().out
         assert "Traceback" not in said
         disk.begin()
         assert not list(place.rglob("*.tmp"))
-        status, found = search(place, resume=(place / "out" / "study.json").exists())
+        status, result = search(place, resume=(place / "out" / "study.json").exists())
         assert status == 0
         if once and lost and text == BUDGET:
-            assert found["complete"]
-            assert [run["status"] for run in found["combinations"][0]["runs"]] == ["done"] * 5
+            assert result["complete"]
+            assert [run["status"] for run in result["combinations"][0]["runs"]] == ["done"] * 5
         else:
-            assert json.dumps(found) == json.dumps(whole), f"no space at write {full} of {number}"
+            assert json.dumps(result) == json.dumps(whole), f"no space at write {full} of {number}"

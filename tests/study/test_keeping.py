@@ -1,4 +1,4 @@
-"""Rows that a study keeps: which runs are up to date, which are stale, and what a table says that mixes versions."""
+"""Rows that a study keeps: which runs are up to date or stale, and the note on a table that mixes versions."""
 
 import csv
 from dataclasses import replace
@@ -35,17 +35,17 @@ values = ["1086 m/s", "1200 m/s"]
     return cases.plan(file, quiet=True, size=size)
 
 
-def ended(found, folder, **summary):
+def ended(plan, folder, **summary):
     """The cases of a plan with runs in a folder, as a sweep reads them."""
-    for case in found.cases:
+    for case in plan.cases:
         fake.write_run(folder / "cases" / case.name, text=case.text, **summary)
     layout.make(folder)
-    layout.write(found, folder)
+    layout.write(plan, folder)
     return layout.read(folder).cases
 
 
-def rows(found):
-    with open(found.keep, encoding="utf-8", newline="") as file:
+def rows(plan):
+    with open(plan.keep, encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
@@ -78,8 +78,8 @@ def test_another_deck_or_method_makes_rows_stale(study, tmp_path):
     Choice(study).keep(ended(study, tmp_path / "out"))
     changed = plan(tmp_path, '[set]\n"sliding.friction" = 0.01\n')
     assert Choice(changed).kept().endswith("0 runs up to date, 4 stale, 0 not made")
-    told = plan(tmp_path, '[set]\ntitle = "another"\n"output.vtk_interval" = "1 ms"\n')
-    assert Choice(told).kept().endswith("4 runs up to date, 0 stale, 0 not made"), "neither changes a result"
+    titled = plan(tmp_path, '[set]\ntitle = "another"\n"output.vtk_interval" = "1 ms"\n')
+    assert Choice(titled).kept().endswith("4 runs up to date, 0 stale, 0 not made"), "neither changes a result"
     text = study.keep.read_text().replace(keeping.METHOD, "2020-01-01")
     study.keep.write_text(text)
     assert Choice(study).kept().endswith("0 runs up to date, 4 stale, 0 not made")
@@ -133,7 +133,7 @@ def test_rows_of_another_study_are_refused(study, tmp_path):
 
 
 def test_a_search_with_all_its_rows_is_complete(tmp_path):
-    """Four shots of each of two alloys; a larger budget wants more of them, and --overwrite all of them again."""
+    """Four shots of each of two alloys; a larger budget needs more of them, and --overwrite all of them again."""
     file = tmp_path / "search.toml"
 
     def search(budget):
@@ -177,8 +177,8 @@ def test_a_label_that_a_spreadsheet_would_compute(tmp_path):
     assert keeping._text(-1.5) == "-1.5"
 
 
-def test_an_older_run_in_a_directory_is_not_taken(tmp_path):
-    """Of a finished run of this deck only the version of the method is changed."""
+def test_an_older_run_in_a_directory_is_not_used(tmp_path):
+    """Only the version of the method is changed in a finished run of this deck."""
     file, out = tubes.write(tmp_path), tmp_path / "out"
     command = [file, "--out", out, "--workers", 1, "--only", "ke_0.1"]
     status, said = tubes.sweep(*command)

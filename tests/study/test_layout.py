@@ -75,7 +75,7 @@ def test_a_folder_and_several_runs(study, tmp_path):
     assert len(layout.gather([study, tmp_path / "other"]).cases) == 4
 
 
-def test_what_is_no_study(study, tmp_path):
+def test_a_folder_that_is_no_study(study, tmp_path):
     with pytest.raises(StudyError, match='no such directory; did you mean "figure"'):
         layout.load(tmp_path / "figur")
     (tmp_path / "empty").mkdir()

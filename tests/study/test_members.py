@@ -1,4 +1,4 @@
-"""Members of an ensemble: what is changed, by how much, and what is refused."""
+"""Members of an ensemble: the changes, their size, and refusals."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def refused(deck=SHOT, axes=(), **ensemble):
     return line
 
 
-def test_the_first_member_is_the_deck_as_it_stands():
+def test_the_first_member_is_the_unchanged_deck():
     first = planned()[0]
     assert (first.name, first.member, first.changed) == ("m0", 0, {})
     assert first.text == decks.load(SHOT).to_toml()
@@ -69,17 +69,17 @@ def test_amounts_cover_their_range_and_do_not_depend_on_the_number_of_members():
 
 
 def test_amounts_stay_the_same_for_ever():
-    """Written in pages and records: a change of the sequence would make other members of the same seed."""
+    """They are written in pages and records: a change of the sequence would make other members from the same seed."""
     assert members.amounts(Ensemble(repeats=2), 1) == {"mesh offset": 0.0993, "first step": 0.998343}
 
 
 def test_members_are_named_after_their_case():
     axis = {"name": "velocity", "key": "body.rod.velocity", "values": ["1086 m/s", "1200 m/s"]}
-    found = planned(axes=[axis], repeats=2)
-    assert [(case.name, case.of, case.member) for case in found] == [
+    plan = planned(axes=[axis], repeats=2)
+    assert [(case.name, case.of, case.member) for case in plan] == [
         ("1086m-s", "1086m-s", 0), ("1086m-s_m1", "1086m-s", 1),
         ("1200m-s", "1200m-s", 0), ("1200m-s_m1", "1200m-s", 1)]  # fmt: skip
-    assert found[1].changed == found[3].changed
+    assert plan[1].changed == plan[3].changed
 
 
 @pytest.mark.parametrize(("ensemble", "said"), [
@@ -96,7 +96,7 @@ def test_a_wrong_ensemble_is_one_message(ensemble, said):
 
 
 @pytest.mark.parametrize(("key", "by"), [("numerics.initial_dt_factor", "first step"), ("mesh.z_start", "mesh offset")])
-def test_an_axis_must_not_set_what_the_ensemble_changes(key, by):
+def test_an_axis_must_not_set_keys_that_the_ensemble_changes(key, by):
     axis = {"name": "mine", "key": key, "values": [0.1, 0.2]}
     line = refused(axes=[axis])
     assert f'axis "mine" sets {key}' in line
@@ -105,8 +105,8 @@ def test_an_axis_must_not_set_what_the_ensemble_changes(key, by):
 
 def test_an_axis_of_whole_meshes_may_be_combined_with_an_offset():
     mesh = {"z_start": "-110 mm", "z": [{"to": "150 mm", "size": "1 mm"}]}
-    found = planned(axes=[{"name": "mesh", "variants": {"coarse": {"mesh": mesh}}}], by=["mesh offset"])
-    assert decks.loads(found[1].text).mesh.z_start == pytest.approx(-0.11 + 1e-3 * found[1].changed["mesh offset"])
+    plan = planned(axes=[{"name": "mesh", "variants": {"coarse": {"mesh": mesh}}}], by=["mesh offset"])
+    assert decks.loads(plan[1].text).mesh.z_start == pytest.approx(-0.11 + 1e-3 * plan[1].changed["mesh offset"])
 
 
 def test_a_wall_does_not_move_against_the_bodies():

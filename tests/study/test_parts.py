@@ -1,4 +1,4 @@
-"""Studies of parts: what they cost, their order, and what of them is up to date."""
+"""Studies of parts: their cost, their order, and which parts are up to date."""
 
 import csv
 import signal
@@ -49,11 +49,11 @@ def test_parts_run_in_turn_and_once(tmp_path):
     assert (status, said) == (0, "first: 2 of 4 done, 2 waiting\ntubes: 2 of 4 done, 2 waiting\n")
 
 
-def test_what_a_study_takes(tmp_path, capsys):
+def test_the_cost_of_a_study(tmp_path, capsys):
     file = write(tmp_path)
-    found = parts.plans(file, (), AS_IT_IS, quiet=True)
-    assert [each.states for each in found] == [(2, 0, 0), (2, 0, 0)]
-    assert parts.show(found, 2) == 0
+    plans = parts.plans(file, (), AS_IT_IS, quiet=True)
+    assert [each.states for each in plans] == [(2, 0, 0), (2, 0, 0)]
+    assert parts.show(plans, 2) == 0
     said = capsys.readouterr().out
     assert [line.split()[:5] for line in said.splitlines()[1:4]] == [
         ["first", "2", "0", "0", "2"], ["tubes", "2", "0", "0", "2"], ["all", "4", "0", "0", "4"]]  # fmt: skip
@@ -75,8 +75,8 @@ def test_parts_by_name(tmp_path):
 
 
 def test_overrides_reach_all_parts(tmp_path):
-    found = parts.plans(write(tmp_path), ["stop.time=0.02"], AS_IT_IS, quiet=True)
-    assert all("time = 0.02" in case.text for each in found for case in each.plan.cases)
+    plans = parts.plans(write(tmp_path), ["stop.time=0.02"], AS_IT_IS, quiet=True)
+    assert all("time = 0.02" in case.text for each in plans for case in each.plan.cases)
 
 
 @pytest.mark.parametrize(("text", "message"), [

@@ -1,4 +1,4 @@
-"""The page says what the runs say, and what could not be read; it is one well-formed file."""
+"""The page shows the contents of the runs, and names those that could not be read; it is one well-formed file."""
 
 import csv
 import json
@@ -34,7 +34,7 @@ def made(tmp_path_factory):
 
 @pytest.fixture
 def study(made, tmp_path):
-    """A copy of the study, to be spoilt."""
+    """A copy of the study, to be spoiled."""
     shutil.copytree(made[0], tmp_path / "study", ignore=shutil.ignore_patterns("report"))
     return tmp_path / "study"
 
@@ -46,7 +46,7 @@ def page_of(directory, **options):
 
 
 def charts(page):
-    """The ids of the figures that a pointer can ask."""
+    """The ids of the figures that respond to a pointer."""
     return [attributes["id"] for attributes in page.all("div") if attributes.get("class") == "plotly-graph-div"]
 
 
@@ -88,7 +88,7 @@ def test_the_table(made):
     assert (row["cycles"], row["wall_s"], row["ns_per_cell_cycle"]) == ("1000", "321.3", "120.0")
     page = Page((made[0] / "report" / "report.html").read_text(encoding="utf-8"))
     assert "1200m-s_ke 1200 m/s ke 34.8 20.0 +14.8 +74 0.988 1.01 rigid done" in page.text
-    assert "advection 0.81 %; outflow 0.032 % 600" in page.text  # the cutoff's is below the share that is named
+    assert "advection 0.81 %; outflow 0.032 % 600" in page.text  # the cutoff's is below the smallest share named
 
 
 def test_a_run_is_compared_with_the_experiment_of_its_velocity(made):
@@ -147,7 +147,7 @@ def test_a_study_that_has_not_begun(study):
     ],
 )  # fmt: skip
 @pytest.mark.filterwarnings("ignore")
-def test_what_cannot_be_read_is_said_and_the_rest_is_made(study, file, said):
+def test_unreadable_runs_are_reported_and_the_rest_is_made(study, file, said):
     (study / "cases" / "1086m-s_ke" / file).write_bytes(b"\x89HDF half a file")
     page, lines = page_of(study)
     assert page.faults == []
@@ -159,7 +159,7 @@ def test_what_cannot_be_read_is_said_and_the_rest_is_made(study, file, said):
 
 
 def test_a_perforated_plate_is_a_bound(tmp_path):
-    """A rod that went through and left the mesh: its depth is at least the thickness, whatever was measured last."""
+    """A rod that perforated and left the mesh: its depth is at least the thickness, whatever was measured last."""
     ogive = ("body.rod.nose=ogive", "body.rod.crh=2.5", "body.rod.length=101.346 mm")
     run = fake.write_run(tmp_path / "runs" / "through", 1227.0, 0.54, overrides=ogive)
     fake.edit_json(run / "summary.json", penetration_depth_m=0.0)
@@ -167,9 +167,9 @@ def test_a_perforated_plate_is_a_bound(tmp_path):
     fake.write_run(tmp_path / "runs" / "slow", 923.0, 0.54, overrides=ogive)
     page, _ = page_of(tmp_path / "runs")
     rows = table(tmp_path / "runs" / "report")
-    found = {name: (row["depth_m"], row["depth_is"], row["depth_error_is"]) for name, row in rows.items()}
-    assert found == {"through": ("0.5334", "at least", "none"), "stopped": ("0.4", "computed", "at most"),
-                     "slow": ("0.5334", "at least", "at least")}  # fmt: skip
+    depths = {name: (row["depth_m"], row["depth_is"], row["depth_error_is"]) for name, row in rows.items()}
+    assert depths == {"through": ("0.5334", "at least", "none"), "stopped": ("0.4", "computed", "at most"),
+                      "slow": ("0.5334", "at least", "at least")}  # fmt: skip
     assert "1227 40.0 ≥ 53.3 ≤ −13.3 ≤ −25" in page.text
     assert "923 ≥ 53.3 41.7 ≥ +11.6 ≥ +28" in page.text
     assert "≥ 53.3 ≥ 53.3 reached reached" in page.text
@@ -205,7 +205,7 @@ def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path)
 
 
 def test_a_run_of_a_version_with_other_names_is_read(tmp_path):
-    """Its deck has the old keys, its summary the old names of what it audits."""
+    """Its deck has the old keys, its summary the old names of the audited quantities."""
     old = fake.write_run(tmp_path / "runs" / "v1086")
     text, audit = (old / "deck.toml").read_text(), json.loads((old / "summary.json").read_text())["conservation"]
     text = text.replace("\ncutoff = ", "\ntrace = ").replace("\nstrength_cutoff = ", "\nloose = ")
@@ -265,23 +265,23 @@ def test_a_run_that_was_cut_has_no_error(study):
     fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", stop_reason="end time", rod_core_velocity_m_s=300.0)
     page, _ = page_of(study)
     row = table(study / "report")["1086m-s_ke"]
-    told = "reached its end time, still moving at 300 m/s"
-    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", told, "", "0.35")
-    assert told in page.text
+    reason = "reached its end time, still moving at 300 m/s"
+    assert (row["status"], row["unfinished"], row["depth_error_m"], row["depth_m"]) == ("done", reason, "", "0.35")
+    assert reason in page.text
     assert "done unfinished" not in page.text
-    assert f"unfinished {told}" not in page.text
+    assert f"unfinished {reason}" not in page.text
 
 
-@pytest.mark.parametrize(("reason", "speed", "told"), [
+@pytest.mark.parametrize(("reason", "speed", "said"), [
     ("end time", 1250.4, "reached its end time, still moving at 1250 m/s"),
     ("number of cycles", -90.6, "reached its number of cycles, still moving at 91 m/s"),
     ("speed of rod below 5 m/s", 1250.4, ""),
     ("end time", 0.9, ""),  # less than a hundredth of the impact velocity
 ])  # fmt: skip
-def test_why_a_run_is_not_at_its_end(study, reason, speed, told):
+def test_why_a_run_is_not_at_its_end(study, reason, speed, said):
     case = study / "cases" / "1086m-s_ke"
     fake.edit_json(case / "summary.json", stop_reason=reason, rod_core_velocity_m_s=speed)
-    assert next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke").unfinished == told
+    assert next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke").unfinished == said
 
 
 @pytest.mark.parametrize("ending", ["gif", "mp4"])
@@ -304,7 +304,7 @@ def test_films_are_in_the_page(finished, tmp_path, monkeypatch, ending):
 
 
 def test_cases_that_have_not_begun_are_no_films_that_are_missing(tmp_path):
-    """Such as those that `sweep --only` has left for later."""
+    """For example those that `sweep --only` has left for later."""
     study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(1086, 1200)})
     shutil.rmtree(study / "cases" / "1200m-s")
     lines = []
@@ -314,7 +314,7 @@ def test_cases_that_have_not_begun_are_no_films_that_are_missing(tmp_path):
 
 
 def test_pages_of_runs_are_linked(finished, tmp_path):
-    """Those that there are; with `view` those of all runs with dumps are made, and one without dumps is said to have none."""
+    """All existing ones; with `view` those of all runs with dumps are made, and a run without dumps is reported."""
     shutil.copytree(finished, tmp_path / "runs" / "a b")
     fake.write_run(tmp_path / "runs" / "b")
     page, _ = page_of(tmp_path / "runs")
@@ -379,7 +379,7 @@ def test_the_command(study, tmp_path, capsys):
     assert not (tmp_path / "none").exists()
 
 
-def test_without_plotly_the_extra_is_told_and_nothing_is_written(study, tmp_path, monkeypatch, capsys):
+def test_without_plotly_the_extra_is_named_and_nothing_is_written(study, tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "plotly", None)
     monkeypatch.setitem(sys.modules, "plotly.offline", None)
     assert call(["report", str(study), "--out", str(tmp_path / "page")]) == 2
@@ -394,7 +394,7 @@ def test_reading_leaves_a_study_as_it_is(study):
 
 
 def test_an_axis_may_be_called_as_a_result(tmp_path):
-    """The axis `cells` counts cells across a rod; the column of the summary is that of the mesh."""
+    """The axis `cells` counts cells across a rod; the column of the summary counts those of the mesh."""
     axes = {"cells": {number: (f"numerics.courant=0.{number}",) for number in ("4", "5")}, "target": {"x": (), "y": ()}}
     study = fake.write_study(tmp_path / "study", axes)
     page, _ = page_of(study)

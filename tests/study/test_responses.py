@@ -1,4 +1,4 @@
-"""What a report draws is found by name, and sensible where no name is given."""
+"""Quantities drawn in a report are found by name, and chosen sensibly where no name is given."""
 
 import shutil
 
@@ -43,10 +43,10 @@ def label(axis):
     ],
 )
 def test_labels_are_numbers_where_all_of_them_are_of_one_quantity(values, title, numbers):
-    found = label(layout.Axis("size", None, values))
-    assert found.title == title
-    assert found.order == (values if numbers is None else None)
-    assert list(found.values.values()) == (list(values) if numbers is None else pytest.approx(numbers))
+    variable = label(layout.Axis("size", None, values))
+    assert variable.title == title
+    assert variable.order == (values if numbers is None else None)
+    assert list(variable.values.values()) == (list(values) if numbers is None else pytest.approx(numbers))
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_p
 
 
 def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
-    """A row for each combination, with the depths of all of its runs, beside the figure against an axis."""
+    """A row for each combination, with the depths of all of its runs, next to the figure against an axis."""
     axes = {"law": LAWS, "courant": {"0.3": ("numerics.courant=0.3",), "0.6": ("numerics.courant=0.6",)}}
     contents = study(tmp_path, axes)
     (panel,) = panels.panels(contents, choice := chosen(contents))
@@ -132,8 +132,8 @@ def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
     figure = charts.strip(panel.series, rows, y, contents.belonging, curves)
     assert figure.layout.yaxis.ticktext == tuple("<br>".join(word.rsplit(" ", 1)) if len(word) > 20 else word for word in order)
     runs = [trace for trace in figure.data if trace.legendgroup and trace.meta is None]
-    found = {order[row]: depth for trace in runs for row, depth in zip(trace.y, trace.x, strict=True)}
-    assert found == pytest.approx({rows.value(each): y.value(each) for each in contents.records})
+    depths = {order[row]: depth for trace in runs for row, depth in zip(trace.y, trace.x, strict=True)}
+    assert depths == pytest.approx({rows.value(each): y.value(each) for each in contents.records})
     (tate,) = (trace for trace in figure.data if str(trace.name).startswith("Tate-Alekseevskii: "))
     depth = next(each.depth[0] for each in curves if each.name == "tate")
     assert tate.x == pytest.approx([100 * depth] * 2, rel=1e-4)
@@ -162,7 +162,7 @@ def test_no_second_strip(tmp_path, axes):
     assert not [each for each in panels.draw(contents, chosen(contents)) if each.name.startswith("strip")]
 
 
-def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
+def test_the_motions_of_models_are_drawn_with_the_histories(tmp_path):
     for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
         fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
     contents = collect(layout.load(tmp_path / "runs"))
@@ -186,8 +186,8 @@ def test_the_motions_of_models_stand_beside_the_histories(tmp_path):
     assert "Grey: Forrestal's rigid rod, Tate-Alekseevskii, Walker-Anderson, from" in caption
 
 
-def test_a_motion_stands_only_where_its_model_applies(tmp_path):
-    """No rigid rod beside one that erodes; no motion beyond the rear of the target."""
+def test_a_motion_is_drawn_only_where_its_model_applies(tmp_path):
+    """No rigid rod for one that erodes; no motion beyond the rear of the target."""
     fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3, regime="eroding")
     (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
     _, by = panels._motions(panel, panel.members)[1086.0]
@@ -207,11 +207,11 @@ def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
     run = fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3)
     (run / "summary.json").unlink()
     (run / "restart.h5").touch()
-    found = collect(layout.load(tmp_path / "runs")).records[0]
-    assert found.unfinished == "interrupted"
-    assert responses.raw(found, "rod_tail_velocity_m_s") == pytest.approx(0.0)
-    assert responses.raw(found, "rod_residual_velocity_m_s") is None
-    assert found._as_in_summary("body_rod_velocity_m_s") == "bodies.rod.velocity_m_s"
+    collected = collect(layout.load(tmp_path / "runs")).records[0]
+    assert collected.unfinished == "interrupted"
+    assert responses.raw(collected, "rod_tail_velocity_m_s") == pytest.approx(0.0)
+    assert responses.raw(collected, "rod_residual_velocity_m_s") is None
+    assert collected._as_in_summary("body_rod_velocity_m_s") == "bodies.rod.velocity_m_s"
 
 
 def perforations(folder, shots, **summary):
@@ -253,7 +253,7 @@ def test_models_of_the_residual_velocity_are_fitted_to_the_study(tmp_path):
     assert curves[1].residual[-1] == pytest.approx(curves[2].residual[-1] / (1 + plug), rel=0.02)
 
 
-def test_measured_residual_velocities_stand_beside_those_of_the_runs(tmp_path):
+def test_measured_residual_velocities_are_drawn_with_those_of_the_runs(tmp_path):
     runs = tmp_path / "runs"
     for velocity, left, measured in ((600, 500.0, 470.0), (900, 820.0, 835.0), (400, 0.0, 0.0), (700, 610.0, None)):
         shot = [f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm"]
@@ -292,21 +292,21 @@ def test_a_model_is_drawn_where_it_can_be_had(tmp_path, shots, titles, said):
     assert said in " ".join(notes)
 
 
-def test_setups_share_a_figure_where_their_series_tell_them_apart(tmp_path):
+def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
     axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm",),
                                                                "80 mm": ("body.rod.length=80 mm",)}}  # fmt: skip
     contents = study(tmp_path, axes)
-    found = panels.panels(contents, chosen(contents))
-    assert [[each.label for each in panel.series] for panel in found] == [["length 60 mm", "length 80 mm"]]
-    assert found[0].setup is None
+    drawn = panels.panels(contents, chosen(contents))
+    assert [[each.label for each in panel.series] for panel in drawn] == [["length 60 mm", "length 80 mm"]]
+    assert drawn[0].setup is None
     assert "several geometries" in list(panels.draw(contents, chosen(contents)))[0].notes[0]
     shutil.rmtree(tmp_path / "study")
     shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm"), "long": ("body.rod.velocity=1000 m/s",)}
     for name, overrides in shots.items():
         fake.write_run(tmp_path / "runs" / name, 950.0, text=fake.deck_text(*overrides))
     contents = collect(layout.load(tmp_path / "runs"))
-    found = panels.panels(contents, chosen(contents, by=["numerics.courant"]))
-    assert [len(panel.members) for panel in found] == [1, 1]
+    drawn = panels.panels(contents, chosen(contents, by=["numerics.courant"]))
+    assert [len(panel.members) for panel in drawn] == [1, 1]
 
 
 def test_runs_without_a_projectile_are_drawn_by_their_first_body(tmp_path):

@@ -1,4 +1,4 @@
-"""A report survives whatever stands in a summary, and says what it could not use."""
+"""A report survives any contents of a summary, and names what it could not use."""
 
 import copy
 import csv
@@ -25,7 +25,7 @@ def place(tmp_path_factory):
 
 
 def paths(value, path=()):
-    """Every key of a summary, tables and what is in them."""
+    """Every key of a summary, and those within its tables."""
     for key, inner in value.items():
         yield (*path, key)
         if isinstance(inner, dict):
@@ -52,7 +52,7 @@ def test_a_report_of_any_summary(place, path):
             study = layout.gather([place])
             contents = collect(study)
             choice = responses.choose(study, contents.records)
-            drawn = list(panels.draw(contents, choice)) if wrong in DRAWN else []  # a fifth of a second each
+            drawn = list(panels.draw(contents, choice)) if wrong in DRAWN else []  # they take a fifth of a second each
             assert "<html" in page(contents, choice, drawn, [])
             assert table.to_csv(contents.rows).count("\n") == 2
             assert reading.Results(place)._repr_html_()
@@ -60,7 +60,7 @@ def test_a_report_of_any_summary(place, path):
         (place / "summary.json").write_text(text)
 
 
-def test_what_is_of_the_wrong_kind_is_left_out_and_told(place):
+def test_values_of_the_wrong_kind_are_left_out_and_reported(place):
     text = (place / "summary.json").read_text()
     fake.edit_json(place / "summary.json", rod_length_m="long", cycles=[3], wall_s=None)
     (case,) = layout.gather([place]).cases
@@ -75,8 +75,8 @@ def test_a_sound_summary_stays_as_it_is():
 
 
 def test_no_word_becomes_a_formula():
-    """A spreadsheet runs what begins with one of these."""
+    """A spreadsheet runs text that begins with one of these."""
     words = ["=cmd|' /C calc'!A0", "+1", "-1+1", "@SUM(A1)", "\t=1", "plain", None, -3.5]
     text = table.to_csv([{"case": word} for word in words])
-    found = [row["case"] for row in csv.DictReader(io.StringIO(text))]
-    assert found == ["'=cmd|' /C calc'!A0", "'+1", "'-1+1", "'@SUM(A1)", "'\t=1", "plain", "", "-3.5"]
+    cells = [row["case"] for row in csv.DictReader(io.StringIO(text))]
+    assert cells == ["'=cmd|' /C calc'!A0", "'+1", "'-1+1", "'@SUM(A1)", "'\t=1", "plain", "", "-3.5"]

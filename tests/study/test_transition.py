@@ -1,4 +1,4 @@
-"""Searches: the study file, which cases run, what is told of them, and a real shot from rigid to eroding."""
+"""Searches: the study file, which cases run, the report on them, and a real shot from rigid to eroding."""
 
 import json
 import shutil
@@ -18,7 +18,7 @@ from tests.decks import mesh, plate, rod, stop, table
 from tests.study import made_up, tubes
 from tests.study.html import Page
 
-#: a deck whose mesh stands, on which the plate may move as well
+#: a deck with a fixed mesh, in which the plate may move too
 BASE = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 STUDY = f"""
 title = "A search"
@@ -43,9 +43,9 @@ def search(folder, client, text=STUDY, **options):
     return made_up.search(folder, client, text, **options)
 
 
-def brackets(found):
+def brackets(saved):
     """Low and high end of every transition, by combination."""
-    return [{each["name"]: (each["low_m_s"], each["high_m_s"]) for each in one["transitions"]} for one in found["combinations"]]
+    return [{each["name"]: (each["low_m_s"], each["high_m_s"]) for each in one["transitions"]} for one in saved["combinations"]]
 
 
 def usual(velocity, deck):
@@ -150,11 +150,11 @@ def again(finished, tmp_path):
 
 def test_every_combination_has_its_brackets(finished):
     folder, client = finished
-    found = json.loads((folder / "out" / "transition.json").read_text())
-    ke, momentum = brackets(found)
+    result = json.loads((folder / "out" / "transition.json").read_text())
+    ke, momentum = brackets(result)
     assert (ke["rigid to deforming"], ke["to eroding"], ke["depth falls"]) == ((1050, 1100), (1300, 1350), (1050, 1100))
     assert (momentum["rigid to deforming"], momentum["to eroding"]) == ((1150, 1200), (1400, 1450))
-    assert found["complete"]
+    assert result["complete"]
     assert len(client.submitted) == len(set(client.submitted)) <= 2 * 10
     assert [case.name for case in hydro2d.open_study(folder / "out").cases] == [
         case.name for case in cases.plan(folder / "search.toml").cases if case.name in client.submitted
@@ -162,22 +162,22 @@ def test_every_combination_has_its_brackets(finished):
     assert {case.status for case in hydro2d.open_study(folder / "out").cases} == {"done"}
 
 
-def test_a_free_worker_gets_its_next_case_before_the_last_one_is_told(finished):
-    """Asked of the first case, two have been given out, and so on; the last has no other behind it."""
+def test_a_free_worker_gets_its_next_case_before_the_last_one_is_reported(finished):
+    """When the first outcome is requested, two cases have been given out, and so on; none follows the last."""
     client = finished[1]
     assert client.ahead == [*range(2, len(client.submitted) + 1), len(client.submitted)]
 
 
 def test_the_hydrodynamic_limit_is_that_of_the_experiments(finished):
     """L sqrt(rho_p/rho_t) is 25 cm; rigid rods go 36 cm and deeper, others 22 cm at 1100 m/s and 27 cm at 1350 m/s."""
-    found = json.loads((finished[0] / "out" / "transition.json").read_text())
-    assert brackets(found)[0]["hydrodynamic limit"] == (1050, 1100)
-    told = [note for note in found["combinations"][0]["notes"] if note.startswith("out of order")]
-    assert [note.partition("; ")[0] for note in told] == [
+    result = json.loads((finished[0] / "out" / "transition.json").read_text())
+    assert brackets(result)[0]["hydrodynamic limit"] == (1050, 1100)
+    notes = [note for note in result["combinations"][0]["notes"] if note.startswith("out of order")]
+    assert [note.partition("; ")[0] for note in notes] == [
         "out of order: no deeper than the limit at 1250 m/s, deeper than the hydrodynamic limit at 1300 m/s"]
 
 
-def test_what_is_printed(again, capsys):
+def test_the_printed_results(again, capsys):
     client = made_up.Client(usual)
     search(again, client, resume=True)
     shown = capsys.readouterr().out
@@ -205,27 +205,27 @@ def test_a_second_call_runs_nothing_and_says_the_same(again):
 
 def test_a_smaller_tolerance_uses_the_runs_that_are_there(again):
     client = made_up.Client(usual)
-    status, found = search(again, client, STUDY.replace('"50 m/s"', '"25 m/s"'), resume=True)
+    status, result = search(again, client, STUDY.replace('"50 m/s"', '"25 m/s"'), resume=True)
     assert status == 0
     assert sorted(client.submitted) == ["ke_1075m-s", "ke_1325m-s", "momentum_1175m-s", "momentum_1425m-s"]
-    assert brackets(found)[0]["rigid to deforming"] == (1075, 1100)
+    assert brackets(result)[0]["rigid to deforming"] == (1075, 1100)
 
 
 def test_an_interrupted_search_goes_on_where_it_was(tmp_path, finished, capsys):
     whole = set(finished[1].submitted)
     first = made_up.Client(usual, interrupt_at=6)
-    status, found = search(tmp_path, first)
-    assert (status, found["complete"]) == (130, False)
+    status, result = search(tmp_path, first)
+    assert (status, result["complete"]) == (130, False)
     assert "not narrowed to 50 m/s" in capsys.readouterr().out
     again = made_up.Client(usual)
-    status, found = search(tmp_path, again, resume=True)
-    assert (status, found["complete"]) == (0, True)
+    status, result = search(tmp_path, again, resume=True)
+    assert (status, result["complete"]) == (0, True)
     assert set(first.submitted) & set(again.submitted) == {first.submitted[-1]}
     assert set(first.submitted) | set(again.submitted) == whole
 
 
 def test_a_search_that_broke_off_runs_no_case_twice(tmp_path, finished):
-    """It ends in the middle of a case, with no last word; transition.json is not there yet."""
+    """It ends in the middle of a case, without a last message; transition.json does not exist yet."""
 
     def dying(velocity, deck):
         if len(first.submitted) == 6:
@@ -242,52 +242,52 @@ def test_a_search_that_broke_off_runs_no_case_twice(tmp_path, finished):
 
 def test_more_workers_than_combinations_try_several_velocities(tmp_path):
     client = made_up.Client(usual, workers=6)
-    status, found = search(tmp_path, client)
+    status, result = search(tmp_path, client)
     assert status == 0
     first = client.submitted[:6]
     assert [name.partition("_")[0] for name in first].count("ke") == 3
     assert {"ke_900m-s", "ke_1500m-s", "ke_1200m-s"} <= set(first)
-    assert brackets(found)[0]["rigid to deforming"] == (1050, 1100)
+    assert brackets(result)[0]["rigid to deforming"] == (1050, 1100)
 
 
 def test_a_case_that_fails_does_not_sink_the_rest(tmp_path, capsys):
-    """Its bracket stays as wide as it is and says why; the others are found; --resume tries it again."""
+    """Its bracket stays as wide as it is and gives the reason; the others are found; --resume tries it again."""
 
     def failing(velocity, deck):
         lost = deck["numerics"]["advection"] == "ke" and velocity in (1050, 1100)
         return Outcome("failed", "a fault that nobody foresaw") if lost else usual(velocity, deck)
 
-    status, found = search(tmp_path, made_up.Client(failing))
+    status, result = search(tmp_path, made_up.Client(failing))
     assert status == 3
-    ke, momentum = brackets(found)
+    ke, momentum = brackets(result)
     assert (ke["rigid to deforming"], ke["to eroding"]) == ((1000, 1150), (1300, 1350))
     assert momentum["rigid to deforming"] == (1150, 1200)
-    assert not found["complete"]
-    assert [each["settled"] for each in found["combinations"][0]["transitions"][:2]] == [False, True]
+    assert not result["complete"]
+    assert [each["settled"] for each in result["combinations"][0]["transitions"][:2]] == [False, True]
     lost = "rigid to deforming: not narrowed to 50 m/s: 1050 m/s failed: a fault that nobody foresaw; 1100 m/s failed: a fault"
     assert lost in capsys.readouterr().out
     client = made_up.Client(usual)
-    status, found = search(tmp_path, client, resume=True)
-    assert (status, brackets(found)[0]["rigid to deforming"]) == (0, (1050, 1100))
+    status, result = search(tmp_path, client, resume=True)
+    assert (status, brackets(result)[0]["rigid to deforming"]) == (0, (1050, 1100))
     assert set(client.submitted) <= {"ke_1050m-s", "ke_1100m-s"}
 
 
 def test_a_combination_whose_deck_is_wrong_does_not_sink_the_rest(tmp_path):
     client = made_up.Client(usual)
-    status, found = search(tmp_path, client, STUDY.replace('"momentum"', '"kinetic"'))
+    status, result = search(tmp_path, client, STUDY.replace('"momentum"', '"kinetic"'))
     assert status == 3
-    ke, wrong = brackets(found)
+    ke, wrong = brackets(result)
     assert ke["rigid to deforming"] == (1050, 1100)
     assert wrong["rigid to deforming"] == (None, None)
     assert all(name.startswith("ke") for name in client.submitted)
-    assert 'unknown value "kinetic"' in " ".join(found["combinations"][1]["notes"])
+    assert 'unknown value "kinetic"' in " ".join(result["combinations"][1]["notes"])
 
 
 def test_a_search_whose_runs_all_fail_ends(tmp_path):
     client = made_up.Client(lambda velocity, deck: Outcome("failed", "the disk is full"))
-    status, found = search(tmp_path, client, ALONE)
+    status, result = search(tmp_path, client, ALONE)
     assert (status, len(client.submitted)) == (3, 4)
-    assert "nothing to compare with" in found["combinations"][0]["notes"][-1]
+    assert "nothing to compare with" in result["combinations"][0]["notes"][-1]
 
 
 @pytest.mark.parametrize(
@@ -297,15 +297,15 @@ def test_a_search_whose_runs_all_fail_ends(tmp_path):
         ((2000, 2000), (1500, None), "not reached at 1500 m/s, the fast end of the interval"),
     ],
 )
-def test_an_interval_that_is_too_short_is_told(tmp_path, capsys, ends, expected, said):
+def test_an_interval_that_is_too_short_is_reported(tmp_path, capsys, ends, expected, said):
     client = made_up.Client(lambda velocity, deck: {"regime": made_up.regime(velocity, *ends)})
-    status, found = search(tmp_path, client, ALONE)
-    assert (status, len(client.submitted), found["complete"]) == (0, 2, True)
-    assert brackets(found)[0]["rigid to deforming"] == brackets(found)[0]["to eroding"] == expected
+    status, result = search(tmp_path, client, ALONE)
+    assert (status, len(client.submitted), result["complete"]) == (0, 2, True)
+    assert brackets(result)[0]["rigid to deforming"] == brackets(result)[0]["to eroding"] == expected
     assert f"rigid to deforming: open, {said}" in capsys.readouterr().out
 
 
-def test_what_is_out_of_order_is_told(tmp_path, capsys):
+def test_regimes_out_of_order_are_reported(tmp_path, capsys):
     def strange(velocity, deck):
         return {"regime": "rigid" if velocity == 1500 else made_up.regime(velocity, 1000, 1100)}
 
@@ -319,10 +319,10 @@ def test_a_rod_that_left_the_mesh_has_no_regime(tmp_path):
         gone = {"depth": 0.54, "rod_mass_kg": 0.0, "rod_core_mass_kg": 0.0, "regime": "eroding"}
         return gone if velocity > 1400 else usual(velocity, deck)
 
-    status, found = search(tmp_path, made_up.Client(through), ALONE)
+    status, result = search(tmp_path, made_up.Client(through), ALONE)
     assert status == 0
-    assert brackets(found)[0]["to eroding"] == (1300, 1350)
-    runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
+    assert brackets(result)[0]["to eroding"] == (1300, 1350)
+    runs = {run["velocity_m_s"]: run for run in result["combinations"][0]["runs"]}
     assert runs[1500]["regime"] is None
     assert "left the mesh; stop.perforation = true" in runs[1500]["reason"]
 
@@ -332,23 +332,23 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
         gone = {"depth": 0.3, "rod_mass_kg": 0.0, "regime": "left the mesh", "rod_residual_velocity_m_s": 700.0}
         return gone if velocity > 1400 else usual(velocity, deck)
 
-    status, found = search(tmp_path, made_up.Client(out), ALONE)
+    status, result = search(tmp_path, made_up.Client(out), ALONE)
     assert status == 0
-    assert brackets(found)[0]["to eroding"] == (1300, 1350)
-    runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
+    assert brackets(result)[0]["to eroding"] == (1300, 1350)
+    runs = {run["velocity_m_s"]: run for run in result["combinations"][0]["runs"]}
     assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the projectile left the mesh before it came to rest")
 
 
-def test_a_run_that_was_cut_short_is_told(tmp_path, capsys):
+def test_a_run_that_was_cut_short_is_reported(tmp_path, capsys):
     cut = {"stop_reason": "end time", "rod_core_velocity_m_s": 300.0}
     search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | cut), ALONE)
     assert "runs that did not end at rest, whose regime is that at their end: 900 m/s, " in capsys.readouterr().out
 
 
-def test_another_rod_than_the_experiments_is_told(tmp_path, capsys):
+def test_another_rod_than_the_experiments_is_reported(tmp_path, capsys):
     text = ALONE.replace("[transition]", '[set]\n"body.rod.length" = "80 mm"\n[transition]')
-    _, found = search(tmp_path, made_up.Client(usual), text)
-    assert "the experiments' rods were 97.79 x 6.757 mm" in found["combinations"][0]["notes"]
+    _, result = search(tmp_path, made_up.Client(usual), text)
+    assert "the experiments' rods were 97.79 x 6.757 mm" in result["combinations"][0]["notes"]
 
 
 def test_status_and_report_show_the_transitions(again, capsys):
@@ -402,13 +402,13 @@ def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
     said, _ = process.communicate(timeout=300)
     assert process.returncode == 0, said
     assert "Traceback" not in said
-    found = json.loads((out / "transition.json").read_text())
-    (ends,) = brackets(found)
+    result = json.loads((out / "transition.json").read_text())
+    (ends,) = brackets(result)
     low, high = ends["rigid to deforming"]
     assert (high - low, 300 <= low < 900) == (200, True)
     low, high = ends["to eroding"]
     assert (high - low, 1100 <= low < 1900) == (200, True)
-    assert found["complete"]
+    assert result["complete"]
     assert len(hydro2d.open_study(out).cases) <= 8
     after = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns for case in hydro2d.open_study(out).cases}
     assert len(before) >= 2
@@ -422,7 +422,7 @@ LIMIT = ALONE.replace("[transition]", '[transition]\nof = "perforation"')
 
 
 def plate(velocity, deck):
-    """A target that is shot through from 1185 m/s on, with the velocity left that Recht and Ipson's model has."""
+    """A target that is perforated from 1185 m/s on, with the residual velocity of Recht and Ipson's model."""
     if velocity < 1185.0:
         return {"regime": "rigid", "depth": 0.3}
     left = (velocity**2 - 1185.0**2) ** 0.5
@@ -432,11 +432,11 @@ def plate(velocity, deck):
 
 def test_a_ballistic_limit_is_searched(tmp_path, capsys):
     client = made_up.Client(plate)
-    status, found = search(tmp_path, client, LIMIT)
-    assert (status, found["complete"], found["of"]) == (0, True, "perforation")
-    assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
+    status, result = search(tmp_path, client, LIMIT)
+    assert (status, result["complete"], result["of"]) == (0, True, "perforation")
+    assert brackets(result) == [{"ballistic limit": (1150, 1200)}]
     assert len(client.submitted) <= 6
-    runs = {run["velocity_m_s"]: run for run in found["combinations"][0]["runs"]}
+    runs = {run["velocity_m_s"]: run for run in result["combinations"][0]["runs"]}
     assert (runs[1150]["regime"], runs[1200]["regime"]) == ("stopped", "perforated")
     assert runs[1500]["residual_velocity_m_s"] == pytest.approx(919.6, abs=0.1)
     shown = capsys.readouterr().out
@@ -447,21 +447,21 @@ def test_a_ballistic_limit_is_searched(tmp_path, capsys):
 
 
 def test_a_rod_that_stops_in_a_bulge_has_not_perforated(tmp_path):
-    """Its nose was beyond the rear, and it turned round."""
+    """Its nose was beyond the rear, and it turned back."""
     stuck = {"regime": "rigid", "depth": 0.6, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 2.0,
              "stop_reason": "rebound of rod"}  # fmt: skip
     client = made_up.Client(lambda velocity, deck: stuck if velocity < 1185.0 else plate(velocity, deck))
-    _, found = search(tmp_path, client, LIMIT)
-    assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
+    _, result = search(tmp_path, client, LIMIT)
+    assert brackets(result) == [{"ballistic limit": (1150, 1200)}]
 
 
 def test_a_rod_that_left_sideways_has_no_say_in_a_ballistic_limit(tmp_path):
     gone = {"depth": 0.1, "regime": "left the mesh", "rod_mass_kg": 0.0}
     client = made_up.Client(lambda velocity, deck: gone if velocity == 900.0 else plate(velocity, deck))
-    _, found = search(tmp_path, client, LIMIT)
-    runs = {run["velocity_m_s"]: run["regime"] for run in found["combinations"][0]["runs"]}
+    _, result = search(tmp_path, client, LIMIT)
+    runs = {run["velocity_m_s"]: run["regime"] for run in result["combinations"][0]["runs"]}
     assert runs[900] is None
-    assert brackets(found) == [{"ballistic limit": (1150, 1200)}]
+    assert brackets(result) == [{"ballistic limit": (1150, 1200)}]
 
 
 def test_slow_rods_have_no_say_in_the_hydrodynamic_limit(tmp_path):
@@ -469,14 +469,14 @@ def test_slow_rods_have_no_say_in_the_hydrodynamic_limit(tmp_path):
     def rod(velocity, deck):
         return usual(velocity, deck) | {"depth": 0.2 if velocity < 1035.0 else 0.3 if velocity < 1235.0 else 0.15}
 
-    _, found = search(tmp_path, made_up.Client(rod), ALONE)
-    low, high = brackets(found)[0]["hydrodynamic limit"]
+    _, result = search(tmp_path, made_up.Client(rod), ALONE)
+    low, high = brackets(result)[0]["hydrodynamic limit"]
     assert 1035 <= low < 1235 <= high
 
 
 def test_a_hydrodynamic_limit_that_no_rod_exceeds_gives_no_transition(tmp_path):
-    _, found = search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | {"depth": 0.2}), ALONE)
-    assert "hydrodynamic limit" not in brackets(found)[0]
+    _, result = search(tmp_path, made_up.Client(lambda velocity, deck: usual(velocity, deck) | {"depth": 0.2}), ALONE)
+    assert "hydrodynamic limit" not in brackets(result)[0]
 
 
 # ------------------------------------------------------------------------------------------------ the loss of length
@@ -485,16 +485,16 @@ LENGTH = ALONE.replace("[transition]", '[transition]\nof = "length"')
 
 
 def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
-    """The regime, which is eroding from 1000 m/s on, has no say in this search."""
+    """The regime, which is eroding from 1000 m/s on, does not matter in this search."""
     def rod(velocity, deck):
         left = 0.0977 * (0.68 if velocity < 1185.0 else 0.65)
         return {"regime": "eroding" if velocity > 1000.0 else "rigid", "depth": 4.0 * left, "rod_length_m": left}
 
     client = made_up.Client(rod)
-    status, found = search(tmp_path, client, LENGTH)
-    assert (status, found["complete"], found["of"]) == (0, True, "length")
-    assert brackets(found)[0]["a third of the length lost"] == (1150, 1200)
-    assert {*brackets(found)[0]} == {"a third of the length lost", "depth falls", "hydrodynamic limit"}
+    status, result = search(tmp_path, client, LENGTH)
+    assert (status, result["complete"], result["of"]) == (0, True, "length")
+    assert brackets(result)[0]["a third of the length lost"] == (1150, 1200)
+    assert {*brackets(result)[0]} == {"a third of the length lost", "depth falls", "hydrodynamic limit"}
     assert len(client.submitted) <= 6
     shown = capsys.readouterr().out
     assert "a third of the length lost  1150 to 1200 m/s  kept at 1150 m/s, used up at 1200 m/s" in shown
@@ -502,7 +502,7 @@ def test_the_velocity_at_which_a_third_of_the_rod_is_used_up(tmp_path, capsys):
     assert "rigid to deforming" not in shown
 
 
-def test_what_a_search_is_of_must_be_known(tmp_path, capsys):
+def test_the_target_of_a_search_must_be_known(tmp_path, capsys):
     assert call(["transition", str(write(tmp_path, LIMIT.replace('"perforation"', '"perforatoin"'))), "--check"]) == 2
     said = 'transition.of: unknown value "perforatoin"; did you mean "perforation"? (allowed: deeper, erosion, '
     assert f"search.toml:5: {said}" in capsys.readouterr().err

@@ -26,12 +26,12 @@ name = "pressure"
 key = "body.low.pressure"
 values = [0.1, 0.2]
 """
-#: thousands of cycles: seconds to be hit in, with a restart file after each
+#: thousands of cycles: seconds in which to be hit, with a restart file after each
 LONG = ["--set", "stop.time=3", "--set", "output.restart_interval=0.3"]
 
 
 def write(folder: Path, text: str = STUDY) -> Path:
-    """A study file with its deck beside it."""
+    """A study file with its deck next to it."""
     (folder / "tube.toml").write_text(TUBE)
     file = folder / "tubes.toml"
     file.write_text(text)
@@ -46,7 +46,7 @@ def start(*arguments, command: str = "sweep", **options) -> subprocess.Popen:
 
 
 def sweep(*arguments, **options) -> tuple[int, str]:
-    """The same to its end: exit status and what it said."""
+    """`start`, run to its end: exit status and output."""
     process = start(*arguments, **options)
     said, _ = process.communicate(timeout=900)
     return process.returncode, said
@@ -56,15 +56,15 @@ def wait_for(condition, seconds: float = 300):
     """The first true value of a function; fails where it takes too long."""
     until = time.monotonic() + seconds
     while time.monotonic() < until:
-        found = condition()
-        if found:
-            return found
+        value = condition()
+        if value:
+            return value
         time.sleep(0.02)
     raise AssertionError(f"nothing within {seconds} s")
 
 
 def bits(directory: Path) -> tuple:
-    """Everything that a run computed: arrays and scalars of the restart file, and the history."""
+    """Everything computed by a run: arrays and scalars of the restart file, and the history."""
     saved = snapshot.read(directory / "restart.h5")
     arrays = {name: array.tobytes() for name, array in saved.arrays.items()}
     columns = {name: column.tobytes() for name, column in history.read(directory / "history.h5").items()}

@@ -1,7 +1,7 @@
-"""Runs mutants in a process that is watched, and says of each how it ended.
+"""Runs mutants in a watched process, and reports how each ended.
 
 ``python -m tests.trials.campaign 0 1000 FILE`` adds a line of JSON for each mutant from 0 up to 1000 to FILE, then prints the
-counts. What has a line already is not run again.
+counts. Mutants that already have a line are not run again.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ import traceback
 import warnings
 from pathlib import Path
 
-#: seconds after which a mutant hangs, and cells beyond which it is not run
+#: seconds after which a mutant counts as hanging, and cells beyond which it is not run
 LIMIT, MOST_CELLS = 60.0, 20_000
-#: how a mutant may end; what is not among them is a failure
+#: permitted outcomes of a mutant; any other is a failure
 SOUND = ("refused", "large", "unphysical", "untrusted", "trusted")
 EVERY = 10
 
 
 def judged(text: str) -> dict:
-    """How a deck ends: {"ended": one of SOUND, or "beyond", "crash", "disagrees"} and what there is to say."""
+    """How a deck ends: {"ended": one of SOUND, or "beyond", "crash", "disagrees"} and the message."""
     from hydro2d.deck import deck as decks
     from hydro2d.errors import DeckError, UnphysicalState
     from hydro2d.running.check import check
@@ -39,8 +39,8 @@ def judged(text: str) -> dict:
             cells = [len(edges) - 1 for edges in decks.edges(deck)]
             if cells[0] * cells[1] > MOST_CELLS:
                 return {"ended": "large"}
-            told = check(deck)
-            told.lines(1)
+            texts = check(deck)
+            texts.lines(1)
         except DeckError as error:
             return {"ended": "refused" if str(error).strip() else "crash", "message": str(error)}
         try:
@@ -61,13 +61,13 @@ def judged(text: str) -> dict:
         _read(simulation)
         faults = simulation.faults() + simulation.doubts()
         ended = "untrusted" if faults else "beyond" if beyond else "trusted"
-        return {"ended": ended, "message": "; ".join(faults) or reason, "beyond": beyond, "warnings": told.warnings}
+        return {"ended": ended, "message": "; ".join(faults) or reason, "beyond": beyond, "warnings": texts.warnings}
     except Exception:
         return {"ended": "crash", "message": traceback.format_exc(), "beyond": beyond}
 
 
 def _read(simulation) -> None:
-    """Asks for everything that a summary and a dump hold."""
+    """Requests everything in a summary and a dump."""
     from hydro2d.output import derived
 
     for each in (simulation.diagnostics, simulation.of_bodies, simulation.of_targets, simulation.holes, simulation.conservation,
@@ -77,7 +77,7 @@ def _read(simulation) -> None:
 
 
 def _serve(pipe) -> None:
-    """Judges texts until nobody sends any, on one thread."""
+    """Judges texts until no more are sent, on one thread."""
     os.environ["NUMBA_NUM_THREADS"] = "1"
     with contextlib.suppress(EOFError):
         while True:
@@ -128,10 +128,10 @@ def run(numbers, note=lambda line: None) -> collections.Counter:
     watched, count = Watched(), collections.Counter()
     try:
         for number in numbers:
-            name, told, text = mutants.mutant(number)
+            name, changes, text = mutants.mutant(number)
             ended = watched(text)
             count[ended["ended"]] += 1
-            note({"number": number, "deck": name, "changes": told, **ended})
+            note({"number": number, "deck": name, "changes": changes, **ended})
     finally:
         watched.end()
     return count
@@ -139,7 +139,7 @@ def run(numbers, note=lambda line: None) -> collections.Counter:
 
 @contextlib.contextmanager
 def kept(first: str, last: str, file: str):
-    """(numbers from first up to last that have no line in a file yet, function that adds the line of one, a dict)."""
+    """(numbers from first up to last without a line in a file, function that adds the line of one, a dict)."""
     path = Path(file)
     done = {json.loads(line)["number"] for line in path.read_text().splitlines()} if path.exists() else set()
     with path.open("a") as out:

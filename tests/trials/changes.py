@@ -1,4 +1,4 @@
-"""What somebody might change in a deck. Each change takes the tables and a random.Random, and says in words what it did."""
+"""Changes that somebody might make to a deck. Each takes the tables and a random.Random, and says in words what it did."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from hydro2d.mesh.edges.registry import words
 
 FACTORS = (0.25, 0.5, 0.7, 0.9, 1.1, 1.5, 2.0)
 SPEEDS = (-3000.0, -800.0, -50.0, 0.0, 5.0, 60.0, 300.0, 700.0, 1500.0, 2500.0, 4000.0, 7000.0)
-#: keys of a body that are lengths, along r and z alike
+#: keys of a body that are lengths, along r and along z
 SIZES = ("radius", "diameter", "length", "thickness", "inner_radius", "nose_length")
-#: numerics that are not sound by accident alone: every value is allowed
+#: numerics to vary: every value is allowed
 NUMERICS = {
     "advection": ("ke", "momentum", "both"), "courant": (0.2, 0.4, 0.6, 0.8), "advective_courant": (0.1, 0.3, 0.5),
     "ramp_cycles": (0, 5, 20), "initial_dt_factor": (0.01, 0.5, 1.0), "max_growth": (1.05, 1.5, 2.0),
@@ -38,7 +38,7 @@ def _some(tables: dict, chance) -> dict:
 
 
 def _names(tables: dict) -> list[str]:
-    """The bodies that others may join; all, where every one of them joins a body that is gone."""
+    """The bodies that others may join; all, if every one of them joins a body that is gone."""
     return [body["name"] for body in tables["body"] if "join" not in body] or [body["name"] for body in tables["body"]]
 
 
@@ -134,7 +134,7 @@ def move(tables, chance):
 
 
 def remove(tables, chance):
-    """A body fewer; mostly also where it is named."""
+    """Removes a body; mostly also where it is named."""
     if len(tables["body"]) < 2:
         return "nothing"
     gone = tables["body"].pop(chance.randrange(len(tables["body"])))["name"]
@@ -144,7 +144,7 @@ def remove(tables, chance):
 
 
 def _forget(tables: dict, gone: str) -> None:
-    """Takes the name of a body out of all sections."""
+    """Removes the name of a body from all sections."""
     sliding = tables.get("sliding", {})
     if gone in sliding.get("hard", ()):
         sliding["hard"] = [name for name in sliding["hard"] if name != gone]
@@ -161,7 +161,7 @@ def _forget(tables: dict, gone: str) -> None:
 
 
 def another(tables, chance):
-    """One body more, like another, elsewhere, of the same or another material, before or behind the others in the deck."""
+    """Adds a body, like another, elsewhere, of the same or another material, before or after the others in the deck."""
     body = copy.deepcopy(_some(tables, chance))
     body["name"] = f"{body['name']}_{chance.randrange(1000)}"
     _, low, high = _extent(tables)
@@ -177,7 +177,7 @@ def another(tables, chance):
 
 
 def block(tables, chance):
-    """A small block anywhere, first in the deck, so that it takes the place of others."""
+    """Adds a small block anywhere, first in the deck, so that it displaces others."""
     width, low, high = _extent(tables)
     r, z = sorted(chance.uniform(0.0, 0.6 * width) for _ in range(2)), sorted(chance.uniform(low, high) for _ in range(2))
     body = {"name": "block", "shape": "box", "material": chance.choice(library.names()), "r": r, "z": z,
@@ -187,7 +187,7 @@ def block(tables, chance):
 
 
 def air(tables, chance):
-    """A gas wherever nothing else is."""
+    """Adds a gas wherever there is nothing else."""
     _, low, high = _extent(tables)
     gas = {"eos": {"model": "ideal-gas", "adiabatic_index": chance.choice((1.2, 1.4, 1.667)),
                    "reference_density": chance.choice((0.1, 1.2, 10.0))}}  # fmt: skip

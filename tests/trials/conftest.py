@@ -1,4 +1,4 @@
-"""What several suites of trials need."""
+"""Fixtures for several suites of trials."""
 
 import shutil
 

@@ -1,7 +1,7 @@
-"""Small random decks of all kinds beside their twins: the mirrored one, one in another order, one that goes on from a restart.
+"""Small random decks of all kinds with their twins: the mirrored one, one in another order, one continued from a restart.
 
 ``python -m tests.trials.crowd 0 1000 FILE`` adds a line of JSON for each deck from 0 up to 1000 to FILE, then prints how many
-there were by what is wrong with them. What has a line already is not run again.
+there were by fault. Decks that already have a line are not run again.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from tests.solver.test_audit import unexplained_by_sound
 from tests.trials.campaign import kept
 
 CYCLES = 100
-#: what may not be exceeded: by totals, and beside products of an explosive (tests/solver/test_audit.py); by sums of twins, in
-#: which round-off decides what is tidied away; by the way of a body off its course, in cells
+#: limits: of totals, and next to products of an explosive (tests/solver/test_audit.py); of sums of twins, in which round-off
+#: decides what is tidied away; of the deviation of a body from its course, in cells
 CLOSES, CLOSES_BESIDE_PRODUCTS, TWINS, COURSE = 1e-12, 1e-9, 1e-3, 0.1
 #: arrays of a state that a restart gives back to the bit
 ARRAYS = ("q", "vof", "u", "v", "centroid")
@@ -65,7 +65,7 @@ def mirrored(text: str) -> str:
 
 
 def reordered(text: str) -> str:
-    """The deck with its first two bodies, which do not overlap, in the other order, but for that in which cells are cut."""
+    """The deck with its first two bodies, which do not overlap, in the other order, but with the same interface order."""
     deck = tomllib.loads(text)
     deck["numerics"]["interface_order"] = [body["name"] for body in deck["body"]]
     deck["body"][:2] = deck["body"][1::-1]
@@ -73,7 +73,7 @@ def reordered(text: str) -> str:
 
 
 def image(text: str, of: Simulation) -> Simulation:
-    """The simulation of a mirrored deck before its first cycle, with the bits of the other, which the deck rounds otherwise."""
+    """The mirrored deck's simulation before its first cycle, with the other's bits, which the deck would round differently."""
     twin = Simulation(decks.loads(mirrored(text)))
     for name in ("vof", "q", "centroid"):
         here, there = (one.grid.interior(getattr(one.state, name)) for one in (twin, of))
@@ -89,26 +89,26 @@ def image(text: str, of: Simulation) -> Simulation:
 
 
 def sums(simulation: Simulation) -> dict[str, float]:
-    """Sums over cells and vertices, made of nothing but the arrays of the state: of every body by its name."""
+    """Sums over cells and vertices, from the arrays of the state only: of every body by its name."""
     s, grid = simulation.state, simulation.grid
     mass = s.vof * s.q[RHO] * grid.volume
     inside = (slice(None), *grid.inside)
-    found = {}
+    totals = {}
     for m, name in enumerate(simulation.table.names):
         of_body = mass[m][grid.inside]
-        found[f"mass {name}"] = float(of_body.sum())
-        found[f"internal energy {name}"] = float((of_body * s.q[E, m][grid.inside]).sum())
-        found[f"volume {name}"] = float((s.vof[m] * grid.volume)[grid.inside].sum())
+        totals[f"mass {name}"] = float(of_body.sum())
+        totals[f"internal energy {name}"] = float((of_body * s.q[E, m][grid.inside]).sum())
+        totals[f"volume {name}"] = float((s.vof[m] * grid.volume)[grid.inside].sum())
     vertices = grid.interior_vertices(s.mass)
     u, v = grid.interior_vertices(s.u), grid.interior_vertices(s.v)
     assert np.isfinite(s.q[:, s.vof > 0.0]).all()
     assert mass[inside].min() >= 0.0
-    return found | {"kinetic energy": float(0.5 * (vertices * (u**2 + v**2)).sum()), "momentum": float((vertices * v).sum()),
-                    "radial momentum": float((vertices * u).sum())}
+    return totals | {"kinetic energy": float(0.5 * (vertices * (u**2 + v**2)).sum()), "momentum": float((vertices * v).sum()),
+                     "radial momentum": float((vertices * u).sum())}
 
 
 def restarted(text: str) -> Simulation:
-    """The simulation of a deck that was written down halfway, by JSON where a restart file has it, and went on from there."""
+    """The simulation of a deck stored halfway, as JSON where a restart file uses it, and continued from there."""
     first = advanced(text, CYCLES // 2)
     second = Simulation(decks.loads(text))
     second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
@@ -119,35 +119,35 @@ def restarted(text: str) -> Simulation:
 
 
 def text_of(number: int) -> str:
-    """The deck of a number; after all choices the numbers go on with the next seed."""
+    """The deck of a number; after all choices the numbers continue with the next seed."""
     kinds = list(audited.all_choices())
     return audited.deck(1000 + number // len(kinds), kinds[number % len(kinds)])
 
 
 def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
-    """The deck of a number, and what is wrong with it: {what: by how much or what was said}; None if it ends as unphysical."""
+    """The deck of a number, and its faults: {what: by how much, or the message}; None if it ends as unphysical."""
     text = text_of(number)
     try:
         plain = advanced(text)
     except UnphysicalState:
         return text, None
-    found: dict[str, float | str] = {}
+    faults: dict[str, float | str] = {}
     missed = unexplained_by_sound(plain)
     if not missed < (CLOSES_BESIDE_PRODUCTS if "detonation" in text else CLOSES):
-        found["audit"] = missed
+        faults["audit"] = missed
     now, audit = sums(plain), plain.audit
     start, sinks = audit.start, audit.sinks.values()
     for m, name in enumerate(plain.table.names):
         lost = now[f"mass {name}"] + sum(sink.mass[m] for sink in sinks) - start.mass[m]
         if not abs(lost) <= 1e-11 * start.mass[m]:
-            found["independent mass"] = float(lost / start.mass[m])
+            faults["independent mass"] = float(lost / start.mass[m])
     energy = now["kinetic energy"] + sum(now[f"internal energy {name}"] for name in plain.table.names)
     lost = energy + sum(sink.energy for sink in sinks) - start.energy
     if not abs(lost) <= 1e-9 * audit.scale:
-        found["independent energy"] = float(lost / audit.scale)
+        faults["independent energy"] = float(lost / audit.scale)
     off = {name: cells for name, cells in plain.conservation()["off_course_cells"].items() if cells > COURSE}
     if off and plain.engine.courses.parted(plain.table.names):
-        found["course"] = max(off.values())
+        faults["course"] = max(off.values())
     scale = {key: max(abs(value), 1e-300) for key, value in now.items()}
     size = (2.0 * start.mass.sum() * audit.scale) ** 0.5
     for key in scale:
@@ -162,18 +162,18 @@ def wrong(number: int) -> tuple[str, dict[str, float | str] | None]:
         try:
             twin = sums(advanced(other))
         except UnphysicalState as error:
-            found[name] = str(error)
+            faults[name] = str(error)
             continue
         if name == "mirror":
             twin["momentum"] *= -1.0
         apart = {key: abs(now[key] - twin[key]) / scale[key] for key in now}
         worst = max(apart, key=apart.get)
         if not apart[worst] < TWINS:
-            found[name] = f"{worst}: {apart[worst]:.3g}"
+            faults[name] = f"{worst}: {apart[worst]:.3g}"
     again = restarted(text)
     if not all(np.array_equal(getattr(again.state, name), getattr(plain.state, name)) for name in ARRAYS):
-        found["restart"] = "other bits"
-    return text, found
+        faults["restart"] = "other bits"
+    return text, faults
 
 
 def main(first: str, last: str, file: str) -> None:
@@ -181,9 +181,9 @@ def main(first: str, last: str, file: str) -> None:
     count: collections.Counter = collections.Counter()
     with kept(first, last, file) as (numbers, note):
         for number in numbers:
-            text, found = wrong(number)
-            count.update(["unphysical"] if found is None else list(found) or ["sound"])
-            note({"number": number, "wrong": found} | ({"deck": text} if found else {}))
+            text, faults = wrong(number)
+            count.update(["unphysical"] if faults is None else list(faults) or ["sound"])
+            note({"number": number, "wrong": faults} | ({"deck": text} if faults else {}))
     print(dict(count))
 
 

@@ -1,7 +1,7 @@
 """Damaged files of a finished run and study, read by every reader: ``python -m tests.trials.damage FOLDER FIRST LAST``.
 
-A process of its own, because what goes wrong in HDF5 or VTK may end it. For each file and seed it prints a line: the file, the
-damage, and `refused`, `same` (what was read is what was written) or `other`.
+A process of its own, because faults in HDF5 or VTK may end it. For each file and seed it prints a line: the file, the damage,
+and `refused`, `same` (the data read are those written) or `other`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ BLOCKS = (64, 512, 4096)
 
 
 def damaged(data: bytes, chance: random.Random) -> tuple[str, bytes]:
-    """How, and the bytes: mostly one bit that is another one, anywhere or near an end."""
+    """The kind of damage, and the bytes: mostly one flipped bit, anywhere or near an end."""
     spoiled, size = bytearray(data), len(data)
     how = chance.choice(("bit", "bit", "bit", "head", "tail", "bytes", "cut", "longer", "zeros"))
     if how in ("bit", "head", "tail"):
@@ -50,8 +50,8 @@ def _columns(file: Path):
 
 
 def _restart(file: Path):
-    found = snapshot.read(file)
-    return found.arrays, found.texts()
+    contents = snapshot.read(file)
+    return contents.arrays, contents.texts()
 
 
 def _grid(file: Path):
@@ -78,10 +78,10 @@ def _case(directory: Path) -> layout.Case:
 
 
 def _record(file: Path):
-    found = record.read(_case(next(folder for folder in file.parents if folder.name == "run")))
-    if found.problems:
-        raise Error("; ".join(found.problems))
-    return found.deck, found.first, found.last, found.start
+    stored = record.read(_case(next(folder for folder in file.parents if folder.name == "run")))
+    if stored.problems:
+        raise Error("; ".join(stored.problems))
+    return stored.deck, stored.first, stored.last, stored.start
 
 
 #: readers by file

@@ -1,7 +1,7 @@
-"""Decks as somebody might change a shipped one: valid TOML with other values, other bodies, another method.
+"""Shipped decks with changes that somebody might make: valid TOML with other values, other bodies, another method.
 
-A mutant follows from a number: the number says which deck, which one to four changes, and every value. What takes many cells
-is first cut down to the surroundings of the impact, and its mesh is coarsened. ``python -m tests.trials.mutants NUMBER`` prints
+A mutant follows from a number: the number determines the deck, one to four changes, and every value. Decks of many cells are
+first cut down to the surroundings of the impact, and their mesh is coarsened. ``python -m tests.trials.mutants NUMBER`` prints
 the deck.
 """
 
@@ -22,7 +22,7 @@ from tests.trials import changes
 
 #: cells of a deck before it is changed, and cycles that it runs for
 CELLS, CYCLES = 5000, 100
-#: radii of the rod that are kept of its shank, behind its tail and ahead of its nose
+#: lengths kept of the rod's shank, behind its tail and ahead of its nose, in radii of the rod
 SHANK, BEHIND, AHEAD = 4.0, 2.0, 8.0
 
 
@@ -41,7 +41,7 @@ def _base(name: str) -> dict:
     tables = {key: value for key, value in copy.deepcopy(deck._tables).items() if key not in ("experiment", "output", "name")}
     tables["stop"]["cycles"] = CYCLES
     r, z = decks.edges(deck)
-    if "cells_across" in tables["mesh"]:  # the segments that the two words stand for, so that they can be changed
+    if "cells_across" in tables["mesh"]:  # the segments that these keys define, so that they can be changed
         tables["mesh"] = {key: value for key, value in tables["mesh"].items() if key not in ("across", "cells_across", "reach")}
         tables["mesh"] |= {"r_start": float(r[0]), "z_start": float(z[0]), "r": _segments(r), "z": _segments(z)}
     if (len(r) - 1) * (len(z) - 1) > CELLS:
@@ -53,9 +53,9 @@ def _base(name: str) -> dict:
 
 
 def _cut(deck, tables: dict, z: np.ndarray) -> np.ndarray:
-    """Shortens the rod of a deck, and what stands far from it on the mesh; returns the edges that are left."""
+    """Shortens the rod of a deck, and removes things far from it on the mesh; returns the remaining edges."""
     rods = [number for number, body in enumerate(deck.body) if body.shape == "rod"]
-    if not rods or sum(body.velocity[1] != 0.0 for body in deck.body) > 1:  # what flies with a rod would be cut off
+    if not rods or sum(body.velocity[1] != 0.0 for body in deck.body) > 1:  # bodies that fly with a rod would be cut off
         return z
     rod = deck.body[rods[0]]
     length = min(rod.length, rod.resolved_nose_length + SHANK * rod.rod_radius)
@@ -67,36 +67,36 @@ def _cut(deck, tables: dict, z: np.ndarray) -> np.ndarray:
 
 
 def _coarsened(edges: np.ndarray, factor: float) -> np.ndarray:
-    """The same extent with fewer cells, whose sizes vary as before."""
+    """The edges with fewer cells over the same extent, whose sizes vary as before."""
     cells = max(round((len(edges) - 1) / factor), min(len(edges) - 1, 4))
     return np.interp(np.linspace(0, len(edges) - 1, cells + 1), np.arange(len(edges)), edges)
 
 
 def _segments(edges: np.ndarray) -> list[dict]:
     """Segments of a mesh with these edges, one for each row of equal cells."""
-    found: list[dict] = []
+    segments: list[dict] = []
     sizes = np.diff(edges)
     for number, size in enumerate(sizes):
         if number and abs(size - sizes[number - 1]) < 1e-6 * size:
-            found[-1] = {"to": float(edges[number + 1]), "cells": found[-1]["cells"] + 1}
+            segments[-1] = {"to": float(edges[number + 1]), "cells": segments[-1]["cells"] + 1}
         else:
-            found.append({"to": float(edges[number + 1]), "cells": 1})
-    return found
+            segments.append({"to": float(edges[number + 1]), "cells": 1})
+    return segments
 
 
 def mutant(number: int) -> tuple[str, list[str], str]:
-    """The name of the shipped deck, what was changed, in words, and the text of the changed deck."""
+    """The name of the shipped deck, the changes, in words, and the text of the changed deck."""
     chance = random.Random(number)
     name = chance.choice(shipped())
-    tables, told = copy.deepcopy(_base(name)), []
+    tables, words = copy.deepcopy(_base(name)), []
     for _ in range(chance.choice((1, 1, 2, 2, 3, 4))):
         change = chance.choice(changes.CHANGES)
-        told.append(f"{change.__name__}: {change(tables, chance)}")
-    return name, told, toml.dumps({"numbers": "SI", **tables})
+        words.append(f"{change.__name__}: {change(tables, chance)}")
+    return name, words, toml.dumps({"numbers": "SI", **tables})
 
 
 def unchanged(name: str) -> str:
-    """The text of a shipped deck as it is before it is changed."""
+    """The text of a shipped deck before any change."""
     return toml.dumps({"numbers": "SI", **_base(name)})
 
 

@@ -1,11 +1,11 @@
-"""What the bodies of a deck can reach, whatever the method makes of it.
+"""Bounds on the states that the bodies of a deck can reach, independent of the method.
 
 The bounds follow from the deck and the equations of state alone. Closing speed V: the largest difference between the velocities
-of two bodies, walls and edges included, and the speeds at which what is under pressure at the start expands; an explosive has
+of two bodies, walls and edges included, and the speeds at which matter under pressure at the start expands; an explosive has
 burnt at once. A body is shocked by a jump of V, or to the pressure that the other side bears, then squeezed on its isentrope to
-the largest pressure of any collision; this covers reflections, and gas between closing walls. Density and energy there are what
-it reaches. After that it expands, which gives speeds. Plastic work, friction and the margins come on top. Nothing has less
-energy than its isentrope through the start, because entropy does not fall.
+the largest pressure of any collision; this covers reflections, and gas between closing walls. The bounds on density and energy
+are those of that state. After that it expands, which gives speeds. Plastic work, friction and the margins come on top. Nothing
+has less energy than its isentrope through the start, because entropy does not fall.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from hydro2d.solver import insertion
 from strength import SHEAR
 from tests.trials.shocks import Material
 
-#: times what shock and squeeze give: energy and density for reflections, convergence and the dissipation of the method; speeds
-#: for jets; the share that energy may fall below the start
+#: factors on the results of shock and squeeze: energy and density for reflections, convergence and the dissipation of the
+#: method; speeds for jets; the share that energy may fall below the start
 ENERGY, DENSITY, SPEED, LEAST = 3.0, 2.0, 2.0, 0.25
 #: density that elastic waves and rounding may add
 ELASTIC = 0.05
-#: share of the largest kinetic energy at the start that bodies may show which nothing meets, and of the speed of sound
+#: share of the largest kinetic energy at the start allowed for bodies that hit nothing, and of the speed of sound
 REST, NOISE = 0.05, 1e-3
-#: plastic strain beyond which more work is not believed, and the share of the shear modulus that no flow stress exceeds
+#: plastic strain beyond which more work is not credited, and the share of the shear modulus that no flow stress exceeds
 STRAIN, YIELDS = 10.0, 0.1
 #: share of the density of the densest body below which a body is a gas beside solids
 LIGHT = 0.01
@@ -93,8 +93,8 @@ class Reach:
     def _meets_itself(self) -> bool:
         """Whether a body may meet a wall, an edge with a velocity, the axis, or parts of itself."""
         edge = self.deck.boundaries
-        held = any(getattr(edge, key) in ("wall", "velocity", "piston") for key in ("r_min", "r_max", "z_min", "z_max"))
-        return held or self.converges or any(body.join is not None for body in self.deck.body)
+        edged = any(getattr(edge, key) in ("wall", "velocity", "piston") for key in ("r_min", "r_max", "z_min", "z_max"))
+        return edged or self.converges or any(body.join is not None for body in self.deck.body)
 
     def _limits(self, m: int, starts, table) -> Limits:
         row = self.materials[m]
@@ -118,10 +118,10 @@ def _speeds(simulation) -> np.ndarray:
     grid, edges = simulation.grid, simulation.engine.method.boundaries
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
-    found = [(0.0, 0.0)] if any(edges.having("holds")) else []
+    speeds = [(0.0, 0.0)] if any(edges.having("holds")) else []
     for body in simulation.deck.body:
         u, v = insertion.body_velocity(body, r, z)
-        found += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]
+        speeds += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]
     for n, edge in enumerate(edges.edges):
-        found += [(speed, 0.0) if n < 2 else (0.0, speed) for speed in edge.speeds() if speed]
-    return np.array(found)
+        speeds += [(speed, 0.0) if n < 2 else (0.0, speed) for speed in edge.speeds() if speed]
+    return np.array(speeds)

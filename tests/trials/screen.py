@@ -1,4 +1,4 @@
-"""What of a state lies beyond what its bodies can reach, with the worst place by each bound."""
+"""States beyond the reach of the bodies, with the worst place for each bound."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from scipy.ndimage import maximum_filter
 from hydro2d.mesh.fields import EP, RHO, E
 from tests.trials.reach import SPEED, STRAIN, Reach
 
-#: volume fraction from which the state of a body in a cell counts, and share of a full vertex mass from which its speed does
+#: least volume fraction at which the state of a body in a cell counts, and share of a full vertex mass at which its speed does
 FRACTION, MASS = 1e-2, 1e-2
-#: what fractions and masses may miss by rounding
+#: rounding errors of fractions and masses
 ROUNDING = 1e-9
 
 
@@ -21,7 +21,7 @@ class Screen:
     ----------
     simulation : Simulation
     least : float
-        Times the bound from which a place is noted; 1 is what is wanted, less shows how near a state is.
+        Factor on the bound above which a place is noted; 1 is the requirement, less shows how close a state is.
     """
 
     def __init__(self, simulation, least: float = 1.0):
@@ -29,7 +29,7 @@ class Screen:
         self._found: dict[str, dict] = {}
 
     def beyond(self) -> dict[str, dict]:
-        """By the name of the bound the worst place: times the bound, value, limit, number of places, body, cell, fractions."""
+        """The worst place by name of the bound: times the bound, value, limit, number of places, body, cell, fractions."""
         self._found = {}
         for m in range(len(self.reach.bodies)):
             self._numbers(m)
@@ -56,7 +56,7 @@ class Screen:
         return self.simulation.grid.interior(array)
 
     def _numbers(self, m: int) -> None:
-        """Finite numbers and a positive density, wherever there is anything of the body."""
+        """Finite numbers and a positive density, wherever a body has any material."""
         fields = self._inside(self.simulation.state.q)[:, m]
         there, rho = self._inside(self.simulation.state.vof)[m] > 0.0, fields[RHO]
         self._note("finite", np.where(there & ~np.isfinite(fields).all(axis=0), np.inf, 0.0), rho, 0.0, m)
@@ -86,7 +86,7 @@ class Screen:
         self._note("fraction 0", np.where((vof < 0.0).any(axis=0), np.inf, 0.0), vof.min(axis=0), 0.0)
 
     def _mass(self) -> None:
-        """What has become of the mass of each body, beside what left and came by name."""
+        """Change of mass of each body, less the amounts that left and entered by name."""
         s, audit = self.simulation.state, self.simulation.audit
         mass = (self._inside(s.vof) * self._inside(s.q)[RHO] * self._inside(self.simulation.grid.volume)).sum(axis=(1, 2))
         gone = sum(sink.mass for sink in audit.sinks.values())
@@ -95,7 +95,7 @@ class Screen:
             self._note("mass", np.full((1, 1), lost / ROUNDING), np.full((1, 1), lost), ROUNDING, m)
 
     def _speed(self) -> None:
-        """Speeds of vertices with enough mass: jets of the collision, and what the bodies within two cells expand with."""
+        """Speeds of vertices with enough mass: jets of the collision, and the expansion of the bodies within two cells."""
         sim, reach = self.simulation, self.reach
         grid, s = sim.grid, sim.state
         there = self._inside(s.vof) > 0.0

@@ -1,4 +1,4 @@
-"""Shocks, isentropes and releases of the equations of state of a deck, by numbers: for any that is linear in the energy."""
+"""Shocks, isentropes and releases of the equations of state of a deck, numerically: for any that is linear in the energy."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from eos.dispatch import evaluate, sound_speed_squared
 STEPS, THIN, SQUEEZE = 400, 1e3, 1.02
 #: density at which a cold gas, which has no pressure, is no longer squeezed, kg/m^3
 DENSEST = 1e9
-#: the compression 1 - rho0/rho1 that no shock exceeds, and what is left of the energy's factor where it is at its limit
+#: the compression 1 - rho0/rho1 that no shock exceeds, and the rest of the energy's factor at that limit
 MOST_ETA, LIMIT = 0.999, 1e-6
 
 
@@ -47,15 +47,15 @@ class Material:
         return e1, math.sqrt(max((at_zero + slope * e1 - p0) * volume, 0.0))
 
     def shocked(self, rho: float, e: float, jump: float, pressure: float = math.inf) -> tuple[float, float]:
-        """(rho, e) behind a shock with this jump of velocity, or with this pressure if that takes less of a jump.
+        """(rho, e) behind a shock with this jump of velocity, or with this pressure if that needs less of a jump.
 
         Rankine-Hugoniot. A cold gas is at the limit of its compression at once.
         """
         low, high = 0.0, MOST_ETA
         for _ in range(60):
             middle = 0.5 * (low + high)
-            e1, found = self._behind(rho, e, middle)
-            weak = found < jump and self.pressure(rho / (1.0 - middle), e1) < pressure
+            e1, reached = self._behind(rho, e, middle)
+            weak = reached < jump and self.pressure(rho / (1.0 - middle), e1) < pressure
             low, high = (middle, high) if weak else (low, middle)
         if self._behind(rho, e, high)[1] == math.inf:
             return rho / (1.0 - low), e + 0.5 * jump**2 + max(self.pressure(rho, e), 0.0) * low / rho
@@ -71,7 +71,7 @@ class Material:
         return rho, e
 
     def released(self, rho: float, e: float) -> float:
-        """Speed that the isentropic release from (rho, e) to no pressure gives: the integral of c/rho."""
+        """Speed gained in the isentropic release from (rho, e) to zero pressure: the integral of c/rho."""
         sign = 1.0 if self.pressure(rho, e) > 0.0 else -1.0
         step, speed = -sign * math.log(THIN) / STEPS, 0.0
         for _ in range(STEPS):

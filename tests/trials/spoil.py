@@ -1,4 +1,4 @@
-"""Spoiled texts and files, the same ones for the same seed; and the judge of what a command makes of them."""
+"""Spoiled texts and files, identical for the same seed; and the judge of a command's reaction to them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from hydro2d.cli.main import call
 
-#: TOML values that no key, or hardly any, can take
+#: TOML values that (almost) no key accepts
 ABSURD = (
     "0", "-1", "1", "7.5", "1e30", "-1e30", "1e-300", "1e300", "nan", "inf", "-inf", "true", "false", '""', '"x"', '"1 m"',
     '"-3 km/s"', '"1e308 us"', '"1e-3 furlong"', '"../x"', '"a/b"', '"/"', '"\\u0000"', '"\\u202e"', '"é"', "[]", "{}",
@@ -20,7 +20,7 @@ ABSURD = (
 )  # fmt: skip
 #: characters that have a meaning in TOML, or none anywhere
 CHARACTERS = "[]{}=\"'#,.\\\n\t -_0e\x00\x07\x7f\ufeffé\u202e𝛼"
-#: JSON values in the place of what a summary or a study's record holds
+#: JSON values in place of those in a summary or a study's record
 JSON = ("null", "true", "-1", "1e300", '""', '"x"', "[]", "{}", "[1]", '{"a": 1}', '"NaN"', '"=cmd|calc"')
 
 
@@ -41,7 +41,7 @@ def _value(original: str, chance: random.Random) -> str:
 
 
 def _key(original: str, chance: random.Random) -> str:
-    """A key with a letter too few, a letter too many, or of another table."""
+    """A key with a letter missing, a letter too many, or from another table."""
     keys = list(re.finditer(r"[A-Za-z_][A-Za-z0-9_]*(?=\s*=)", original))
     if not keys:
         return original
@@ -52,11 +52,11 @@ def _key(original: str, chance: random.Random) -> str:
 
 
 def _line(original: str, chance: random.Random) -> str:
-    """A line gone, twice, or elsewhere."""
+    """A line removed, repeated, or moved."""
     lines = original.split("\n")
-    taken = lines.pop(chance.randrange(len(lines)))
+    line = lines.pop(chance.randrange(len(lines)))
     for _ in range(chance.choice((0, 1, 2))):
-        lines.insert(chance.randrange(len(lines) + 1), taken)
+        lines.insert(chance.randrange(len(lines) + 1), line)
     return "\n".join(lines)
 
 
@@ -71,7 +71,7 @@ def _header(original: str, chance: random.Random) -> str:
 
 
 def _character(original: str, chance: random.Random) -> str:
-    """A character gone, or one too many."""
+    """A character missing, or one too many."""
     at = chance.randrange(len(original) + 1)
     return original[:at] + chance.choice(CHARACTERS) + original[at + chance.choice((0, 1)) :]
 
@@ -129,10 +129,10 @@ def _value_of_json(original: str, chance: random.Random) -> str:
 
 
 def judge(arguments: list[str], allowed: tuple[int, ...] = (0, 2, 4)) -> tuple[int, str]:
-    """Runs a command in this process and returns its status and what it said on stderr.
+    """Runs a command in this process and returns its status and its output on stderr.
 
-    AssertionError where the status is not documented, or where there is no message beside one that is not 0. Any other
-    exception is a fault of hydro2d and goes on.
+    AssertionError for a status that is not documented, or no message with one that is not 0. Any other exception is a fault of
+    hydro2d and propagates.
     """
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):

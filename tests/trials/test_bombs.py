@@ -1,4 +1,4 @@
-"""Decks, settings and studies that hold far too much: one message, or an answer within seconds."""
+"""Decks, settings and studies with far too much in them: one message, or an answer within seconds."""
 
 import math
 import time
@@ -11,7 +11,7 @@ from tests.cli.test_main import DECK
 from tests.trials import spoil
 from tests.trials.test_texts import SEARCH, STUDY
 
-SECONDS = 10.0  # 5 on a machine that does nothing else
+SECONDS = 10.0  # 5 on an idle machine
 LONG = "1" + 4400 * "0"
 UNITS = ("1 ((m))**9**9**9**9/s", "1 m*9**9**9", "1 m/9**9**9**9", "1 (9**9**9)*m", "9**9**9 m", "1e400 m", "1 m**1000000",
          "0 m**-1 * 9**99999999", "1 m*10**100000000", "1 ((((9*m)**9*m)**9*m)**9*m)**9", "1 " + 100_000 * "m",
@@ -60,7 +60,7 @@ SETTINGS = (f"stop.time={LONG}", f"x={5000 * '['}1{5000 * ']'}", f"{'.'.join(500
 
 
 def refused(arguments):
-    """The message of a command that must refuse what it reads, soon."""
+    """The message of a command that must soon refuse its input."""
     began = time.monotonic()
     status, said = spoil.judge(arguments, (2,))
     assert time.monotonic() - began < SECONDS

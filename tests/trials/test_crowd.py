@@ -1,4 +1,4 @@
-"""A few of the random decks of `crowd`, and that their twins are what they should be."""
+"""A few of the random decks of `crowd`; their twins give the expected results."""
 
 import tomllib
 
@@ -11,8 +11,8 @@ from tests.trials import crowd
 
 
 @pytest.mark.parametrize("number", range(2000, 2336, 13))
-def test_a_deck_beside_its_twins(number):
-    """A run that is off its course says so itself; friction of a contact has an order (explanation/sliding)."""
+def test_a_deck_and_its_twins(number):
+    """A run that is off its course reports it itself; friction of a contact has an order (explanation/sliding)."""
     text, wrong = crowd.wrong(number)
     assert set(wrong or ()) <= ({"course", "mirror"} if "friction" in text else {"course"}), (wrong, text)
 
@@ -30,10 +30,10 @@ def test_an_image_of_an_image_is_the_deck():
 
 def test_sums_are_those_of_the_audit():
     simulation = Simulation(decks.loads(crowd.text_of(5)))
-    found, start = crowd.sums(simulation), simulation.audit.start
-    assert found["kinetic energy"] == pytest.approx(start.kinetic, rel=1e-12)
-    assert found["momentum"] == pytest.approx(start.momentum, rel=1e-12)
+    totals, start = crowd.sums(simulation), simulation.audit.start
+    assert totals["kinetic energy"] == pytest.approx(start.kinetic, rel=1e-12)
+    assert totals["momentum"] == pytest.approx(start.momentum, rel=1e-12)
     for m, name in enumerate(simulation.table.names):
-        assert found[f"mass {name}"] == pytest.approx(start.mass[m], rel=1e-12)
+        assert totals[f"mass {name}"] == pytest.approx(start.mass[m], rel=1e-12)
     simulation.state.vof[0, 6, 6] += 0.01
     assert not np.isclose(crowd.sums(simulation)["mass rod"], start.mass[0], rtol=1e-9)

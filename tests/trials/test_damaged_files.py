@@ -1,4 +1,4 @@
-"""Damaged files: every reader reads what was written or says in words that it cannot, and no library is given what ends it."""
+"""Damaged files: every reader reads what was written or refuses it in words, and no library gets data that crash it."""
 
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def trials(finished, folder, first, last):
-    """Damages each file once for each seed; returns how often its readers refused it, and how often it was the same."""
+    """Damages each file once for each seed; returns how often its readers refused it, and how often the data were the same."""
     shutil.copytree(finished, folder / "place")
     command = [sys.executable, "-m", "tests.trials.damage", str(folder / "place"), str(first), str(last)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
@@ -29,6 +29,6 @@ def test_damaged_files(finished, tmp_path):
 
 @pytest.mark.slow
 def test_thousands_of_damaged_files(finished, tmp_path, tell):
-    found = trials(finished, tmp_path, 1000, 1400)
-    tell(f"4000 damaged files, {found.total()} readings: {found['refused']} refused, {found['same']} as written, 0 crashes")
-    assert found["refused"] > 5000
+    counts = trials(finished, tmp_path, 1000, 1400)
+    tell(f"4000 damaged files, {counts.total()} readings: {counts['refused']} refused, {counts['same']} as written, 0 crashes")
+    assert counts["refused"] > 5000

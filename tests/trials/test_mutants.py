@@ -1,4 +1,4 @@
-"""Changed decks: `check` takes them or refuses them in words, and what it takes reaches nothing that it cannot, or says so."""
+"""Changed decks: `check` accepts them or refuses them in words, and accepted ones stay within reach, or say so."""
 
 import json
 
@@ -12,7 +12,7 @@ from tests.trials import campaign, mutants
 from tests.trials.reach import Reach
 from tests.trials.screen import Screen
 
-#: what a shot of the short trial has, and a gas that is shocked to its limit
+#: the bodies of the short trial, and a gas that is shocked to its limit
 FLAT, NOH = "shapes/flat.toml", "verification/noh_planar.toml"
 
 
@@ -29,16 +29,16 @@ def failures(numbers):
 
 def test_a_mutant_follows_from_its_number():
     assert mutants.mutant(17) == mutants.mutant(17)
-    assert len({mutants.mutant(number)[2] for number in (*range(20), 4382)}) == 21  # of the last, a body to join is gone
+    assert len({mutants.mutant(number)[2] for number in (*range(20), 4382)}) == 21  # in the last, a body to join is missing
 
 
 @pytest.mark.parametrize("name", ["cth_nose_shape/hemi_5083_1086_layer.toml", "verification/sod_z.toml"])
-def test_what_is_not_changed_reaches_nothing_impossible(name):
+def test_unchanged_decks_reach_nothing_impossible(name):
     assert campaign.judged(mutants.unchanged(name)) | {"message": "", "warnings": []} == {
         "ended": "trusted", "message": "", "beyond": {}, "warnings": []}  # fmt: skip
 
 
-def test_all_decks_are_taken_as_they_are_cut_down():
+def test_all_decks_are_accepted_when_cut_down():
     for name in mutants.shipped():
         r, z = decks.edges(decks.loads(mutants.unchanged(name)))
         assert 0 < (len(r) - 1) * (len(z) - 1) < 1.1 * mutants.CELLS, name
@@ -68,7 +68,7 @@ def test_shocks_are_those_of_the_textbook():
     ("speed", lambda s, j, i: np.multiply(s.v, 20.0, out=s.v)),
     ("mass", lambda s, j, i: np.multiply(s.q[RHO, 1], 1 + 1e-7, out=s.q[RHO, 1])),
 ])  # fmt: skip
-def test_what_lies_beyond_is_found(bound, spoil):
+def test_states_out_of_reach_are_found(bound, spoil):
     simulation = Simulation(decks.loads(mutants.unchanged(FLAT)))
     screen = Screen(simulation)
     for _ in range(10):

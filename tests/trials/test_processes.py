@@ -1,5 +1,5 @@
-"""Commands that are stopped at any moment, have no room to write or nobody to read them: one line, a documented status, a state
-from which a run goes on to the same bits."""
+"""Commands that are stopped at any moment, have no room to write or no reader: one line, a documented status, and a state from
+which a run continues to the same bits."""
 
 import hashlib
 import json
@@ -21,22 +21,22 @@ from tests.trials.conftest import FEW
 from tests.trials.test_texts import STUDY
 
 ROOT = Path(__file__).parents[2]
-#: what a signal ends a command with: hydro2d's status, or the signal itself before anything of hydro2d has begun
+#: result of a signal to a command: hydro2d's status, or the signal itself before hydro2d has started
 STATUS = {signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}
 STOPPING = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
 CYCLES = ["--set", "stop.cycles=400", "--set", "output.restart_interval='0.05 s'", "--set", "output.vtk_interval='1 us'"]
 
 
 def begun(arguments, **options):
-    """A command as a process of its own; what it says on stderr can be read."""
+    """A command as a process of its own; its output on stderr can be read."""
     command = [sys.executable, "-m", "hydro2d", *arguments]
     return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **options)
 
 
 def ended(process, expected, limit=120):
-    """Its status, which must be one of those expected, with not more than a line or two on stderr."""
+    """Its status, which must be one of those expected, with no more than a line or two on stderr."""
     said = process.communicate(timeout=limit)[1]
-    if "init_import_site" in said:  # Python itself was not up yet
+    if "init_import_site" in said:  # Python itself had not started yet
         return process.returncode
     assert process.returncode in expected, (process.returncode, said)
     assert process.returncode == -signal.SIGINT or "Traceback" not in said, said
@@ -50,13 +50,13 @@ def state(directory):
 
 
 def leftovers(directory):
-    """Files that were only half written, and are not one of those that stand."""
+    """Files that are half written, and not among those that are complete."""
     return [file for file in directory.rglob(".*") if file.is_file() and file.suffix == ".tmp"]
 
 
 @pytest.fixture(scope="module")
 def shot(tmp_path_factory):
-    """A deck, the state that it ends with, and the seconds that this took."""
+    """A deck, its final state, and the seconds that it takes."""
     folder = tmp_path_factory.mktemp("shot")
     (folder / "shot.toml").write_text(DECK)
     arguments = ["run", str(folder / "shot.toml"), *CYCLES, "--quiet", "--threads", "1"]
@@ -103,7 +103,7 @@ def test_a_hundred_stopped_runs(shot, tmp_path, tell):
 
 
 def others(finished, folder):
-    """Commands beside `run`, each into a folder of its own."""
+    """Commands other than `run`, each into a folder of its own."""
     (folder / "shot.toml").write_text(DECK)
     (folder / "study.toml").write_text(STUDY)
     run = str(finished / "run")
@@ -144,12 +144,12 @@ def test_two_hundred_stopped_commands(finished, tmp_path, tell):
 
 
 def limited(most):
-    """Lets no file of the process grow beyond so many bytes, which is what a full disk does to it."""
+    """Limits the size of every file of the process, which acts like a full disk."""
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 
 
 def without_room(seeds, shot, finished, folder):
-    """Commands that write, with hardly any room; returns how many said so."""
+    """Commands that write, with hardly any room; returns how many reported it."""
     count, known = 0, others(finished, folder)
     known["run"] = [*shot[0], "--out", str(folder / "run"), "--overwrite"]
     for seed in seeds:
@@ -184,7 +184,7 @@ def test_a_reader_that_is_gone(finished, tmp_path, name):
 
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
 def test_closed_streams(finished, tmp_path, closed):
-    """As where a program starts hydro2d without them: what would be said is lost, and nothing else."""
+    """As when a program starts hydro2d without them: output is lost, and nothing else."""
     run = [*shot_arguments(tmp_path), "--out", str(tmp_path / "out")]
     for arguments in (run, ["status", str(finished / "run")], ["--version"]):
         command = " ".join(f"'{word}'" for word in (sys.executable, "-m", "hydro2d", *arguments))

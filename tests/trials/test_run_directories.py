@@ -12,7 +12,7 @@ FURTHER = ["--set", "stop.cycles=40"]
 
 
 def commands(run, study, folder, chance):
-    """A command that reads what is spoiled, and the statuses that it may end with."""
+    """A command that reads the spoiled directory, and the statuses with which it may end."""
     picture = str(folder / "picture.png")
     return chance.choice((
         (["plot", run, "--out", picture], (0, 2, 4)),
@@ -27,8 +27,8 @@ def commands(run, study, folder, chance):
 
 
 def spoiled_directories(seeds, finished, folder):
-    """Spoils one or two files of a copy, and runs a command on it; returns how many said that they could not use it."""
-    told = 0
+    """Spoils one or two files of a copy, and runs a command on it; returns how many reported that they could not use it."""
+    reports = 0
     for seed in seeds:
         chance, place = random.Random(seed), folder / "place"
         shutil.rmtree(place, ignore_errors=True)
@@ -38,11 +38,11 @@ def spoiled_directories(seeds, finished, folder):
         for file in {chance.choice(files), *chance.choices(files, k=chance.choice((0, 1)))}:
             spoil.file(file, chance, files)
         arguments, allowed = commands(str(place / "run"), str(place / "study"), place, chance)
-        told += spoil.judge(arguments, allowed)[0] != 0
-    return told
+        reports += spoil.judge(arguments, allowed)[0] != 0
+    return reports
 
 
-def test_what_is_not_spoiled_is_read(finished, tmp_path):
+def test_unspoiled_directories_are_read(finished, tmp_path):
     for n in range(8):
         place = tmp_path / str(n)
         shutil.copytree(finished, place)
@@ -56,6 +56,6 @@ def test_spoiled_directories(finished, tmp_path):
 
 @pytest.mark.slow
 def test_a_thousand_spoiled_directories(finished, tmp_path, tell):
-    told = spoiled_directories(range(1000), finished, tmp_path)
-    tell(f"1000 spoiled directories, {told} refused in words, 0 failures")
-    assert told > 100
+    reports = spoiled_directories(range(1000), finished, tmp_path)
+    tell(f"1000 spoiled directories, {reports} refused in words, 0 failures")
+    assert reports > 100

@@ -1,4 +1,4 @@
-"""Spoiled decks, settings and studies: `check` takes them or refuses them in words, and what it takes runs."""
+"""Spoiled decks, settings and studies: `check` accepts them or refuses them in words, and accepted ones run."""
 
 import random
 
@@ -40,7 +40,7 @@ pressure = "1e5 Pa"
 [stop]
 time = "2 us"
 """
-#: decks that run in a second, and shipped ones, which are checked alone
+#: decks that run in a second, and shipped ones, which are only checked
 SMALL = {"rod": DECK, "bar": "\n" + TEXT, "contact": CONTACT, "gas": GAS}
 SHIPPED = ("hemi_5083_1086_quick.toml", "hemi_5083_1086.toml", "hemi_5083_1296_johnson_cook_failure.toml")
 STUDY = """
@@ -78,7 +78,7 @@ def decks():
 
 
 @pytest.mark.parametrize("name", SMALL)
-def test_what_is_not_spoiled_passes(name, tmp_path):
+def test_unspoiled_decks_pass(name, tmp_path):
     file = tmp_path / "deck.toml"
     file.write_text(SMALL[name])
     assert spoil.judge(["check", str(file)]) == (0, "")
@@ -108,7 +108,7 @@ def test_five_thousand_spoiled_decks(tmp_path, tell):
     assert refused > 2500
 
 
-#: keys of decks, right and wrong, that --set is given
+#: keys of decks, right and wrong, for --set
 KEYS = (
     "mesh.r.0.cells", "mesh.z.0.size", "mesh.z_start", "mesh.geometry", "mesh.r.9.cells", "mesh.q", "body", "body.rod",
     "body.0.radius", "body.rod.velocity", "body.rod.name", "body.rod.nose", "body.plate.material", "body.x.velocity",
@@ -120,7 +120,7 @@ KEYS = (
 
 
 def settings(seeds, folder):
-    """Sets what a seed says to what it says, by --set; returns how many were refused."""
+    """Sets keys to values, both chosen by a seed, by --set; returns how many were refused."""
     refused = 0
     for name, text in SMALL.items():
         (folder / f"{name}.toml").write_text(text)
@@ -177,7 +177,7 @@ def test_two_thousand_spoiled_studies(tmp_path, tell):
 
 
 def runs(seeds, folder):
-    """Runs what `check` takes of spoiled small decks for three cycles; returns how many that were."""
+    """Runs the spoiled small decks that `check` accepts for three cycles; returns how many there were."""
     ran = 0
     file = folder / "spoiled.toml"
     for seed in seeds:
@@ -190,12 +190,12 @@ def runs(seeds, folder):
     return ran
 
 
-def test_what_is_taken_runs(tmp_path):
+def test_accepted_decks_run(tmp_path):
     assert runs(range(40), tmp_path) >= 5
 
 
 @pytest.mark.slow
-def test_what_is_taken_of_two_thousand_runs(tmp_path, tell):
+def test_accepted_decks_of_two_thousand_run(tmp_path, tell):
     ran = runs(range(2000), tmp_path)
     tell(f"{ran} spoiled decks that were taken ran for three cycles, 0 failures")
     assert ran > 300

@@ -1,1 +1,1 @@
-"""The whole code against exact solutions. What is expected and what was obtained: problems/verification/README.md."""
+"""The whole code against exact solutions. Expected and obtained values: problems/verification/README.md."""

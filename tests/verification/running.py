@@ -31,12 +31,12 @@ def finish(deck, watch=None) -> Simulation:
 
 @functools.cache
 def run(name: str, *overrides: str) -> Simulation:
-    """A shipped verification deck at its end; each combination of overrides, in SI units, runs once. Not to be written to."""
+    """A shipped verification deck at its end; each combination of overrides, in SI units, runs once. Not to be modified."""
     return finish(decks.load(f"{FOLDER}/{name}.toml", ["numbers=SI", *overrides]))
 
 
 class Line:
-    """Values along the one axis that a plane problem varies along, from a column (or row) in the middle of the mesh.
+    """Values along the axis on which a plane problem depends, from a column (or row) in the middle of the mesh.
 
     Arrays without ghosts: centres x [n], vertices xv [n + 1].
 

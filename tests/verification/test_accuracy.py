@@ -1,6 +1,6 @@
-"""Runs of problems with exact solutions on cheap meshes: what is true of their errors today, and what is wished for.
+"""Runs of problems with exact solutions on cheap meshes: bands of their present errors, and desired errors.
 
-The bands hold the errors of `problems/verification/README.md`, in per cent. A wish that is not fulfilled is expected to fail.
+The bands contain the errors of `problems/verification/README.md`, in per cent. A wish not yet fulfilled is expected to fail.
 """
 
 import pytest
@@ -13,16 +13,16 @@ from problems.verification.accuracy import BY_NAME, FOLDER
 @pytest.fixture(scope="module")
 def errors(tmp_path_factory):
     """(problem, advection, cells) -> errors in per cent by the name of the quantity; each run is made once."""
-    found = {}
+    percent = {}
 
     def of(name: str, cells: int, variant: str = "both") -> dict[str, float]:
         key = name, cells, variant
-        if key not in found:
+        if key not in percent:
             problem = BY_NAME[name]
             deck = hydro2d.Deck.from_file(FOLDER / problem.deck, problem.overrides(variant, cells))
             run = hydro2d.run(deck, tmp_path_factory.mktemp(name) / "run", quiet=True, columns=problem.columns)
-            found[key] = {each.name: each.error for each in problem.measure(run, cells)}
-        return found[key]
+            percent[key] = {each.name: each.error for each in problem.measure(run, cells)}
+        return percent[key]
 
     return of
 
@@ -71,7 +71,7 @@ def test_errors_of_today(errors, name, cells, quantity, low, high):
     assert low <= errors(name, cells)[quantity] <= high
 
 
-#: problem, cells, quantity, the error that one would wish for, and why it is not reached
+#: problem, cells, quantity, the desired error, and why it is not reached
 WISHES = [
     ("sedov", 100, "spread over seven rays", 1.0, "a blast is not round on a square mesh"),
     ("guderley", 100, "rays apart at 0.2 m", 7.0, "the smeared front is not on all rays alike; a cell is 7 %"),

@@ -1,4 +1,4 @@
-"""Alumina hits alumina: the elastic precursor at the elastic limit of the JH-2 constants, and what is crushed behind it."""
+"""Alumina hits alumina: the elastic precursor at the elastic limit of the JH-2 constants, and crushed material behind it."""
 
 import numpy as np
 import pytest
@@ -37,5 +37,5 @@ def test_precursor_and_crushing(choice):
     damage, gained = line.body("dmg", 1), line.body("pm", 1) - K * (line.body("rho", 1) / RHO - 1.0)
     assert damage[struck].mean() > 0.9
     assert damage[struck].max() < 1.0
-    assert gained[struck].mean() == pytest.approx(0.62e9, rel=0.05)  # as the element of tests/kernels compressed as much
+    assert gained[struck].mean() == pytest.approx(0.62e9, rel=0.05)  # like the element of tests/kernels compressed as much
     assert abs(simulation.conservation()["total_energy"]) < 1e-12

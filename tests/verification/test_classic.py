@@ -1,4 +1,4 @@
-"""Classic shots run as they come: no deck of problems/classic sets a key of the method, and every run is trusted."""
+"""Classic shots run as shipped: no deck of problems/classic sets a key of the method, and every run is trusted."""
 
 import tomllib
 

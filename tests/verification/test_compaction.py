@@ -1,5 +1,5 @@
-"""Two-wave compaction of porous aluminium against the jump conditions, with the pores closed in full and in part, and over a
-table of its solid."""
+"""Two-wave compaction of porous aluminium against the jump conditions, with pores closed in full and in part, and over a table
+of its solid."""
 
 import functools
 from pathlib import Path
@@ -41,7 +41,7 @@ def foam(number):
 
 
 def deck_of(velocity, number=None, **changes):
-    """The deck with a velocity, m/s; number : of points of the table of the solid, in place of its model."""
+    """The deck with a velocity, m/s; number : of points of the table of the solid, instead of its model."""
     given = {"numbers": "SI", "body.block.velocity": -velocity, "numerics.advection": "both", **changes}
     if number:
         given |= {"body.block.material": "foam", "materials.foam": foam(number)}
@@ -66,13 +66,13 @@ def test_both_waves(velocity, number):
     line, time = Line(simulation), simulation.time
     distention = simulation.grid.interior(simulation.state.q[INTERNAL, 0])[:, 2]
     times, shock, precursor = np.array(track).T
-    for state, ends, found in ((second, (0.0, second.speed - velocity), shock),
-                               (first, (second.speed - velocity, first.speed - velocity), precursor)):
+    for state, ends, exact_state in ((second, (0.0, second.speed - velocity), shock),
+                                     (first, (second.speed - velocity, first.speed - velocity), precursor)):
         cells, vertices = (between(x, ends[0] * time, ends[1] * time) for x in (line.x, line.xv))
         assert line.pressure[cells].mean() == pytest.approx(state.p, rel=1e-2)
         assert line.body("rho", 0)[cells].mean() == pytest.approx(state.rho, rel=1e-3)
         assert line.velocity[vertices].mean() + velocity == pytest.approx(state.u, rel=1e-2)
-        assert speed(times, found) + velocity == pytest.approx(state.speed, rel=1e-2)
+        assert speed(times, exact_state) + velocity == pytest.approx(state.speed, rel=1e-2)
         if state is second:
             assert distention[cells].mean() == pytest.approx(state.alpha, abs=2e-3)
             heat = 1e-2 if velocity == 458.0 else 3e-2  # a slow wave heats what it crushes first, see the page
@@ -90,13 +90,13 @@ def behind(velocity, number=None):
 
 
 def exact(velocity, number=None):
-    """The pressure behind it by the jump conditions, Pa, of the row that the run has."""
+    """The pressure behind it by the jump conditions, Pa, with the row of the run."""
     return compacted(library.resolve(deck_of(velocity, number)).eos_par[0], velocity)[0]
 
 
 @pytest.mark.parametrize("velocity", [200.0, 458.0])
 @pytest.mark.parametrize("number", [11, 21, 41])
 def test_a_run_over_a_table_misses_that_over_the_model_by_what_the_interpolation_does(velocity, number):
-    """The pressure behind the shock, to 6.2e-4 of it; that this falls to second order is a test of the equation of state."""
-    found, expected = (of(velocity, number) / of(velocity) - 1.0 for of in (behind, exact))
-    assert found == pytest.approx(expected, abs=7e-4)
+    """The pressure behind the shock, to 6.2e-4 of it; a test of the equation of state shows the fall to second order."""
+    computed, expected = (of(velocity, number) / of(velocity) - 1.0 for of in (behind, exact))
+    assert computed == pytest.approx(expected, abs=7e-4)

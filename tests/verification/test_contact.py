@@ -1,4 +1,4 @@
-"""Contact with two velocity fields, on the decks of problems/sliding: what must happen at an interface, and what must not."""
+"""Contact with two velocity fields, on the decks of problems/sliding: what must and must not happen at an interface."""
 
 import functools
 import math
@@ -13,7 +13,7 @@ from tests.decks import body, box, contact, mesh, stop, table, walls
 from tests.verification.running import ADVECTION, Line, advection, between, finish
 
 FOLDER = "problems/sliding"
-#: the single velocity of all bodies, which is what contact is held against
+#: the single velocity of all bodies, with which contact is compared
 SINGLE = 'sliding.method="none"', "sliding.friction=0.0"
 #: upper end of the tungsten in mm, in cells of 0.5 mm, and the share of its cell that it fills
 CUTS = {"2 %": 0.01, "50 %": 0.25, "98 %": 0.49}
@@ -35,7 +35,7 @@ def cut_at(end: float) -> str:
 
 @functools.cache
 def run(name: str, *overrides: str):
-    """A deck of problems/sliding at its end; each combination of overrides runs once. Not to be written to."""
+    """A deck of problems/sliding at its end; each combination of overrides runs once. Not to be modified."""
     return finish(decks.load(f"{FOLDER}/{name}.toml", ["numbers=SI", *overrides]))
 
 
@@ -47,7 +47,7 @@ def velocities(simulation, m: int):
 
 
 def closed(simulation) -> None:
-    """Mass, momentum and energy are kept, and no vertex was held to the speed limit."""
+    """Mass, momentum and energy are kept, and the speed limit applied at no vertex."""
     balance = simulation.conservation()
     assert max(abs(x) for x in balance["mass"].values()) < 1e-12
     assert abs(balance["axial_momentum"]) < 1e-12
@@ -98,7 +98,7 @@ def test_parting_bodies_do_not_hold_each_other(end, choice):
 
 
 def test_a_single_velocity_holds_parting_bodies():
-    """What the test before this one would see without contact."""
+    """The previous test would fail like this without contact."""
     assert np.abs(run("parting", *SINGLE).state.p).max() > 1e8
 
 
@@ -165,10 +165,10 @@ def test_a_single_velocity_is_tied_contact():
 
 
 def drift(simulation) -> tuple[float, float]:
-    """Work that slip has done in |r|, |z| < 2 mm over p L s, and the largest departure from p over p.
+    """Work done by slip in |r|, |z| < 2 mm over p L s, and the largest departure from p over p.
 
-    L is the interface's length there, s the slip. The work is what the specific energies have grown by, so that it does not
-    matter how much of which body the region holds.
+    L is the interface's length there, s the slip. The work is the growth of the specific energies, so that the amount of each
+    body in the region does not matter.
     """
     g, slider, cells = simulation.grid, simulation.deck.body[0], Cells(simulation)
     middle = np.ix_(*(np.abs(x) < 2e-3 for x in (g.zc[g.inside[0]], g.rc[g.inside[1]])))
@@ -216,7 +216,7 @@ def test_rod_leaves_its_hole_as_it_was():
 
 
 def test_bodies_that_touch_beyond_the_active_cells_are_no_contact_yet():
-    """A ball on two plates that lie on one another: where nothing has arrived, no pressure can be shared. Once it was NaN."""
+    """A ball on two plates that lie on one another: where nothing has arrived, no pressure can be shared. It used to be NaN."""
     options = ['sliding.hard=["ball", "second"]', "body.plate.thickness=3 mm", "body.second.z_front=3 mm", 'mesh.follow="none"']
     simulation = Simulation(decks.load("problems/perforation/two_plates.toml", options))
     assert simulation.engine.box != simulation.engine.mesh_box.tolist()
@@ -240,7 +240,7 @@ INSIDE = (
 
 
 def test_no_body_flows_out_of_a_cell_in_which_it_is_not():
-    """Two soft bodies beside a hard one: what a face's flux lacked once came from one that was not there, out of nothing."""
+    """Two soft bodies next to a hard one: the rest of a face's flux used to come from one that was not there."""
     simulation = finish(decks.loads(INSIDE))
     assert max(map(abs, simulation.conservation()["mass"].values())) < 1e-12
 

@@ -1,4 +1,4 @@
-"""The standard copper bar at 227 m/s, on a wall and on its own like, and the Johnson-Cook bar, against Lagrangian solutions."""
+"""The standard copper bar at 227 m/s, on a wall and on its like, and the Johnson-Cook bar, against Lagrangian solutions."""
 
 import functools
 
@@ -28,9 +28,9 @@ def history(name: str, *overrides: str, body: int = 0):
 def held(bars, known, length: float, foot: float, early: float = 0.05) -> None:
     """Length and foot agree with a solution within shares of its values: at its last time, the foot before within `early`."""
     for expected in known:
-        found, last = bar.at(bars, expected.time), expected is known[-1]
-        assert found.length == pytest.approx(expected.length, rel=length), f"length at {expected.time:g} s"
-        assert found.foot == pytest.approx(expected.foot, rel=foot if last else early), f"foot at {expected.time:g} s"
+        shape, last = bar.at(bars, expected.time), expected is known[-1]
+        assert shape.length == pytest.approx(expected.length, rel=length), f"length at {expected.time:g} s"
+        assert shape.foot == pytest.approx(expected.foot, rel=foot if last else early), f"foot at {expected.time:g} s"
 
 
 KNOWN = bar.reference(227.0, 32.4e-3)
@@ -55,7 +55,7 @@ def test_on_a_wall_with_32_cells():
 
 @pytest.mark.slow
 def test_two_bars_do_as_the_wall_does():
-    """As one body they are mirror images, but for round-off that grows, and each has the length of the bar on the wall."""
+    """As one body they are mirror images, except for growing round-off, and each has the length of the bar on the wall."""
     simulation, bars = history("copper_bar_pair", "body.other.join=bar")
     vof = simulation.grid.interior(simulation.state.vof)[0]
     assert np.sum(np.abs(vof - vof[::-1])) < 1e-3 * np.sum(vof)

@@ -42,7 +42,7 @@ def test_energy_and_mass_close(name):
 
 
 def test_a_layer_parts():
-    """There is void inside the target, no cell that is left bears more than the fracture pressure, and the layer is sound."""
+    """There is void inside the target, no other cell bears more than the fracture pressure, and the layer is sound."""
     simulation = shot("flyer", 100)[1]
     grid, state = simulation.grid, simulation.state
     filled = grid.interior(state.vof.sum(axis=0))[:, 0]

@@ -22,7 +22,7 @@ EXPLOSIVES = {"TNT": [], "gamma law": GAMMA_LAW}
 
 
 def charge(explosive: str, cells: int, *overrides: str):
-    """The plane charge on its rigid wall, with so many cells along it and four columns as wide."""
+    """The plane charge on its rigid wall, with so many cells along it and four columns of the same width."""
     size = LENGTH / cells
     points = [[(column + 0.5) * size, 0.0, 0.0] for column in range(4)]
     return decks.load(f"{FOLDER}/plane_charge.toml", ["numbers=SI",
@@ -63,8 +63,8 @@ def test_the_exact_rarefaction_is_maders():
     """His states at rest: 8/27 P_CJ, 8/9 rho0; and along the fan the closed form of gamma = 3."""
     flow = Taylor(8000.0, 1875.0, 30e9, lambda rho, p: np.sqrt(3.0 * p / rho))
     x, time = np.linspace(0.0, 49.9e-3, 101), 6.25e-6
-    for found, exact in zip(flow.at(x, time), mader(x, time), strict=True):
-        np.testing.assert_allclose(found, exact, atol=1e-6 * abs(exact).max())
+    for computed, exact in zip(flow.at(x, time), mader(x, time), strict=True):
+        np.testing.assert_allclose(computed, exact, atol=1e-6 * abs(exact).max())
     assert (flow.p[0], flow.rho[0]) == pytest.approx((8 / 27 * 30e9, 8 / 9 * 1875.0), rel=1e-6)
 
 
@@ -79,14 +79,14 @@ def test_the_exact_reflection():
 def misses(line, flow: Taylor, front: float, rest: float) -> list[float]:
     """Mean errors of density, velocity and pressure over the largest exact value; mean of the pressure over the exact one in
     the tenth of the way behind the front that is 6 cells from it."""
-    time, found = line.simulation.time, []
+    time, means = line.simulation.time, []
     for values, x, which, ahead in ((line.body("rho"), line.x, 0, rest), (line.velocity, line.xv, 1, 0.0),
                                     (line.pressure, line.x, 2, 0.0)):  # fmt: skip
         exact = flow.at(x, time)[which]
-        found.append(np.abs(values - np.where(x < front * time, exact, ahead)).mean() / exact.max())
+        means.append(np.abs(values - np.where(x < front * time, exact, ahead)).mean() / exact.max())
     near = front * time - 6 * line.dx[0] - line.x
     near = (near > 0.0) & (near < 0.1 * front * time)
-    return [*found, (line.pressure[near] / flow.at(line.x[near], time)[2]).mean()]
+    return [*means, (line.pressure[near] / flow.at(line.x[near], time)[2]).mean()]
 
 
 @pytest.mark.parametrize("explosive", EXPLOSIVES)
@@ -95,22 +95,22 @@ def test_the_rarefaction_behind_a_detonation(explosive):
     within 4e-4 of D; the pressure behind it within 1 %."""
     errors = []
     for cells in (100, 200, 400):
-        deck, track, found = charge(explosive, cells), [], []
+        deck, track, pressures = charge(explosive, cells), [], []
         row = row_of(deck)
         front, cj, _ = jwl.cj_state(row)
         flow, late = Taylor(front, row[0], cj, sound(row)), deck.stop.time - 4 * LENGTH / cells / front
 
-        def watch(simulation, track=track, found=found, cj=cj, flow=flow, front=front, row=row, late=late):
+        def watch(simulation, track=track, pressures=pressures, cj=cj, flow=flow, front=front, row=row, late=late):
             if simulation.time < 0.5 * LENGTH / front:
                 return
             line = Line(simulation)
             burnt = simulation.grid.interior(simulation.state.q[INTERNAL + jwl.BURNT, 0])[:, 2]
             track.append((simulation.time, crossing(line.x, burnt, 0.5), crossing(line.x, line.pressure, 0.5 * cj)))
             if simulation.time > late:
-                found.append(misses(line, flow, front, row[0]))
+                pressures.append(misses(line, flow, front, row[0]))
 
         simulation = finish(deck, watch)
-        errors.append(np.mean(found, axis=0))
+        errors.append(np.mean(pressures, axis=0))
         assert abs(simulation.conservation()["total_energy"]) < 1e-13
         assert simulation.doubts() == []
     times, by_fraction, by_pressure = np.array(track).T
@@ -176,7 +176,7 @@ def test_a_driven_detonation_and_its_reflection(explosive, low, high):
 
 
 def test_discarded_kinetic_energy_makes_a_detonation_weak():
-    """Why the deck asks for advection "both", and `hydro2d check` warns of the others."""
+    """This is why the deck asks for advection "both", and `hydro2d check` warns about the others."""
     deck = charge("gamma law", 200, "numerics.advection=momentum")
     assert [text for text in decks.warnings(deck) if "pressures behind it are too low" in text]
     line = Line(simulation := finish(deck))

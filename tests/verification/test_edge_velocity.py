@@ -1,4 +1,4 @@
-"""Edges with a prescribed velocity: what flows in pushes like a piston, a bar that is fed flies on as it was."""
+"""Edges with a prescribed velocity: inflow pushes like a piston, a bar that is fed in flies on unchanged."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ PISTON = (
 UP, GAMMA, P = 300.0, 1.4, 1e5
 #: largest error of pressure and density behind the shock; `ke` gains momentum (explanation/remap)
 ERROR = {"ke": 0.01, "momentum": 0.01, "both": 0.005}
-#: cells that the shock needs to form: so far it is behind from then on, on every mesh
+#: cells that the shock needs to form: from then on it is this far behind, on every mesh
 LATE = 3.5
 
 
@@ -27,7 +27,7 @@ def run(text: str, *options: str) -> Simulation:
 
 
 def turned(text: str) -> str:
-    """The same problem along the other axis."""
+    """The problem turned to the other axis."""
     for first, second in (("r =", "@ ="), ("z =", "r ="), ("@ =", "z ="), ("r_min", "@_min"), ("z_min", "r_min"),
                           ("@_min", "z_min"), ("r_max", "@_max"), ("z_max", "r_max"), ("@_max", "z_max")):
         text = text.replace(first, second)
@@ -42,10 +42,10 @@ def shock(up: float, rho: float, p: float) -> tuple[float, float, float]:
 
 
 def audit_closes(simulation: Simulation, to: float = 1e-12) -> None:
-    found = simulation.conservation()
-    assert max(map(abs, found["mass"].values())) < to
-    assert abs(found["axial_momentum"]) < to
-    assert abs(found["total_energy"]) < to
+    balance = simulation.conservation()
+    assert max(map(abs, balance["mass"].values())) < to
+    assert abs(balance["axial_momentum"]) < to
+    assert abs(balance["total_energy"]) < to
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
@@ -60,7 +60,7 @@ def test_inflow_drives_the_shock_of_a_piston(text, choice):
     rho = g.interior(s.rho)[0].mean(axis=1 - axis)
     x = 1e-3 * (np.arange(len(p)) + 0.5)
     assert p[x < 0.9 * speed * simulation.time].mean() == pytest.approx(pressure, rel=ERROR[choice])
-    shocked = (x > 1.2 * UP * simulation.time) & (x < 0.9 * speed * simulation.time)  # what was there, not what came in
+    shocked = (x > 1.2 * UP * simulation.time) & (x < 0.9 * speed * simulation.time)  # material there at first, not the inflow
     assert rho[shocked].mean() == pytest.approx(density, rel=ERROR[choice])
     front = x[np.argmax(p < 0.5 * (pressure + p0))]
     assert 0.0 < speed * simulation.time - front < LATE * 1e-3
@@ -87,7 +87,7 @@ def test_a_bar_that_is_fed_flies_on(choice):
 
 
 def test_an_edge_that_takes_away_lets_a_bar_out():
-    """The edge draws what reaches it with its own velocity."""
+    """The edge draws out whatever reaches it at its own velocity."""
     simulation = run(FED.replace("z_min", "z_max"), "stop.time=15e-6")
     assert simulation.body_sums(0)[0].sum() < 1e-9
     audit_closes(simulation)
@@ -106,6 +106,6 @@ def test_check_says_the_velocity():
         (['sliding.method="contact"', 'sliding.hard=["bar"]'], "a contact allows no edge with a velocity"),
     ],
 )
-def test_what_makes_no_sense_is_said(options, words):
+def test_senseless_settings_are_reported(options, words):
     with pytest.raises(decks.DeckError, match=words):
         decks.loads(FED, options)

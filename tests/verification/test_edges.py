@@ -21,7 +21,7 @@ SPEED = 1000.0
 
 
 def leaves_unchanged(simulation: Simulation, m: int, velocity: tuple[float, float]) -> None:
-    """Runs to the end: body m keeps its velocity to 1e-6 and its pressure below 1 MPa until nothing of it is left."""
+    """Runs to the end: body m keeps its velocity to 1e-6 and its pressure below 1 MPa until none of it is left."""
     s, g = simulation.state, simulation.grid
     mass = simulation.body_sums(m)[0].sum()
     while simulation.stop_reason() is None:
@@ -34,17 +34,17 @@ def leaves_unchanged(simulation: Simulation, m: int, velocity: tuple[float, floa
             assert np.abs(g.interior_vertices(field)[s.group[m]][there] - expected).max(initial=0.0) < 1e-6 * SPEED
         assert np.abs(g.interior(s.vof * s.pm)[m]).max() < 1e6
     assert simulation.body_sums(m)[0].sum() < 1e-9 * mass
-    found = simulation.conservation()
-    assert max(map(abs, found["mass"].values())) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
-    assert abs(found["total_energy"]) < 1e-12
+    balance = simulation.conservation()
+    assert max(map(abs, balance["mass"].values())) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
+    assert abs(balance["total_energy"]) < 1e-12
 
 
 @pytest.mark.parametrize("options", [(), CONTACT], ids=["one velocity", "contact"])
 @pytest.mark.parametrize("choice", ADVECTION)
 @pytest.mark.parametrize("direction", [(0, 1), (0, -1), (1, 0), (-1, 0), (0.6, 0.8)], ids=str)
 def test_free_flight_through_an_open_edge(direction, choice, options):
-    """All bodies move alike. Before, `ke` braked the body to 122 m/s and put it under 2.5 GPa."""
+    """All bodies move together. Earlier, `ke` braked the body to 122 m/s and put it under 2.5 GPa."""
     velocity = (SPEED * direction[0], SPEED * direction[1])
     bodies = [f"body.{name}.velocity=[{velocity[0]}, {velocity[1]}]" for name in ("block", "gas")]
     leaves_unchanged(Simulation(decks.loads(FLIGHT, [*bodies, advection(choice), *options])), 0, velocity)
@@ -59,7 +59,7 @@ BEHIND = (
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
-def test_what_a_following_mesh_leaves_behind(choice):
+def test_a_body_that_a_following_mesh_leaves_behind(choice):
     """A ring at rest goes out through the rear edge as the mesh passes it."""
     leaves_unchanged(Simulation(decks.loads(BEHIND, [advection(choice)])), 1, (0.0, 0.0))
 
@@ -92,7 +92,7 @@ def middle(simulation: Simulation, component: str) -> np.ndarray:
 def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, time):
     """A pulse of 5 m/s goes out; a free surface sends all of it back, the edge 3.3 % (longitudinal) and 5.4 % (shear).
 
-    The pulse is eight cells long, and what comes back is mostly the ringing behind its steep ends.
+    The pulse is eight cells long, and the reflection is mostly the ringing behind its steep ends.
     """
     options = [f"body.kick.velocity={list(velocity)}", f"stop.time={time[0]}e-6"]
     left = middle(Simulation(decks.loads(WAVE, options)), component)
@@ -102,14 +102,14 @@ def test_a_plane_wave_leaves_through_a_transmitting_edge(velocity, component, ti
     assert np.abs(left - endless).max() < (0.2 if component == "v" else 0.3)
 
 
-def test_what_goes_through_transmitting_edges_is_recorded():
+def test_flow_through_transmitting_edges_is_recorded():
     simulation = Simulation(decks.loads(WAVE, ["body.kick.velocity=[0.0, 10.0]", "stop.time=4e-6"]))
     start = simulation.conservation()["start_energy_J"]
     middle(simulation, "v")
-    found = simulation.conservation()
-    assert found["sinks"]["transmitted"]["energy_J"] > 0.8 * start
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance = simulation.conservation()
+    assert balance["sinks"]["transmitted"]["energy_J"] > 0.8 * start
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
 
 
 CORNER = (
@@ -131,10 +131,10 @@ def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
     simulation = Simulation(decks.loads(CORNER, options))
     while simulation.stop_reason() is None:
         simulation.step()
-    found = simulation.conservation()
-    assert found["sinks"]["transmitted"]["energy_J"] > 0.2 * found["start_energy_J"]
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
+    balance = simulation.conservation()
+    assert balance["sinks"]["transmitted"]["energy_J"] > 0.2 * balance["start_energy_J"]
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
 
 
 
@@ -151,7 +151,7 @@ def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
         audit = simulation.conservation()
         worst = max(worst, abs(audit["total_energy"]), abs(audit["axial_momentum"]), abs(audit["mass"]["ball"]))
     assert worst < 1e-12
-    assert simulation.audit.sinks["outflow"].mass.sum() > 0.1 * simulation.audit.start.mass.sum()  # there is much to audit
+    assert simulation.audit.sinks["outflow"].mass.sum() > 0.1 * simulation.audit.start.mass.sum()  # much has to be audited
     assert simulation.faults() == []
 
 
@@ -183,7 +183,7 @@ def test_a_slab_rebounds_from_an_anvil_as_a_wall_holds_it_until_then():
     for simulation in (wall, anvil):
         while simulation.time < 24e-6:
             simulation.engine.advance()
-    assert 19.0 < anvil.mean_velocity(0) < 20.0  # 19.42: what is lacking is in the front, which is some cells thick
+    assert 19.0 < anvil.mean_velocity(0) < 20.0  # 19.42: the rest is in the front, some cells thick
     assert wall.mean_velocity(0) < 10.0
 
 
@@ -203,7 +203,7 @@ def test_a_bar_rebounds_from_an_anvil():
 
 @pytest.mark.parametrize("sliding", ["", "contact"], ids=["bonded", "contact"])
 def test_a_ball_goes_about_between_four_anvils(sliding):
-    """It meets one side after another, and beside a block that lies about: nothing leaves, and the audit closes."""
+    """It hits one side after another, once with a loose block in its way: nothing leaves, and the audit closes."""
     text = (
         mesh(("20 mm", 20), ("20 mm", 20), geometry="planar")
         + table("boundaries", r_min="anvil", r_max="anvil", z_min="anvil", z_max="anvil")
@@ -215,8 +215,8 @@ def test_a_ball_goes_about_between_four_anvils(sliding):
     assert simulation.state.u[0].min() >= -400.0
     assert simulation.audit.sinks["walls"].momentum > 1.0
     assert simulation.audit.sinks["outflow"].momentum == 0.0
-    found = simulation.conservation()
-    assert max(map(abs, (*found["mass"].values(), found["axial_momentum"], found["total_energy"]))) < 1e-11
+    balance = simulation.conservation()
+    assert max(map(abs, (*balance["mass"].values(), balance["axial_momentum"], balance["total_energy"]))) < 1e-11
 
 
 @pytest.mark.parametrize("edge", ["r_min", "r_max", "z_min", "z_max"])

@@ -6,7 +6,7 @@ import pytest
 from hydro2d.deck import deck as decks
 from tests.verification.running import ADVECTION, FOLDER, Line, advection, between, crossing, finish, speed
 
-# Solution of the piston at 400 m/s for Wilkins' aluminium, as tests/exact/test_elastic_plastic.py has it in print.
+# Solution of the piston at 400 m/s for Wilkins' aluminium, printed in tests/exact/test_elastic_plastic.py.
 HEL, U_HEL, PRECURSOR = 0.63588e9, 35.178, 6490.43
 STRESS, PRESSURE, DENSITY, SHOCK = 6.63588e9, 6.43588e9, 2985.63, 5908.52
 YIELD = 0.3e9
@@ -35,7 +35,7 @@ def test_two_waves(choice):
     assert line.axial_stress[between(line.x, *shelf, 0.3)].mean() == pytest.approx(HEL, rel=0.01)
     assert line.velocity[between(line.xv, *shelf, 0.3)].mean() == pytest.approx(U_HEL, rel=0.01)
 
-    # the release from the flyer's rear started not before the precursor was there, 5 mm away
+    # the release from the flyer's rear started only once the precursor was there, 5 mm away
     released = 400 * time + RELEASE * (time - 5e-3 / PRECURSOR) - 5e-3
     plateau = between(line.x, released, SHOCK * time)
     assert line.axial_stress[plateau].mean() == pytest.approx(STRESS, rel=0.005)
@@ -49,8 +49,8 @@ def test_two_waves(choice):
 def test_yield_surface_and_symmetry(choice):
     """No stress beyond yield, no radial motion, and energy is kept.
 
-    Round-off: a cell that the flyer's rear leaves holds a sliver down to the cutoff of 1e-8, whose density is a
-    difference of numbers with 16 digits. So its pressure is known to 1e-8 of the bulk modulus, 1e3 Pa.
+    Round-off: a cell that the flyer's rear leaves contains a sliver down to the cutoff of 1e-8, whose density is a difference
+    of numbers with 16 digits. So its pressure is known to 1e-8 of the bulk modulus, 1e3 Pa.
     """
     simulation = finish(decks.load(f"{FOLDER}/elastic_precursor.toml", ["stop.time=0.7e-6", advection(choice)]))
     s = simulation.state

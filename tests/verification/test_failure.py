@@ -22,7 +22,7 @@ variant = "strain-failure"
 damage = "material"
 """
 FLIGHT = ROD.replace("W_alloy", "rod_fails") + STRAIN_FAILURE
-#: two halves of a bar of one material, which part in the middle, at r = const nothing happens
+#: two halves of a bar of one material, which part in the middle; at r = const nothing happens
 BAR = (
     mesh(("2 mm", 4), ("-20 mm", "20 mm", 80))
     + walls("r_max")
@@ -31,7 +31,7 @@ BAR = (
     + stop("5 us")
     + STRAIN_FAILURE
 )
-#: a short rod that fails at a strain of 0.5, so that much of it does within a few microseconds
+#: a short rod that fails at a strain of 0.5, so that much of it fails within a few microseconds
 SHOT = (
     mesh(("9 mm", 18), ("-12 mm", "18 mm", 60))
     + rod("2 mm", "10 mm", material="rod_fails", nose="flat", tip=0.0, velocity="2000 m/s")
@@ -59,7 +59,7 @@ def failed(simulation: Simulation) -> np.ndarray:
 
 
 @pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
-def test_what_has_failed_stays_failed_while_it_moves(advection):
+def test_failed_material_stays_failed_while_it_moves(advection):
     """Some 120 cycles across 24 cells: a mean of ones, with round-off, is one."""
     simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us", f'numerics.advection="{advection}"']))
     fail_everything(simulation)
@@ -71,7 +71,7 @@ def test_what_has_failed_stays_failed_while_it_moves(advection):
 
 @pytest.mark.parametrize("cells", [4, 8])
 def test_a_thin_failed_layer_does_not_heal_as_it_moves(cells):
-    """Rows of a rod that have failed, across 24 cells: what mixes with sound material by halves counts as failed."""
+    """Rows of a rod that have failed, across 24 cells: half-and-half mixtures with sound material count as failed."""
     simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us"]))
     grid, s = simulation.grid, simulation.state
     middle = int(np.median(np.nonzero(grid.interior(s.vof)[0].sum(axis=1))[0]))
@@ -110,21 +110,21 @@ def test_debris_bears_no_shear_and_no_tension_and_is_counted(sliding):
         if simulation.cycle % 5 == 0:
             assert np.all(s.q[SRR : SRZ + 1, where] == 0.0)
             alone.append((where & (s.vof == 1.0)).any(axis=0))
-            found = simulation.diagnostics()
-            counts.append((found["rod_failed_mass_kg"], found["target_failed_mass_kg"]))
-            assert found["rod_failed_mass_kg"] + found["rod_core_mass_kg"] <= found["rod_mass_kg"] * (1 + 1e-12)
+            measured = simulation.diagnostics()
+            counts.append((measured["rod_failed_mass_kg"], measured["target_failed_mass_kg"]))
+            assert measured["rod_failed_mass_kg"] + measured["rod_core_mass_kg"] <= measured["rod_mass_kg"] * (1 + 1e-12)
 
     simulation = finish(deck.loads(SHOT + sliding), watch)
-    found = simulation.diagnostics()
+    measured = simulation.diagnostics()
     rod, plate = counts[-1]
-    assert 0.02 < rod / found["rod_mass_kg"] < 0.9
-    assert plate > 0.02 * found["rod_mass_kg"]
+    assert 0.02 < rod / measured["rod_mass_kg"] < 0.9
+    assert plate > 0.02 * measured["rod_mass_kg"]
     assert abs(simulation.conservation()["total_energy"]) < 1e-2
 
 
 # ------------------------------------------------------------------------------------------------ the largest principal stress
 
-#: a copper ring that flies apart, all of it at 150 m/s along r: hoop stress alone, E v t/R while it is elastic
+#: a copper ring that flies apart, at 150 m/s along r everywhere: hoop stress only, E v t/R while it is elastic
 RING = (
     mesh(("36 mm", "62 mm", "0.5 mm"), ("-5 mm", "5 mm", "0.5 mm"))
     + table("materials.ring",
@@ -166,14 +166,14 @@ def test_a_ring_breaks_when_its_hoop_stress_is_due():
 
 
 def test_a_ring_breaks_by_its_hoop_stress_and_not_by_its_pressure():
-    """A ring that has failed flies on with what it had; one that holds is braked by its yield stress."""
+    """A ring that has failed keeps its velocity; an intact one is braked by its yield stress."""
     by_stress, by_pressure = (to_the_end(Simulation(deck.loads(RING, [f'materials.ring.fracture_{kind}="0.2 GPa"'])))
                               for kind in ("stress", "pressure"))
     for simulation in (by_stress, by_pressure):
         assert simulation.faults() == []
         assert abs(simulation.conservation()["total_energy"]) < 1e-12
     assert share_failed(by_pressure) == 0.0
-    assert share_failed(by_stress) > 0.999  # it is carried, though no damage model is
+    assert share_failed(by_stress) > 0.999  # it is carried, although there is no damage model
     kept = [simulation.conservation()["kinetic_energy_J"] / (2 * np.pi * simulation.audit.start.kinetic)
             for simulation in (by_stress, by_pressure)]
     assert kept[0] > 0.99
@@ -195,8 +195,8 @@ def test_a_bar_of_two_bodies_breaks_where_the_tension_is(share):
     places = simulation.grid.zc[np.nonzero(failed(simulation).any(axis=(0, 2)))[0]]
     assert places.size > 0
     assert np.abs(places).max() < 3e-3
-    held = to_the_end(Simulation(deck.loads(text, ['materials.weak.fracture_stress="2.5 GPa"'])))
-    assert not failed(held).any()
+    intact = to_the_end(Simulation(deck.loads(text, ['materials.weak.fracture_stress="2.5 GPa"'])))
+    assert not failed(intact).any()
 
 
 @pytest.mark.parametrize("overrides", [
@@ -205,14 +205,14 @@ def test_a_bar_of_two_bodies_breaks_where_the_tension_is(share):
       "materials.alumina_995.fracture_stress='1 GPa'"], "a damage of its own"),
     (["materials.ring.fracture_stress='-1 GPa'"], "must be positive"),
 ], ids=["cracks", "jh-2", "negative"])
-def test_what_a_fracture_stress_does_not_go_with(overrides):
+def test_settings_that_exclude_a_fracture_stress(overrides):
     with pytest.raises(DeckError, match=overrides[1]):
         Simulation(deck.loads(RING, ["materials.ring.fracture_pressure='1 GPa'", "materials.ring.fracture_stress='1 GPa'",
                                      *overrides[0]]))
 
 
 def test_tensile_none_switches_a_fracture_stress_off_and_a_resolved_deck_keeps_it():
-    found = deck.loads(RING, ['materials.ring.fracture_stress="0.2 GPa"'])
-    again = deck.loads(found.to_toml())
+    loaded = deck.loads(RING, ['materials.ring.fracture_stress="0.2 GPa"'])
+    again = deck.loads(loaded.to_toml())
     assert again.materials["ring"].fracture_stress.value == 0.2e9
-    assert np.isinf(Simulation(deck.loads(found.to_toml(), ['failure.tensile="none"'])).table.fracture_stress).all()
+    assert np.isinf(Simulation(deck.loads(loaded.to_toml(), ['failure.tensile="none"'])).table.fracture_stress).all()

@@ -1,7 +1,7 @@
-"""Films of a soft body in a slot of a hard one that moves, as the folds of a swollen rod hold them.
+"""Films of a soft body in a slot of a hard one that moves, like those in the folds of a swollen rod.
 
-Nodes of such a film have no cell of their body nearby. Their extension once had weights of 2.75 and -2.25, and grew four times
-in every step.
+Nodes of such a film have no cell of their body nearby. Their extension used to have weights of 2.75 and -2.25, and grew four
+times in every step.
 """
 
 import numpy as np
@@ -17,10 +17,10 @@ SPEED = 1000.0
 
 
 def slotted_rod(thick: float, at: float, faster: float, around: float | None) -> Simulation:
-    """A rod with a ring-shaped slot of two and a half cells, and a film of `thick` cells in its midst.
+    """A rod with a ring-shaped slot of two and a half cells, and a film of `thick` cells in the middle of it.
 
-    at is a shift by a share of a cell, faster the velocity of the film against the rod, around that of a tube in which the rod
-    moves, None without one.
+    at is a shift by a share of a cell, faster the velocity of the film relative to the rod, around that of a tube in which the
+    rod moves, None without one.
     """
     slot, root, rim = np.array([20.0 + at, 22.5 + at]) * CELL, 4 * CELL, 8.3 * CELL
     middle, half = slot.mean(), 0.5 * thick * CELL

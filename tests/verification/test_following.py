@@ -1,4 +1,4 @@
-"""A mesh that travels with a body: flight, impact, what enters, and that nothing of it depends on the frame."""
+"""A mesh that travels with a body: flight, impact, bodies that enter, and that nothing of it depends on the frame."""
 
 import functools
 
@@ -27,15 +27,15 @@ def advance(simulation: Simulation, cycles: int) -> Simulation:
 
 
 def closes(simulation: Simulation, tolerance: float = 1e-11) -> None:
-    found = simulation.conservation()
-    assert max(map(abs, found["mass"].values())) < tolerance
-    assert abs(found["axial_momentum"]) < tolerance
-    assert abs(found["total_energy"]) < tolerance
+    balance = simulation.conservation()
+    assert max(map(abs, balance["mass"].values())) < tolerance
+    assert abs(balance["axial_momentum"]) < tolerance
+    assert abs(balance["total_energy"]) < tolerance
 
 
 @pytest.mark.parametrize("options", [(), CONTACT], ids=["one velocity", "contact"])
 def test_ten_thousand_cycles_of_free_flight_change_nothing(options):
-    """The same rod on a standing mesh: volume fractions change by 0.1 within its own length."""
+    """On a fixed mesh the rod's volume fractions change by 0.1 within its own length."""
     simulation = Simulation(decks.loads(FLIGHT, options))
     s, g = simulation.state, simulation.grid
     scale = {"vof": 1.0, "rho": 18160.0, "e": 0.5e6, "srr": 145e9, "szz": 145e9, "srz": 145e9, "ep": 1.0}
@@ -72,7 +72,7 @@ class At:
 @pytest.mark.parametrize("choice", ADVECTION)
 @pytest.mark.parametrize("velocity", [0.0, 500.0, 1000.0])
 def test_tungsten_on_aluminium_in_one_dimension(velocity, choice):
-    """14.10 GPa and 817.5 m/s, from the Hugoniots of both, whatever the mesh does.
+    """14.10 GPa and 817.5 m/s, from the Hugoniots of both, however the mesh moves.
 
     `ke` depends on the frame: it is 0.28, 0.36 and 0.58 % short of the pressure with the mesh at 0, 500 and 1000 m/s.
     """
@@ -106,7 +106,7 @@ SHOT = (
     + stop("60 us")
 )
 Z_AXIS = next(line for line in SHOT.splitlines() if line.startswith("z = "))
-#: the same shot on a mesh that stands and holds all of it
+#: this shot on a fixed mesh that contains all of it
 STANDING = 'mesh.z=[{ to = "64 mm", size = "0.4 mm" }]', "mesh.z_start=-0.04"
 
 
@@ -127,7 +127,7 @@ def finish(simulation: Simulation) -> Simulation:
 
 @functools.cache
 def on_both_meshes():
-    """A rod through two plates, on the mesh that follows it and on one that stands. Not to be written to."""
+    """A rod through two plates, on the mesh that follows it and on a fixed one. Not to be modified."""
     return finish(following()), finish(standing())
 
 
@@ -141,7 +141,7 @@ def test_two_plates_take_as_much_from_the_rod_on_either_mesh():
 
 
 def test_two_plates_and_the_gap_between_them():
-    """The rod goes through both; what it has left is what a long standing mesh says."""
+    """The rod goes through both; its remaining velocity is that on a long fixed mesh."""
     moving, fixed = on_both_meshes()
     one, two = moving.penetrator.velocity(), fixed.penetrator.velocity()
     assert 900.0 < two < 990.0
@@ -151,8 +151,8 @@ def test_two_plates_and_the_gap_between_them():
     assert inflow.mass[moving.table.names.index("rear")] < 0.0
 
 
-def test_what_enters_is_what_the_deck_placed_there():
-    """Every body ahead has come in to the last digit of its volume, and lies where it was placed."""
+def test_entering_bodies_are_those_placed_by_the_deck():
+    """Every body ahead has come in to the last digit of its volume, at the place where it was put."""
     ball = body("ball", "Al5083", "sphere", centre="22.5 mm", radius="1.7 mm")
     disc = plate("2.77 mm", name="disc", material="Al7039", z_front="24.4 mm", radius="3.1 mm")
     text = FLIGHT[: FLIGHT.index("[[body]]\nname = \"plate\"")] + ball + disc + FLIGHT[FLIGHT.index("[stop]") :]
@@ -188,14 +188,14 @@ def test_a_rod_that_flies_down_goes_as_deep():
 
 
 def test_a_rod_that_flies_down_is_the_mirror_image():
-    """The way differs by 7e-5 and the velocity by 2e-5: of two cells that lie alike a slave node goes with the lower one."""
+    """The path differs by 7e-5 and the velocity by 2e-5: of two equally placed cells a slave node follows the lower one."""
     up, down = mirror_images()
     assert down.grid.offset == pytest.approx(-up.grid.offset, rel=1e-4)
     assert down.penetrator.velocity() == pytest.approx(-up.penetrator.velocity(), rel=1e-4)
 
 
 def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
-    """Galilean invariance: rod into resting plates on a following mesh, and the plates into a resting rod on a standing one.
+    """Galilean invariance: rod into resting plates on a following mesh, and the plates into a resting rod on a fixed one.
 
     After 50 us, between the plates, the rod has 948.6 and 944.5 m/s left of 1000 relative to the plates' first velocity: `ke`
     depends on the frame.
@@ -218,7 +218,7 @@ def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
 
 
 def test_a_restart_forgets_where_bodies_began():
-    """A rod that has flown on by its length on a mesh that stands: what it left behind has no mass after a restart."""
+    """A rod that has flown on by its length on a fixed mesh: the traces left behind have no mass after a restart."""
     text = FLIGHT.replace('follow = "rod"\n', "").replace('to = "8 mm", cells = 32', 'to = "12 mm", cells = 40')
     deck = decks.loads(text.replace('z_front = "1 km"', 'z_front = "11 mm"'))
     simulation = Simulation(deck)

@@ -1,7 +1,7 @@
-"""One impact in four frames, on meshes that lie differently: the rod, the plate or both move, and the mesh may follow the rod.
+"""One impact in four frames, on meshes placed differently: the rod, the plate or both move, and the mesh may follow the rod.
 
-A rod of tungsten alloy, 10 mm thick and 30 mm long, meets 5083 aluminium at 1 km/s. The answers must agree; what they differ by
-in the worst frame is stated beside them (explanation/following-mesh).
+A rod of tungsten alloy, 10 mm thick and 30 mm long, hits 5083 aluminium at 1 km/s. The answers must agree; their differences in
+the worst frame are stated with them (explanation/following-mesh).
 """
 
 import functools
@@ -69,7 +69,7 @@ def test_a_rod_that_crosses_a_mesh(velocity, shift):
 
 
 def test_a_plate_is_not_touched_before_the_nose_is_there():
-    """A mesh line in the plate's face: for 0.2 us it lies beside void but where the cap of the nose has met it."""
+    """A mesh line in the plate's face: for 0.2 us it has only void next to it, except where the cap of the nose has met it."""
     simulation = impact(1000.0, 0.0)
     grid, state = simulation.grid, simulation.state
     row = int(np.argmin(np.abs(grid.z_edges)))  # the first row of the plate

@@ -1,6 +1,6 @@
-"""Gas under pressure beside elastic solids: one traction across the surface, wherever it cuts a cell.
+"""Gas under pressure next to elastic solids: one traction across the surface, wherever it cuts a cell.
 
-Numbers in the docstrings are what was reached, and before that what cells with one pressure gave.
+Numbers in the docstrings are the present errors, and the earlier ones of cells with one pressure.
 """
 
 import numpy as np
@@ -42,7 +42,7 @@ def cylinder(outer: float, cell: float, cells: int) -> Simulation:
 
 
 def moved(simulation: Simulation, until: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(r, z of the vertices, how far they would have gone along r and z) by the velocities in the course of a run."""
+    """(r, z of the vertices, their displacements along r and z) by the velocities during a run."""
     grid, time = simulation.grid, 0.0
     gone = np.zeros((2, grid.nz + 1, grid.nr + 1))
     after = np.zeros_like(gone)
@@ -78,7 +78,7 @@ def test_a_tube_under_pressure(cells):
 
 
 def blake(place: float, cells: int) -> np.ndarray:
-    """Displacement along rays, less than 1 the exact one: [radii 0.15, 0.2, 0.3 m; 0, 15, ... 90 degrees from the axis]."""
+    """Displacement along rays over the exact one, less 1: [radii 0.15, 0.2, 0.3 m; 0, 15, ... 90 degrees from the axis]."""
     cell = 0.1 / (cells - 1.0 + place)
     number = int(10.2 * cells)
     simulation = Simulation(decks.loads(

@@ -1,6 +1,6 @@
 """Jets without strength along a cylinder, against compressible Bernoulli: velocity of the interface, stagnation pressure.
 
-Both are means over several diameters of depth, since the impact sets jet and target ringing.
+Both are means over several diameters of depth, because jet and target oscillate after the impact.
 """
 
 import pytest
@@ -28,10 +28,10 @@ def errors(name: str, *overrides: str, last: float = 10.0) -> tuple[float, float
             points.append(jet.point(grid.z_edges, *shares, columns, jet.REACH * radius, simulation.time))
 
     finish(deck, watch)
-    found = jet.mean([at for at in points if at], 6.0 * radius, 2.0 * last * radius)
+    mean = jet.mean([at for at in points if at], 6.0 * radius, 2.0 * last * radius)
     materials = (deck.materials[body.material] for body in deck.body)
     u, p = jet.bernoulli(*materials, deck.body[0].velocity[1])
-    return found["velocity"] / u - 1.0, found["jet"] / p - 1.0, found["target"] / p - 1.0
+    return mean["velocity"] / u - 1.0, mean["jet"] / p - 1.0, mean["target"] / p - 1.0
 
 
 @pytest.mark.parametrize("name", ["jet_w_5083_2", "jet_w_5083_5"])

@@ -24,7 +24,7 @@ LAWS = {
        for name in ("johnson-cook", "zerilli-armstrong")},
     "kinematic-hardening": STRENGTH_CASES["kinematic-hardening"],
     "steinberg-guinan": {"shear_modulus": 27.6e9, "yield_stress": 0.29e9},
-    "johnson-holmquist": {**STRENGTH_CASES["johnson-holmquist"], "P_HEL": 1.08392e9},  # as this equation of state has it
+    "johnson-holmquist": {**STRENGTH_CASES["johnson-holmquist"], "P_HEL": 1.08392e9},  # the value of this equation of state
 }
 
 
@@ -84,7 +84,7 @@ def test_without_the_line_the_same_shock_leaves_a_deviator():
 
 
 def test_steinberg_and_guinans_own_melt_loses_its_deviator_too():
-    """It has no modulus from which to return: the deviator of the moment at which it melted would stay for ever."""
+    """It has no modulus to return with: the deviator at the moment of melting would otherwise stay for ever."""
     line, plateau = shocked('materials.aluminium={based_on="Al6061_T6"}', 'failure.melting="none"')
     assert (von_mises(line)[plateau] == 0.0).all()
 
@@ -123,7 +123,7 @@ time = "1 us"
 
 
 def heated(energy: float, *overrides: str) -> Simulation:
-    """A block of metal with a void beside it, at rest, with a deviator and a back stress, and heated, after one step."""
+    """A block of metal with a void next to it, at rest, with a deviator and a back stress, and heated, after one step."""
     simulation = Simulation(decks.loads(CORNER, list(overrides)))
     state = simulation.state
     there = state.vof[0] > 0.0

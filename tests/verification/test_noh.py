@@ -1,9 +1,8 @@
 """Noh's problem in one, two and three dimensions: a shock of infinite strength, and symmetry about the origin.
 
-With 100 cells to the metre only 20 are behind the shock at the end. The smearing of the shock heats what converges
-through it, and with `both` the error of the plateau falls in proportion to the cell: this is what is asserted. The
-accuracy that one would wish for at 100 cells stands below as expected failures. The gas falls at 1 km/s: at 1 m/s it would
-meet the floor of the sound speed.
+With 100 cells to the metre only 20 are behind the shock at the end. The smearing of the shock heats material that converges
+through it, and with `both` the error of the plateau falls in proportion to the cell, which is asserted. The accuracy desired at
+100 cells appears below as expected failures. The gas falls at 1 km/s: at 1 m/s it would meet the floor of the sound speed.
 """
 
 import numpy as np
@@ -60,7 +59,7 @@ def test_cylindrical_converges():
     coarse, middle, fine = (plateau(line("noh_cylindrical", "both", n), 2) for n in (100, 200, 400))
     assert np.log2(coarse / middle) > 0.8
     assert np.log2(middle / fine) > 0.9
-    assert abs(2 * fine - middle) < 0.02  # where a first-order error goes to
+    assert abs(2 * fine - middle) < 0.02  # the limit of a first-order error
     assert all(abs(front(line("noh_cylindrical", "both", n), 2)) < 3 for n in (100, 200, 400))
 
 
@@ -131,7 +130,7 @@ def along_compression(wedge: str) -> Wedge:
 
 @pytest.mark.parametrize("wedge", WEDGES)
 def test_spherical_along_the_strongest_compression(wedge):
-    """What converges is not heated along the hoop: half of what is then missing comes back, and the front is in its place."""
+    """Converging material is not heated along the hoop: half of the deficit comes back, and the front is in its place."""
     ours = along_compression(wedge)
     assert 0.6 * sphere("both", 100, wedge).plateau() < ours.plateau() < 0.0
     assert ours.plateau() > -0.125

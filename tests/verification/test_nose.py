@@ -1,4 +1,4 @@
-"""Cells that a contact cuts: what a body strains there, what its surface does, and what is beside it."""
+"""Cells that a contact cuts: their strains, the behaviour of their surface, and their neighbours."""
 
 import functools
 
@@ -84,7 +84,7 @@ def test_a_linear_field_stays_linear(monkeypatch, angle):
 
 
 def test_slave_nodes_keep_momentum_and_lose_energy():
-    """Whatever the slave nodes did before: the momentum stays, and the kinetic energy that is lost is the heat."""
+    """Whatever the slave nodes did before: the momentum stays, and the kinetic energy lost becomes heat."""
     simulation = shipped("block_inclined_30")
     settled, s = Settled(simulation, disturb=50.0), simulation.state
     before, after = settled.before, settled.after
@@ -98,7 +98,7 @@ def test_slave_nodes_keep_momentum_and_lose_energy():
 # ---------------------------------------------------------------------------------------------------- bar in a tube
 
 ROWS = slice(12, 20)  # 5 to 9 mm from the wall: no wave from the far end has come
-COLUMN = 5  # that the surface cuts
+COLUMN = 5  # the column that the surface cuts
 
 
 @functools.cache
@@ -111,10 +111,10 @@ def bar(share: float, rate: float, strain: float, poisson: float, *overrides: st
     s.u[1], s.v[1] = poisson * rate * g.r, -rate * g.z[:, None]
     s.u[0], s.v[0] = np.where(g.r > 0.5 * surface, poisson * rate * surface**2 / np.maximum(g.r, 1e-9), 0.0), 0.0
     j0, j1, i0, i1 = simulation.engine.mesh_box
-    for held in (s.u[:, :, i0], s.u[:, :, i1], s.v[:, j0], s.v[:, j1]):
-        held[...] = 0.0
+    for prescribed in (s.u[:, :, i0], s.u[:, :, i1], s.v[:, j0], s.v[:, j1]):
+        prescribed[...] = 0.0
     engine = simulation.engine
-    engine.audit = Audit.open(s, engine.sound_speeds)  # the audit begins with the motion that it was given
+    engine.audit = Audit.open(s, engine.sound_speeds)  # the audit begins with the given motion
     strains = np.zeros((2, COLUMN + 1))
     while simulation.time < strain / rate:
         simulation.step()
@@ -172,10 +172,10 @@ def test_a_hemisphere_under_pressure_keeps_its_shape():
 
 @pytest.mark.parametrize("sliver", [1e-3, 1e-2, 1e-1])
 def test_a_sliver_neither_heats_nor_holds_up(sliver):
-    """Slip of 150 cells at 1 km/s beside a sliver of aluminium: the time step stays, and beside the block nothing melts.
+    """Slip of 150 cells at 1 km/s next to a sliver of aluminium: the time step stays, and next to the block nothing melts.
 
     Crumbs of less than a ten-thousandth of a cell do not count. One of them, 1e-5 of a cell, moves with the steel for half a
-    microsecond before its cell is full; the slip shears it until then, to 4.5e5 or 6.5e5 J/kg as chance has it.
+    microsecond before its cell is full; the slip shears it until then, to 4.5e5 or 6.5e5 J/kg by chance.
     """
     edge = 0.25 * (9 - sliver)
     steps, hottest = [], []
@@ -193,7 +193,7 @@ def test_a_sliver_neither_heats_nor_holds_up(sliver):
 
 
 def through_air(speed, tip):
-    """5 us of flight: energy closes, and the air is nowhere faster than what a rod can push out before it."""
+    """5 us of flight: energy closes, and the air is nowhere faster than a rod can push it out ahead."""
     overrides = [f'body.rod.velocity="{speed} m/s"', f'body.rod.tip="{tip} mm"']
     simulation = finish(decks.load(f"{FOLDER}/rod_in_air.toml", overrides))
     assert abs(simulation.conservation()["total_energy"]) < 1e-11
@@ -202,7 +202,7 @@ def through_air(speed, tip):
 
 @pytest.mark.parametrize(("speed", "tip"), [(300, -3), (320, -3), (300, 0)])
 def test_a_rod_flies_through_air_and_meets_a_plate(speed, tip):
-    """The last one exploded while gas took the heat and the work of the metal in its cell."""
+    """The last one exploded while gas received the heat and the work of the metal in its cell."""
     through_air(speed, tip)
 
 
@@ -244,12 +244,12 @@ def checkerboards(simulation):
     full = f[tip - 12 : tip + 1] == 1.0
     around = full[:-1, :-1] & full[1:, :-1] & full[:-1, 1:] & full[1:, 1:]
     assert around.sum() > 20
-    found = []
+    patterns = []
     for stress in (state.pm[0], *state.q[SRR:SRZ + 1, 0]):
         a = grid.interior(stress)[tip - 12 : tip + 1]
         pattern = 0.25 * ((a[:-1, :-1] + a[1:, 1:]) - (a[1:, :-1] + a[:-1, 1:]))[around]
-        found.append(np.sqrt(np.mean(pattern**2)))
-    return found
+        patterns.append(np.sqrt(np.mean(pattern**2)))
+    return patterns
 
 
 @functools.cache
@@ -275,10 +275,10 @@ def test_an_undeformable_nose_keeps_its_shape():
     assert rigid().state.q[EP, 0].max() < 1e-3
 
 
-def test_no_checkerboard_stands_in_the_nose():
+def test_no_checkerboard_stays_in_the_nose():
     """Pressure and deviators go up and down from cell to cell by 33 to 50 MPa, the median in time; they did by 70 to 100.
 
-    Single moments lie between 14 and 140, as chance has it.
+    Single moments lie between 14 and 140, by chance.
     """
     assert np.median(flight()[1], axis=0).max() < 55e6
 

@@ -1,4 +1,4 @@
-"""A piston: with a constant table it is an edge with a velocity, and a ramp sends out the isentrope of a simple wave."""
+"""A piston: with a constant table it equals an edge with a velocity, and a ramp sends out the isentrope of a simple wave."""
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_a_constant_table_is_a_constant_velocity_to_the_last_bit():
 
 @pytest.mark.parametrize("edge", ["z_min", "z_max"])
 def test_a_simple_wave(edge):
-    """Gas that a slow ramp of velocity sets in motion has u = 2 (c - c0)/(gamma - 1), on the way out; energy closes."""
+    """Gas set in motion by a slow ramp of velocity has u = 2 (c - c0)/(gamma - 1), on the way out; energy closes."""
     sign = 1.0 if edge == "z_min" else -1.0
     other = {"z_min": "z_max", "z_max": "z_min"}[edge]
     ramp = f'boundaries={{r_max="wall", {other}="wall", {edge}="piston", {edge}_piston=[[0.0, 0.0], [0.4, {0.2 * sign}]]}}'
@@ -63,7 +63,7 @@ def test_a_simple_wave(edge):
     moves = (np.abs(velocity) > 0.02) & (np.abs(velocity) < 0.18)
     assert moves.sum() > 20
     np.testing.assert_allclose(sign * velocity[moves], 5.0 * (sound[moves] - np.sqrt(1.4)), atol=2e-3)
-    found = simulation.conservation()
-    assert abs(found["total_energy"]) < 1e-12
-    assert abs(found["axial_momentum"]) < 1e-12
-    assert found["sinks"]["piston"]["energy_J"] < 0.0
+    balance = simulation.conservation()
+    assert abs(balance["total_energy"]) < 1e-12
+    assert abs(balance["axial_momentum"]) < 1e-12
+    assert balance["sinks"]["piston"]["energy_J"] < 0.0

@@ -91,7 +91,7 @@ def test_gap_closes():
 
 
 def test_one_dimensional_at_2_km_s():
-    """A strong shock along the axis feeds a mode of the vertices beside it; the hourglass filter holds it."""
+    """A strong shock along the axis feeds a mode of the vertices next to it; the hourglass filter suppresses it."""
     simulation = run("plate_impact_w_on_al", f"stop.time={END}", "body.flyer.velocity=2000.0")
     assert np.max(np.abs(simulation.state.u)) < 1e-10 * 2000
 

@@ -1,4 +1,4 @@
-"""Sod's shock tube along both axes: error, order of convergence, plateaus, and that both axes are the same code."""
+"""Sod's shock tube along both axes: error, order of convergence, plateaus, and equal results along both axes."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def shock_tube(choice: str, cells: int = 200) -> Line:
 
 
 def density_error(line: Line) -> float:
-    """L1 error of density at the time that the run ended at."""
+    """L1 error of density at the end time of the run."""
     exact = EXACT.sample((line.x - 0.5) / line.simulation.time)[0]
     return float(np.sum(np.abs(line.body("rho") - exact) * line.dx))
 
@@ -29,7 +29,7 @@ def test_density(choice):
 
 @pytest.mark.parametrize("choice", ["momentum", "both"])
 def test_order(choice):
-    """First order, as a shock allows. `ke` is left out: what its momentum gains does not vanish with the cells."""
+    """First order, as a shock allows. `ke` is left out: its gain of momentum does not vanish with the cells."""
     order = np.log2(density_error(shock_tube(choice, 100)) / density_error(shock_tube(choice, 200)))
     assert order >= 0.9
 
@@ -53,8 +53,8 @@ def test_plateaus(choice):
     assert crossing(xi, pressure, 0.5 * (EXACT.p + 0.1)) == pytest.approx(EXACT.right_wave[1], rel=shock)
 
 
-def test_what_the_choices_conserve():
-    """Energy balances to round-off with what the audit records; the study's choices trade momentum for energy."""
+def test_quantities_that_the_choices_conserve():
+    """Energy balances to round-off with the amounts in the audit; the study's choices trade momentum for energy."""
     recorded = {}
     for choice in ADVECTION:
         simulation = shock_tube(choice).simulation
@@ -63,16 +63,16 @@ def test_what_the_choices_conserve():
         recorded[choice] = (sink.energy / simulation.audit.start.energy, sink.momentum)
     assert abs(recorded["both"][0]) < 1e-12
     assert 1e-4 < recorded["momentum"][0] < 1e-3  # kinetic energy discarded
-    start = simulation.audit.start  # what the bound of P/M removes is round-off, and recorded with the rest
+    start = simulation.audit.start  # the bound of P/M removes round-off, recorded with the rest
     scale = (2.0 * start.mass.sum() * start.energy) ** 0.5
     assert max(abs(recorded["momentum"][1]), abs(recorded["both"][1])) < 1e-15 * scale
-    assert abs(recorded["ke"][0]) < 5e-5  # what the bound cuts
+    assert abs(recorded["ke"][0]) < 5e-5  # cut by the bound
     assert recorded["ke"][1] < 0.0  # momentum gained is a negative loss
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
 def test_r_is_z(choice):
-    """In planar geometry, and along z in cylindrical geometry as well, the profile is the same to round-off."""
+    """In planar geometry, and along z in cylindrical geometry as well, the profiles agree to round-off."""
     radial = Line(run("sod_r", advection(choice)), "r")
     for axial in (run("sod_z", 'mesh.geometry="planar"', advection(choice)), run("sod_z", advection(choice))):
         assert axial.cycle == radial.simulation.cycle

@@ -1,4 +1,4 @@
-"""Without rates and rate effects nothing has a length: what is larger by a power of two has the same bits, at later times."""
+"""Without rates and rate effects there is no length scale: a shot 2^n times as large has the same bits, at later times."""
 
 import numpy as np
 import pytest

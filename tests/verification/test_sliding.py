@@ -1,11 +1,11 @@
-"""A hard block that slides on a soft one, in planar geometry: what the slip layer does to the exchange of momentum.
+"""A hard block that slides on a soft one, in planar geometry: the effect of the slip layer on the exchange of momentum.
 
-Tungsten slides at 200 m/s along z on aluminium. The ends of the blocks are free and 24 mm away: no news of them comes
-to the middle, where the motion depends on r alone, and the momentum of the aluminium is the traction times the time.
+Tungsten slides at 200 m/s along z on aluminium. The ends of the blocks are free and 24 mm away: no wave from them reaches
+the middle, where the motion depends on r alone, and the momentum of the aluminium is the traction times the time.
 
-What the slip layer can do: beyond it the aluminium feels friction times pressure, and nothing without friction. What it
-cannot: the boundary layer, two cells of aluminium, sticks to the tungsten and takes its velocity, which costs the
-tungsten their momentum once; and the width of both layers, not the surface of the bodies, is where it slides.
+The slip layer can do this: beyond it the aluminium feels friction times pressure, and nothing without friction. It cannot do
+this: the boundary layer, two cells of aluminium, sticks to the tungsten and takes its velocity, which costs the tungsten their
+momentum once; and the width of both layers, not the surface of the bodies, is where it slides.
 """
 
 import functools
@@ -53,7 +53,7 @@ def slid(pressure: float, *options: str) -> tuple[float, float, float]:
 
 @pytest.mark.parametrize("pressure", [0.0, 1e9])
 def test_without_treatment_the_traction_is_the_yield_in_shear(pressure):
-    """Y/sqrt 3 = 173 MPa would act on the aluminium; what is beyond the layers gets it less what is on its way."""
+    """Y/sqrt 3 = 173 MPa would act on the aluminium; the part beyond the layers gets it less the momentum on its way."""
     beyond, everywhere, _ = slid(pressure)
     assert 0.75 < beyond / (YIELD / 3**0.5) < 1.0
     assert everywhere > YIELD / 3**0.5
@@ -64,7 +64,7 @@ def test_without_treatment_the_traction_is_the_yield_in_shear(pressure):
 def test_slip_layer_lets_no_traction_through(options, pressure):
     beyond, everywhere, _ = slid(pressure, *options)
     assert abs(beyond) < 1e-4 * slid(pressure)[0]
-    # what is exchanged is the momentum of the boundary layer, a part of it in cells that it shares with the slip layer
+    # the momentum exchanged is that of the boundary layer, some of it in cells shared with the slip layer
     layer = 2660.0 * 2.6 * CELL * SPEED / 2.5e-6
     assert 0.6 * layer < everywhere < layer
 

@@ -1,4 +1,4 @@
-"""The largest stable time step: noise dies away in it, and grows in one that is a fifth longer."""
+"""The largest stable time step: with it noise dies away, and with one a fifth longer it grows."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ import hydro2d
 from hydro2d.physics.waves import STABLE
 from hydro2d.solver import time_step
 
-#: m/s; so little that nothing yields
+#: m/s; so small that nothing yields
 NOISE = 1.0
 CYCLES = 150
 
@@ -60,9 +60,9 @@ def energy_left(monkeypatch, name: str, linear: float, share: float) -> float:
     engine = simulation.engine
     state, (j0, j1, i0, i1) = engine.state, engine.mesh_box
     random = np.random.default_rng(1)
-    for component, held in ((state.u, np.s_[:, :, [i0, i1]]), (state.v, np.s_[:, [j0, j1]])):
+    for component, fixed in ((state.u, np.s_[:, :, [i0, i1]]), (state.v, np.s_[:, [j0, j1]])):
         component[...] = np.where(state.mass > 0.0, NOISE * random.normal(size=component[:1].shape), 0.0)
-        component[held] = 0.0
+        component[fixed] = 0.0
     engine.given.handle.give(courant=1.0)
     chosen = time_step.chosen
     monkeypatch.setattr(time_step, "chosen", lambda cycle: (share / STABLE * chosen(cycle)[0], ""))
@@ -86,5 +86,5 @@ def test_noise_grows_in_a_step_that_is_a_fifth_longer(monkeypatch):
 
 @pytest.mark.parametrize("linear", [0.5, 1.0])
 def test_a_cell_has_no_more_viscosity_than_a_longer_step_carries(monkeypatch, linear):
-    """The largest step is that of the deck's linear coefficient; a fifth beyond it, the one that a cell has is less."""
+    """The largest step is that of the deck's linear coefficient; a fifth beyond it, the coefficient of a cell is smaller."""
     assert energy_left(monkeypatch, "block", linear, 1.2) < 0.5

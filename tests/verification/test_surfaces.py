@@ -1,6 +1,6 @@
 """Surfaces that cut cells: bars and rings of exact solutions, with the surface at any place between two lines of the mesh.
 
-Numbers in the docstrings are what was reached, with the worst position of the surface.
+Numbers in the docstrings are the present errors, for the worst position of the surface.
 """
 
 import functools
@@ -18,7 +18,7 @@ from tests.kernels.pieces import ghost_vertices, keep_one
 DENSITY, BULK, SHEAR = 18160.0, 18160.0 * 4030.0**2, 145e9
 YOUNG, POISSON = 9 * BULK * SHEAR / (3 * BULK + SHEAR), (3 * BULK - 2 * SHEAR) / (6 * BULK + 2 * SHEAR)
 YIELD = 0.5e9
-CRUMB = 1e-3  # so much of the fluid may be in a full cell
+CRUMB = 1e-3  # share of the fluid allowed in a full cell
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and the time it takes, many periods of breathing
 
@@ -28,7 +28,7 @@ SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and t
 
 def simulation(shape: dict, wide: float, high: float, around: str = "void", *, strong: float = 100.0,
                geometry: str = "cylindrical", **edges: str) -> Simulation:  # fmt: skip
-    """A body of the metal, elastic if not told otherwise.
+    """A body of the metal, elastic by default.
 
     around : "void"; "tube", a fluid in which it slides without friction; "glue", the fluid, but bonded to it; or "gas"
     """
@@ -57,7 +57,7 @@ def simulation(shape: dict, wide: float, high: float, around: str = "void", *, s
 
 
 class Bar:
-    """A bar of which the axial motion is given, uniform strain at the end of every step, and the motion across is free.
+    """A bar with prescribed axial motion, uniform strain at the end of every step, and free motion across.
 
     Along z it is a cylinder of 2.5 mm and a share of a cell; inclined it is a band in plane strain, with twice that width.
     """
@@ -67,7 +67,7 @@ class Bar:
         strong = YIELD / 1e9 if law == "plastic" else 100.0
         self.along = np.array([np.sin(angle), np.cos(angle)])
         self.across = np.array([self.along[1], -self.along[0]])
-        if angle:  # long enough in the mesh for ends that give way, and nowhere near its corners
+        if angle:  # long enough in the mesh for ends that yield, and far from its corners
             wide, high, centre, reach = 24.0, 16.0, np.array([12.0, 8.0]), 2.5e-3
             corners = [centre + x * half * self.across + 40.0 * y * self.along for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
             points = [[f"{r:.9f} mm", f"{z:.9f} mm"] for r, z in corners]
@@ -87,7 +87,7 @@ class Bar:
         return self.along[0] * (r[None, :] - centre[0]) + self.along[1] * (z[:, None] - centre[1])
 
     def _accelerate(self) -> None:
-        """Velocities by the forces, then the given axial ones: work and strain of the step are those of the plan."""
+        """Velocities from the forces, then the given axial ones: work and strain of the step are those of the plan."""
         engine, state = self.simulation.engine, self.simulation.state
         self.forces()
         strain = self.plan(engine.time + engine.dt)
@@ -101,7 +101,7 @@ class Bar:
         ghost_vertices(engine)
 
     def compress(self, strain: float, time: float) -> None:
-        """Goes on by a strain: softly to rest if elastic, at an even rate at the end if plastic."""
+        """Continues by a strain: softly to rest if elastic, at an even rate at the end if plastic."""
         start, first, engine = self.simulation.time, self.strain, self.simulation.engine
 
         def plan(now: float) -> float:
@@ -115,7 +115,7 @@ class Bar:
             engine.advance()
 
     def measured(self) -> SimpleNamespace:
-        """Means over the middle of the bar: stresses along and across, by kind of cell; force by what the cells exert."""
+        """Means over the middle of the bar: stresses along and across, by kind of cell; force from the forces of the cells."""
         grid, state = self.simulation.grid, self.simulation.state
         srr, szz, srz, p, f, rho, e = (grid.interior(x[0]) for x in (state.srr, state.szz, state.srz, state.pm, state.vof,
                                                                       state.rho, state.e))
@@ -146,17 +146,17 @@ class Bar:
 
 def beside(cells: np.ndarray) -> np.ndarray:
     """The neighbours of cells."""
-    found = np.zeros_like(cells)
-    found[1:] |= cells[:-1]
-    found[:-1] |= cells[1:]
-    found[:, 1:] |= cells[:, :-1]
-    found[:, :-1] |= cells[:, 1:]
-    return found
+    neighbours = np.zeros_like(cells)
+    neighbours[1:] |= cells[:-1]
+    neighbours[:-1] |= cells[1:]
+    neighbours[:, 1:] |= cells[:, :-1]
+    neighbours[:, :-1] |= cells[:, 1:]
+    return neighbours
 
 
 @functools.cache
 def loaded(around: str, share: float, angle: int, law: str, cycles: int = 0):
-    """What a bar measures under load, and the same again at rest after each cycle of unloading."""
+    """Measurements of a bar under load, and again at rest after each cycle of unloading."""
     bar = Bar(around, share, np.radians(angle), law)
     strain, time = SLOW_BARS[law]
     bar.compress(strain, time)
@@ -169,22 +169,22 @@ def loaded(around: str, share: float, angle: int, law: str, cycles: int = 0):
     return under_load, at_rest
 
 
-def expected(found: SimpleNamespace, angle: int, law: str) -> float:
-    """Axial stress by the law under the lateral stress that was found, which the fluid of a tube gives."""
+def expected(measured: SimpleNamespace, angle: int, law: str) -> float:
+    """Axial stress by the law under the measured lateral stress, which the fluid of a tube exerts."""
     if law == "plastic":
-        return found.across - YIELD * (2 / np.sqrt(3) if angle else 1.0)
+        return measured.across - YIELD * (2 / np.sqrt(3) if angle else 1.0)
     if angle:
-        return POISSON / (1 - POISSON) * found.across - YOUNG / (1 - POISSON**2) * found.strain
-    return 2 * POISSON * found.across - YOUNG * found.strain
+        return POISSON / (1 - POISSON) * measured.across - YOUNG / (1 - POISSON**2) * measured.strain
+    return 2 * POISSON * measured.across - YOUNG * measured.strain
 
 
 def held(around: str, share: float, angle: int, law: str, cycles: int, force: float, stress: float) -> None:
-    """Force of the section, and stress of the cut and of the outermost full cells, within shares of what they should be."""
-    found, _ = loaded(around, share, angle, law, cycles)
-    assert found.force == pytest.approx(expected(found, angle, law), rel=force)
-    assert found.exerted == pytest.approx(expected(found, angle, law), rel=force)
-    assert found.outer == pytest.approx(found.inner, rel=stress)
-    assert found.cut == pytest.approx(found.inner, rel=stress)
+    """Force of the section, and stress of the cut and of the outermost full cells, within shares of their exact values."""
+    measured, _ = loaded(around, share, angle, law, cycles)
+    assert measured.force == pytest.approx(expected(measured, angle, law), rel=force)
+    assert measured.exerted == pytest.approx(expected(measured, angle, law), rel=force)
+    assert measured.outer == pytest.approx(measured.inner, rel=stress)
+    assert measured.cut == pytest.approx(measured.inner, rel=stress)
 
 
 @pytest.mark.parametrize("share", SHARES)
@@ -201,7 +201,7 @@ def test_elastic_bar_in_a_tube(share):
 
 @pytest.mark.parametrize("share", SHARES)
 def test_plastic_bar(share):
-    """Along z in void: force Y A within 0.25 %, stress within 1.1 %, by what is left of the bar's breathing."""
+    """Along z in void: force Y A within 0.25 %, stress within 1.1 %, due to the remaining oscillation of the bar."""
     held("void", share, 0, "plastic", 0, 0.005, 0.015)
 
 
@@ -220,9 +220,9 @@ def test_elastic_bar_in_gas(share):
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar_that_is_glued_in(share):
     """Along z, bonded to a fluid: stress of the cut row within 1 %; with one pressure in a cell 5 to 36 %."""
-    found, _ = loaded("glue", share, 0, "elastic")
-    assert found.outer == pytest.approx(found.inner, rel=0.001)
-    assert found.cut == pytest.approx(found.inner, rel=0.012)
+    measured, _ = loaded("glue", share, 0, "elastic")
+    assert measured.outer == pytest.approx(measured.inner, rel=0.001)
+    assert measured.cut == pytest.approx(measured.inner, rel=0.012)
 
 
 @pytest.mark.parametrize("share", SHARES)
@@ -253,14 +253,14 @@ def test_inclined_bar_in_a_tube(angle, law):
 
 
 def left_over(around: str, share: float, angle: int, cycles: int) -> float:
-    """Largest energy per mass of the bar at rest after a cycle, as a share of what it has under load."""
+    """Largest energy per mass of the bar at rest after a cycle, as a share of that under load."""
     under_load, at_rest = loaded(around, share, angle, "elastic", cycles)
     return max(abs(rest.energy) for rest in at_rest) / under_load.energy
 
 
 @pytest.mark.parametrize("share", SHARES)
 def test_energy_of_ten_cycles(share):
-    """Loaded and unloaded ten times in void: 2.4e-5 to 4.8e-5 of the elastic energy are left."""
+    """Loaded and unloaded ten times in void: 2.4e-5 to 4.8e-5 of the elastic energy remain."""
     assert left_over("void", share, 0, 10) < 1e-3
 
 
@@ -268,7 +268,7 @@ def test_energy_of_ten_cycles(share):
                                        "nearly all in the outermost full row")
 @pytest.mark.parametrize("share", SHARES)
 def test_energy_of_ten_cycles_in_a_tube(share):
-    """The same in a tube without friction."""
+    """As in void, but in a tube without friction."""
     assert left_over("tube", share, 0, 10) < 1e-3
 
 
@@ -292,8 +292,8 @@ def test_energy_of_three_cycles_inclined_in_a_tube(angle):
 def braked(share: float, transits: int = 20, length: float = 20.0, strain: float = 1e-3):
     """(mean of the differences from the four neighbours, mean size) of the pressure of full cells, means over time, Pa.
 
-    The bar stands on a wall, seen from the wall: a body force per mass that comes up softly over a transit of the bar wave,
-    and would strain it by `strain` at the wall in the end; its waves then run to and fro.
+    The bar stands on a wall, seen from the wall: a body force per mass that rises softly over a transit of the bar wave, and
+    would finally strain it by `strain` at the wall; its waves then run to and fro.
     """
     bar = simulation({"shape": "box", "r": [0.0, f"{2.5 + 0.5 * share} mm"], "z": [0.0, f"{length} mm"]}, 4.0, length + 2.0)
     engine, state, grid = bar.engine, bar.state, bar.grid

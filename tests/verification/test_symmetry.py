@@ -1,4 +1,4 @@
-"""Mirrored problems have mirrored answers, and the order of the bodies in a deck is no physics."""
+"""Mirrored problems have mirrored answers, and the order of the bodies in a deck has no effect on the physics."""
 
 import numpy as np
 import pytest
@@ -109,7 +109,7 @@ def test_contact_of_mirror_images():
 
 
 def compared(first: Simulation, second: Simulation, order: list[int]) -> dict[str, float]:
-    """Largest difference of the fields that one sees from outside, relative to their largest value."""
+    """Largest difference of the fields visible from outside, relative to their largest value."""
     assert [second.table.names[m] for m in order] == list(first.table.names)
     result = {}
     for name in ("vof", "rho", "e", "srr", "srz", "ep"):
@@ -124,7 +124,7 @@ def compared(first: Simulation, second: Simulation, order: list[int]) -> dict[st
 
 @pytest.mark.parametrize("options", CASES.values(), ids=CASES)
 def test_order_of_the_bodies_in_the_deck(options):
-    """With the nesting of interfaces stated, the order in which a deck lists its bodies changes nothing."""
+    """With a stated nesting of interfaces, the order in which a deck lists its bodies changes nothing."""
     order = ["rod", "plate", "cover"]
     first = run(impact(options=options, interface_order=order))
     second = run(impact(("cover", "rod", "plate"), options=options, interface_order=order))
@@ -132,7 +132,7 @@ def test_order_of_the_bodies_in_the_deck(options):
 
 
 def test_nesting_changes_little():
-    """The order of the interfaces is a choice of the method; it shows where three materials meet."""
+    """The order of the interfaces is a choice of the method; it matters where three materials meet."""
     first = run(impact())
     second = run(impact(("cover", "plate", "rod")))
     difference = compared(first, second, [2, 1, 0])

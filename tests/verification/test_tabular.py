@@ -1,4 +1,4 @@
-"""A table in place of the equation of state that it was made from: a shock from a wall, and the state at rest."""
+"""A table instead of the equation of state from which it was made: a shock from a wall, and the state at rest."""
 
 import functools
 
@@ -46,7 +46,7 @@ def text(number):
 
 @functools.cache
 def behind(velocity, number=None):
-    """Mean pressure behind the shock in a bar that meets a wall, Pa, from a table of so many points or the model; audit."""
+    """Mean pressure behind the shock in a bar that hits a wall, Pa, from a table of so many points or the model; audit."""
     given = {"body.bar.velocity": velocity}
     if number:
         given |= {"body.bar.material": "al", "materials.al": {"eos": {
@@ -68,9 +68,9 @@ def exact(velocity, number=None):
 @pytest.mark.parametrize("number", [11, 21, 41])
 def test_a_run_with_a_table_misses_the_model_by_what_the_interpolation_does(velocity, number):
     """The pressure behind the shock, against the jump conditions with the table and with the model."""
-    found, audit = behind(velocity, number)
-    assert found == pytest.approx(exact(velocity, number), rel=2e-3)
-    assert found / behind(velocity)[0] - 1.0 == pytest.approx(exact(velocity, number) / exact(velocity) - 1.0, abs=1e-3)
+    pressure, audit = behind(velocity, number)
+    assert pressure == pytest.approx(exact(velocity, number), rel=2e-3)
+    assert pressure / behind(velocity)[0] - 1.0 == pytest.approx(exact(velocity, number) / exact(velocity) - 1.0, abs=1e-3)
     assert audit["total_energy"] == pytest.approx(0.0, abs=1e-12)
 
 

@@ -1,4 +1,4 @@
-"""What is narrower than a cell moves at its own speed: foils, coats, balls, slits, gaps and layers, whatever the frame."""
+"""Features narrower than a cell move at their own speed: foils, coats, balls, slits, gaps and layers, in any frame."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def places(simulation: Simulation) -> np.ndarray:
 
 
 def flies(simulation: Simulation, speed: float = 1000.0, end: float = 1e-6, off: float = 0.1, wider: float = 0.2) -> None:
-    """Ten cells of way: every body's centre to a tenth of a cell, its width to a fifth of one."""
+    """Over ten cells: every body's centre to a tenth of a cell, its width to a fifth of one."""
     before = places(simulation)
     while simulation.time < end:
         simulation.step()
@@ -106,7 +106,7 @@ def test_a_gap_between_two_bodies_is_kept(order, contact):
     simulation = tube(*(bodies[n] for n in order), options=options)
     flies(simulation, off=0.02)
     void = 1.0 - simulation.grid.interior(simulation.state.vof).sum(axis=0)[:, 0]
-    inside = void[15:25]  # from within the one to within the other
+    inside = void[15:25]  # from inside the one to inside the other
     assert inside.sum() == pytest.approx(0.6, abs=1e-6)
     assert np.count_nonzero(inside > 1e-6) <= 2
 
@@ -177,7 +177,7 @@ OBLIQUE = {(0.3, 30): 0.2, (0.3, 45): 0.2, (0.6, 30): 0.2, (0.6, 45): 0.2}
 
 @pytest.mark.parametrize(("width", "angle"), OBLIQUE)
 def test_an_oblique_foil_flies_along_its_normal(width, angle):
-    """Planar: its centre is where it should be to a tenth of a cell; it is no more than a fifth of a cell wider."""
+    """Planar: its centre is in place to a tenth of a cell; it is no more than a fifth of a cell wider."""
     across = np.array([np.sin(np.radians(angle)), np.cos(np.radians(angle))])
     along = np.array([across[1], -across[0]])
     middle = np.array([1.237, 1.221])
@@ -229,10 +229,10 @@ def scab(frame: float) -> tuple[float, float]:
     return float(f[widest + 1:].sum() * 0.1), float(velocity - frame)
 
 
-def test_spall_does_not_hang_on_the_frame():
+def test_spall_does_not_depend_on_the_frame():
     """The scab is as thick as the flyer in every frame, to a cell and a half; it was .37 to 2.3 mm, and none at 1000 m/s.
 
-    The target's velocity is 68 to 78 m/s, as chance has it; it was 55 to 77, and fell with the speed of the frame.
+    The target's velocity is 68 to 78 m/s, by chance; it was 55 to 77, and fell with the speed of the frame.
     """
     for frame in (0.0, 30.0, 300.0, 1000.0, -300.0, -1000.0):
         thick, velocity = scab(frame)

@@ -1,4 +1,4 @@
-"""A body that flies through void: nothing happens to it."""
+"""A body that flies through void does not change."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def flown(text: str, *options: str) -> Simulation:
 
 
 def unchanged(simulation: Simulation, u: float, v: float, strain: float) -> None:
-    """Velocity and stress are as they were, but for what a change of volume by `strain` does; every balance closes."""
+    """Velocity and stress are unchanged, except for the effect of a change of volume by `strain`; every balance closes."""
     s = simulation.state
     present, massive = s.vof > 0, s.mass > 0
     assert np.abs(s.p[present.any(axis=0)]).max() < strain * MODULUS
@@ -50,7 +50,7 @@ def unchanged(simulation: Simulation, u: float, v: float, strain: float) -> None
 
 
 ROUND_OFF = "numerics.cutoff=1e-12", 1e-12  # stress below 0.3 Pa, drift below 4e-9 m/s in 1000 m/s
-FULL_CELLS = "numerics.cutoff=1e-8", 1e-9  # cells that lack less than the cutoff are made full, and ring
+FULL_CELLS = "numerics.cutoff=1e-8", 1e-9  # cells that lack less than the cutoff are filled, and ring
 
 
 @pytest.mark.parametrize("advection", ["ke", "momentum", "both"])
@@ -71,7 +71,7 @@ def test_block_flies_obliquely(advection, options, cutoff, strain):
 
 
 def test_rod_keeps_its_shape():
-    """Nose and tail are where they should be."""
+    """Nose and tail are in place."""
     mesh = 'mesh.r=[{to="6 mm",cells=12}]'
     simulation = flown(ROD, mesh)
     tip = simulation.time * 1000.0 - 1.2e-3

@@ -1,7 +1,7 @@
-"""The verdict on a run beside its error: what is wrong is not trusted, and what is right is.
+"""The verdict on a run against its error: wrong runs are not trusted, and right ones are.
 
-A run that is wrongly judged is an expected failure that says why. It fails here when it comes to be judged rightly, or when
-its error comes to the other side of its bound (`verdicts`).
+A run that is wrongly judged is an expected failure with its reason. It fails here when it is judged rightly, or when its error
+moves to the other side of its bound (`verdicts`).
 """
 
 from pathlib import Path
@@ -14,7 +14,7 @@ PAGE = Path(__file__).parents[2] / "docs/explanation/sanity.md"
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.family}: {row.name}")
-def test_the_verdict_beside_the_error(row):
+def test_the_verdict_and_the_error(row):
     error, said = judged(row)
     assert (error <= row.bound) == row.right, f"an error of {error:.3g}, where {row.bound:g} is the bound"
     assert (not said) == row.trusted, said

@@ -1,7 +1,7 @@
-"""Small runs whose right answer is known exactly, with the error of one number of each, and the verdict on them.
+"""Small runs with exactly known answers, with the error of one number of each, and the verdict on them.
 
-A row is wrong where its error is beyond the bound of its family, which is stated with it: what the mesh of the row allows.
-``python -m tests.verification.verdicts`` prints the rows as they come out, and the table of the page explanation/sanity.
+A row is wrong if its error is beyond the bound of its family, which is stated with it: the accuracy that the row's mesh allows.
+``python -m tests.verification.verdicts`` prints the rows with their results, and the table of the page explanation/sanity.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ Measure = Callable[[Simulation], float]
 
 
 class Row(NamedTuple):
-    """A run, what is measured of it, and what comes out.
+    """A run, the quantity measured, and the result.
 
-    error : of the end, relative or in the unit that the family says;  bound : from which the answer counts as wrong
-    right : whether it is not;  missed : why the verdict is not as it should be, empty where it is
+    error : at the end, relative or in the unit given by the family;  bound : error from which the answer counts as wrong
+    right : whether the answer is right;  missed : why the verdict is not as it should be, otherwise empty
     """
 
     family: str
@@ -44,19 +44,19 @@ class Row(NamedTuple):
 
     @property
     def trusted(self) -> bool:
-        """The verdict that comes out."""
+        """The verdict of the run."""
         return self.right != bool(self.missed)
 
 
 class Verdict(NamedTuple):
-    """The error of a run, infinite where it came to no end, and what is said against it."""
+    """The error of a run, infinite if it did not reach its end, and the objections to it."""
 
     error: float
     said: tuple[str, ...]
 
 
 def judged(row: Row) -> Verdict:
-    """Runs a row to its end, whatever is found on the way, as a run with the settings of its deck would be ended by."""
+    """Runs a row to its end, and collects the faults that would end a run with the deck's own settings."""
     simulation = Simulation(decks.loads(row.text, ["numerics.clip_limit=1"]))
     said: list[str] = []
     try:
@@ -120,26 +120,26 @@ def sedov(j: int, choice: str) -> Row:
     text += box("cold", energy=1e-9, join="hot", **cold, **state) + numerics(choice) + stop(1.0)
 
     def error(simulation: Simulation) -> float:
-        grid, found = simulation.grid, []
+        grid, ends = simulation.grid, []
         p = grid.interior(simulation.state.p)
         if j != 2:
-            found.append((grid.zc[grid.inside[0]], p[:, 0]))
+            ends.append((grid.zc[grid.inside[0]], p[:, 0]))
         if j != 1:
-            found.append((grid.rc[grid.inside[1]], p[0]))
-        radii = [crossing(x, line, 0.5 * line[x > 0.3 * radius].max()) for x, line in found]
+            ends.append((grid.rc[grid.inside[1]], p[0]))
+        radii = [crossing(x, line, 0.5 * line[x > 0.3 * radius].max()) for x, line in ends]
         return np.mean(radii) / (radius * simulation.time ** (2 / (j + 2))) - 1.0
 
     return Row("Sedov's blast", f"{name}, {choice}", text, error, 0.05)
 
 
 def blast_energy(j: int) -> Row:
-    """The same blast by `momentum`: its energy, within 2 %."""
+    """The blast by `momentum`: its energy, within 2 %."""
     row = sedov(j, "momentum")
 
     def error(simulation: Simulation) -> float:
-        found = simulation.conservation()
+        balance = simulation.conservation()
         depth = (2 * simulation.grid.dr[4], 2 * simulation.grid.dz[4], 0.5)[j - 1]  # of r-z one half
-        return (found["internal_energy_J"] + found["kinetic_energy_J"]) / (SEDOV[j][0] * depth) - 1.0
+        return (balance["internal_energy_J"] + balance["kinetic_energy_J"]) / (SEDOV[j][0] * depth) - 1.0
 
     return row._replace(name=f"{row.name}, energy", error=error, bound=0.02)
 
@@ -224,14 +224,14 @@ def expansion(choice: str) -> Row:
     text = tube(100, 0.0, 2.0, "z_min") + gas("gas", 0.0, 0.5, 1.0, pressure=1.0) + numerics(choice) + stop(time)
 
     def error(simulation: Simulation) -> float:
-        found = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
-        return found / (exact * simulation.time / time) - 1.0
+        energy = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
+        return energy / (exact * simulation.time / time) - 1.0
 
     return Row("tubes of gas", f"into the void, {choice}", text, error, 0.05)
 
 
 def limited() -> Row:
-    """The same beside tungsten, far off, with which the speed limit is counted: the kinetic energy within 5 %."""
+    """The expansion next to tungsten, far away, which counts for the speed limit: the kinetic energy within 5 %."""
     rho, length, pressure = 1.2, 0.1, 2e7
     c = math.sqrt(1.4 * pressure / rho)
     time = 0.3 * length / c
@@ -242,8 +242,8 @@ def limited() -> Row:
             + box("block", "W_alloy", z=[2.7 * length, 2.9 * length]) + stop(time))
 
     def error(simulation: Simulation) -> float:
-        found = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
-        return found / (share * rho * c**3 * simulation.time) - 1.0
+        energy = simulation.conservation()["kinetic_energy_J"] / (2 * simulation.grid.dr[4])
+        return energy / (share * rho * c**3 * simulation.time) - 1.0
 
     return Row("tubes of gas", "into the void, beside tungsten", text, error, 0.05)
 
@@ -307,7 +307,7 @@ LONGITUDINAL = math.sqrt(STEEL.c0**2 + 4.0 / 3.0 * SHEAR / STEEL.rho0)
 
 
 def elastic(name: str = "elastic", yield_stress: str = "50 GPa") -> str:
-    """That steel as a material of a deck."""
+    """This steel as a material of a deck."""
     return table(f"materials.{name}", eos={
         "model": "mie-grueneisen", "reference_density": "7850 kg/m^3", "sound_speed": "4570 m/s", "hugoniot_slope": 1.49,
         "grueneisen": 1.93, "specific_heat": "450 J/kg/K"}, strength={
@@ -315,7 +315,7 @@ def elastic(name: str = "elastic", yield_stress: str = "50 GPa") -> str:
 
 
 def strained(strain: float) -> float:
-    """Energy of that steel at a strain ln(rho/rho0) in one direction, J/kg: de = (p + 4/3 G strain) d(strain)/rho."""
+    """Energy of this steel at a strain ln(rho/rho0) in one direction, J/kg: de = (p + 4/3 G strain) d(strain)/rho."""
     e, n = 0.0, 2000
     for k in range(n):
         now = strain * (k + 0.5) / n
@@ -340,7 +340,7 @@ def pressed_bar(strain: float) -> Row:
 
 
 def heated(where: str, energy: float) -> Row:
-    """Gas at rest that a source heats at once: in all of a closed tube the energy in every cell, within 1 %.
+    """Gas at rest that a source heats at once: everywhere in a closed tube the energy in every cell, within 1 %.
 
     In the first cells before a wall, Sedov's plane blast: the radius of the shock within 5 %.
     """
@@ -369,7 +369,7 @@ def heated_neighbour(times: float, low: float) -> Row:
     """A gas that is heated presses another one in a closed tube: the other's energy, on its isentrope, within 5 %.
 
     So slowly that the heat E grows by a factor of e in the time in which sound crosses half of the tube ten times:
-    dE/dt = E c/(5 m), of which E = E0/(1 - t/T)^2 is the solution.
+    dE/dt = E c/(5 m), with the solution E = E0/(1 - t/T)^2.
     """
     first = 1.0 / 0.4
     whole = 2.0 * 5.0 / math.sqrt(1.4)
@@ -476,7 +476,7 @@ def rebound(speed: float, choice: str = "both", cells: int = 120) -> Row:
 
 
 def ball(speed: float) -> Row:
-    """A ball of steel that does not yield leaves an anvil as fast as it came, but for 1 % that rings on in it, within 5 %."""
+    """A ball of steel that does not yield leaves an anvil as fast as it came, except for 1 % left as vibration, within 5 %."""
     text = (mesh(("6 mm", 12), ("12 mm", 24)) + table("boundaries", z_min="anvil")
             + body("ball", "elastic", "sphere", centre="4.0 mm", radius="4 mm", velocity=-speed) + elastic()
             + NO_FRACTURE + stop("60 us"))
@@ -488,7 +488,7 @@ def ball(speed: float) -> Row:
 
 
 def crushed(speed: float, gamma: float, rho: float, until: float) -> float:
-    """Energy of a film of gas that two plates crush to a pressure, J/kg: by shock after shock, each of which stops it."""
+    """Energy of a film of gas that two plates crush to a pressure, J/kg: by successive shocks, each of which stops it."""
     p, e = 1e5, 1e5 / rho / (gamma - 1.0)
     while p < until:
         c2, half = gamma * p / rho, 0.25 * (gamma + 1.0) * speed
@@ -513,14 +513,14 @@ def film(speed: float, gap: float, time: str, frame: float = 0.0, geometry: str 
 
     def error(simulation: Simulation) -> float:
         mass = simulation.audit.start.mass[2]
-        found = simulation.grid.interior(simulation.state.vof[2] * simulation.state.rho[2] * simulation.state.e[2]
-                                         * simulation.grid.volume).sum() / mass
+        masses = simulation.grid.interior(simulation.state.vof[2] * simulation.state.rho[2] * simulation.state.e[2]
+                                          * simulation.grid.volume).sum() / mass
         if shock * simulation.time < gap * 1e-3:
             passed = shock * simulation.time / (gap * 1e-3)
             exact = first + passed * (0.5 * speed**2 + 1e5 * speed / (1.2 * shock))
         else:
             exact = crushed(speed, gamma, 1.2, impact.impact(impact.AL_5083, impact.AL_5083, speed).p)
-        return math.exp(abs(math.log(found / exact))) - 1.0
+        return math.exp(abs(math.log(masses / exact))) - 1.0
 
     return Row("gas beside metal", f"{gap:g} mm of air before a flyer, {speed:g} m/s, {time}, {frame:g} m/s more, {geometry}",
                text, error, 0.5)
@@ -553,9 +553,9 @@ def detonation(choice: str, cells: int = 200) -> Row:
 
 
 def driven(plate_mass: float, start: float, time: float) -> tuple[float, float]:
-    """(velocity, place) of a rigid plate of so many kg/m^2 that a charge of gamma = 3 drives, lit a length `start` from it.
+    """(velocity, place) of a rigid plate of so many kg/m^2 driven by a charge of gamma = 3, lit a length `start` from it.
 
-    Along u + c = x/t all is as in the wave that comes, so that at the plate c = x/t - v and p = P_CJ (c/(3 D/4))^3 (Aziz,
+    Along u + c = x/t the flow is that of the incoming wave, so that at the plate c = x/t - v and p = P_CJ (c/(3 D/4))^3 (Aziz,
     Hurwitz & Sternberg, Physics of Fluids 4 (1961) 380), while x/t is above D/2.
     """
     speed, cj = 8000.0, 30e9
@@ -603,7 +603,7 @@ def leaves(what: str) -> Row:
 
 
 def gas_leaves(choice: str) -> Row:
-    """Gas flows out through an open edge at twice its speed of sound: the mass that is left within 1 %."""
+    """Gas flows out through an open edge at twice its speed of sound: the remaining mass within 1 %."""
     time = 0.2
     text = (tube(50, 0.0, 1.0) + gas("gas", 0.0, 1.0, 1.0, pressure=1.0 / 1.4, velocity=2.0)
             + numerics(choice) + stop(time))

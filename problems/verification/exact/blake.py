@@ -74,11 +74,11 @@ def cylindrical(cavity: Cavity, r, t: float, terms: int = 48) -> np.ndarray:
     wave, exp(-s (r - a)/c), was taken out.
     """
     a, c, lame, shear = cavity.radius, cavity.longitudinal, cavity.lame, cavity.shear
-    found = []
+    displacements = []
     for each in np.atleast_1d(np.asarray(r, dtype=float)):
         left = t - (each - a) / c
         if left <= 0.0:
-            found.append(0.0)
+            displacements.append(0.0)
             continue
         angle = (2.0 * np.arange(terms) + 1.0) * np.pi / terms - np.pi
         s = terms / left * (0.5017 * angle / np.tan(0.6407 * angle) - 0.6122 + 0.2645j * angle)
@@ -87,5 +87,5 @@ def cylindrical(cavity: Cavity, r, t: float, terms: int = 48) -> np.ndarray:
         scaled = np.exp(k * a) * kv(1, k * a), np.exp(k * each) * kv(1, k * each), np.exp(k * a) * kv(0, k * a)
         slope = -k * scaled[2] - scaled[0] / a  # of K1(k r) at the wall
         amplitude = -cavity.pressure / s / ((lame + 2.0 * shear) * slope + lame * scaled[0] / a)
-        found.append(float(np.real(-1j / terms * np.sum(np.exp(s * left) * amplitude * scaled[1] * ds))))
-    return np.array(found)
+        displacements.append(float(np.real(-1j / terms * np.sum(np.exp(s * left) * amplitude * scaled[1] * ds))))
+    return np.array(displacements)

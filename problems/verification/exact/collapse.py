@@ -1,7 +1,7 @@
-"""The uniform collapse (Noh's second problem): gas that falls together with a velocity in proportion to the distance.
+"""The uniform collapse (Noh's second problem): gas that converges with a velocity proportional to the distance.
 
-With t in units of the time that the collapse takes, u = -r/(1 - t), rho = rho0 (1 - t)^-j, e = e0 (1 - t)^(-j (gamma - 1)), for
-j = 1, 2, 3. There is no shock and no gradient of pressure: every particle keeps its velocity and follows its isentrope.
+With t in units of the collapse time, u = -r/(1 - t), rho = rho0 (1 - t)^-j, e = e0 (1 - t)^(-j (gamma - 1)), for j = 1, 2, 3.
+There is no shock and no gradient of pressure: every particle keeps its velocity and follows its isentrope.
 
 Source: Noh, J. Comput. Phys. 72 (1987) 78, section 4; the problem Noh2 of ExactPack.
 """
@@ -15,7 +15,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Collapse:
-    """The collapse of dimension j of gas of density rho0 and energy e0, that would be complete at the time `end`, s."""
+    """The collapse of dimension j of gas of density rho0 and energy e0, complete at the time `end`, s."""
 
     j: int = 3
     gamma: float = 5.0 / 3.0
@@ -34,7 +34,7 @@ class Collapse:
         return -np.asarray(r, dtype=float) / (self.end - t)
 
     def untouched(self, radius: float, t: float) -> float:
-        """The radius within which a rarefaction from the surface, at `radius` at the start, is not yet felt.
+        """The radius that a rarefaction from the surface, at `radius` at the start, has reached.
 
         In the coordinate of the particles, r/(1 - t), it runs inward at c/(1 - t), and c = c0 (1 - t)^(-j (gamma - 1)/2); t is
         in units of the end.

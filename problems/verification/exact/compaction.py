@@ -1,6 +1,6 @@
 """Two-wave compaction of a porous material: an elastic precursor, and the shock that crushes the pores behind it.
 
-Written apart from eos/p_alpha.py, from the jump conditions and the crush curve alone. The solid is Mie-Grueneisen about a
+Independent of eos/p_alpha.py: it uses the jump conditions and the crush curve alone. The solid is Mie-Grueneisen about a
 straight Hugoniot in compression.
 """
 
@@ -38,7 +38,7 @@ class Porous:
     n: float = 2.0
 
     def solid_pressure(self, rho: float, e: float) -> float:
-        """The solid's: McQueen and others (1970)."""
+        """Pressure of the solid: McQueen and others (1970)."""
         eta = 1.0 - self.rho_s / rho
         if eta < 0.0:
             return self.c0**2 * (rho - self.rho_s) + self.gamma * rho * e
@@ -46,7 +46,7 @@ class Porous:
         return self.rho_s * (cold + self.gamma * e)
 
     def precursor(self) -> State:
-        """At the pressure at which crushing begins."""
+        """The state behind the precursor, at the pressure at which crushing begins."""
         u = self.p_e / (self.rho0 * self.c_e)
         rho = self.rho0 / (1 - u / self.c_e)
         e = 0.5 * u * u
@@ -58,7 +58,7 @@ class Porous:
         return 1.0 if p >= self.p_s else 1.0 + (elastic - 1.0) * ((self.p_s - p) / (self.p_s - self.p_e)) ** self.n
 
     def behind(self, piston: float) -> State:
-        """Behind the second wave, before a piston, m/s, or a wall that is met at that speed."""
+        """The state behind the second wave, ahead of a piston, m/s, or at a wall that is hit at that speed."""
         first = self.precursor()
 
         def state(p: float) -> State:
@@ -69,8 +69,8 @@ class Porous:
             return State(first.u + mass / first.rho, piston, p, rho, e, self.alpha(p, first.alpha))
 
         def error(p: float) -> float:
-            found = state(p)
-            return self.solid_pressure(found.rho * found.alpha, found.e) / found.alpha - p
+            trial = state(p)
+            return self.solid_pressure(trial.rho * trial.alpha, trial.e) / trial.alpha - p
 
         least = first.p + 1.001 * first.rho * (piston - first.u) ** 2
         return state(brentq(error, least, 50.0 * least + 1e10, xtol=1.0))

@@ -1,4 +1,4 @@
-"""A detonation that runs from a rigid wall: the rarefaction of Taylor behind it, on the isentrope of any products."""
+"""A detonation that runs from a rigid wall: the Taylor rarefaction behind it, for products with any isentrope."""
 
 from __future__ import annotations
 
@@ -53,5 +53,5 @@ def mader(x, time: float, speed: float = 8000.0, rest: float = 1875.0) -> tuple[
 
 
 def wall_pressure(gamma: float) -> float:
-    """Pressure over that of Chapman and Jouguet where a detonation meets a rigid wall head on, by the shock relations."""
+    """Pressure over the Chapman-Jouguet pressure where a detonation meets a rigid wall head on, by the shock relations."""
     return (5.0 * gamma + 1.0 + sqrt(17.0 * gamma**2 + 2.0 * gamma + 1.0)) / (4.0 * gamma)

@@ -76,7 +76,7 @@ def piston(solid: Solid, shear_modulus: float, yield_stress: float, u: float) ->
 
 
 def elastic(solid: Solid, shear_modulus: float, u: float) -> Stress:
-    """The one jump before a piston that is too slow for the solid to yield, at u > 0; its deviator follows the true strain."""
+    """The only jump ahead of a piston too slow for the solid to yield, at u > 0; the deviator follows the true strain."""
     rest = Stress(solid.rho0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
     def behind(rho: float) -> Stress:

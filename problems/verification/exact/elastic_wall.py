@@ -1,7 +1,7 @@
 """An elastic wall around a cavity under pressure, plane, cylindrical or spherical, in one dimension on a mesh of its own.
 
 Linear elasticity, rho u_tt = s_rr,r + n (s_rr - s_tt)/r, by the forces of linear elements and central differences in time: of
-second order. Blake's sphere (J. Acoust. Soc. Am. 24 (1952) 211) comes out within 1e-4 of its solution in closed form.
+second order. For Blake's sphere (J. Acoust. Soc. Am. 24 (1952) 211) it agrees with the closed form within 1e-4.
 """
 
 from __future__ import annotations
@@ -11,16 +11,16 @@ import numpy as np
 
 def displacements(inner: float, outer: float, pressure: float, density: float, bulk: float, shear: float, power: int,
                   until: float, *, impedance: float = 0.0, cells: int = 2000) -> tuple[np.ndarray, np.ndarray]:
-    """(places, displacements in the course of time) of a wall at rest on whose inner face a pressure acts from t = 0 on.
+    """(places, displacements over time) of a wall at rest, with a pressure on its inner face from t = 0 on.
 
     Parameters
     ----------
-    inner, outer : radii of the wall, m; nothing holds the outer face
+    inner, outer : radii of the wall, m; the outer face is free
     pressure : on the inner face, Pa
     density, bulk, shear : of the wall, kg/m^3, Pa, Pa
     power : 1 for a cylinder, in plane strain, 2 for a sphere
     until : end, s
-    impedance : density times speed of sound of the gas in the cavity, kg/(m^2 s), whose pressure falls by it times the velocity
+    impedance : density times speed of sound of the gas in the cavity, kg/(m^2 s); the pressure falls by it times the velocity
     cells : of the mesh
 
     Returns places [cells + 1], m, and displacements [steps, cells + 1], m.

@@ -1,6 +1,6 @@
-"""Guderley's imploding shock: near the axis or the point the radius of a strong shock goes as the time that is left to a power.
+"""Guderley's imploding shock: near the axis or the point the radius of a strong shock is a power of the time left.
 
-R = R1 ((t_c - t)/t_c)^alpha. The exponent is that with which the flow behind the shock passes through its singular point. With
+R = R1 ((t_c - t)/t_c)^alpha. The exponent is such that the flow behind the shock passes through its singular point. With
 
     u = r/t V(xi),  c^2 = (r/t)^2 C(xi)
 
@@ -35,7 +35,7 @@ def _slope(v: float, c: float, a: float, gamma: float, j: int) -> float:
 
 
 def _misses(a: float, gamma: float, j: int) -> float:
-    """By how much the flow from the shock misses the singular point, in C."""
+    """Amount by which the flow from the shock misses the singular point, in C."""
     root = 8.0 * (a - 1.0) * a * gamma * (j - 1.0) + (2.0 - gamma + a * (gamma * j - 2.0)) ** 2
     side = -1.0 if gamma >= OTHER_ROOT[j] else 1.0
     v = (2.0 - 2.0 * a - gamma + a * gamma * j + side * math.sqrt(max(root, 0.0))) / (2.0 * gamma * (j - 1.0))

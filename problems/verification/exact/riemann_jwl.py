@@ -76,7 +76,7 @@ class State:
         return brentq(excess, self.rho, high, xtol=1e-13 * high)
 
     def behind(self, p: float) -> tuple[float, float]:
-        """(density, size of the change of velocity with its sign) behind the wave to pressure p: positive for a shock."""
+        """(density, change of velocity) behind the wave to pressure p; the change is positive for a shock."""
         if p > self.p:
             rho = self._shocked(p)
             return rho, math.sqrt((p - self.p) * (1.0 / self.rho - 1.0 / rho))
@@ -183,7 +183,7 @@ class Driven:
 
 
 def drive(products: State, solid: Solid) -> Driven:
-    """The contact at which the rarefaction of the products and the shock of the solid have one velocity."""
+    """The contact at which the rarefaction of the products and the shock of the solid have the same velocity."""
     def excess(p: float) -> float:
         return shock_from(solid, solid.rho0, 0.0, p).u + products.behind(p)[1]
 
@@ -192,7 +192,7 @@ def drive(products: State, solid: Solid) -> Driven:
 
 
 def burnt(products: Products, energy: float) -> State:
-    """What has burnt in its own volume: energy in J per initial m^3."""
+    """Products burnt at constant volume; energy in J per initial m^3."""
     return State(products, products.rho0, 0.0, float(products.cold(products.rho0)) + products.omega * energy)
 
 

@@ -75,7 +75,7 @@ class Sedov:
         return (self.energy * t * t / (self.alpha * self.rho0)) ** (1.0 / (self.j + 2.0))
 
     def time(self, radius: float) -> float:
-        """When the shock is at a radius, s."""
+        """Time at which the shock is at a radius, s."""
         return math.sqrt(self.alpha * self.rho0 * radius ** (self.j + 2.0) / self.energy)
 
     def behind(self, t: float) -> tuple[float, float, float]:

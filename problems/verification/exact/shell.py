@@ -1,7 +1,7 @@
 """A shell that runs inward and stops when plastic work has used up its kinetic energy.
 
 The material is rigid and perfectly plastic and keeps its volume: u = -u0 (R0/r)^(j - 1). The kinetic
-energy at the start is the plastic work of the way to the stop.
+energy at the start equals the plastic work up to the stop.
 
 Source: Howell and Ball, J. Comput. Phys. 175 (2002) 128; Verney, in Behaviour of Dense Media under High Dynamic Pressures
 (1968) 293. The stopping radius of the inner face follows from the integrals below.
@@ -47,10 +47,10 @@ class Shell:
         return 0.5 * self.rho / self.yield_stress * math.log(self.outer / self.inner)
 
     def path(self, speed: float, points: int = 2000) -> tuple[np.ndarray, np.ndarray]:
-        """Times, s, and radii of the inner face, m, from the start to the stop, by the energy that is left on the way."""
+        """Times, s, and radii of the inner face, m, from the start to the stop, from the energy left at each radius."""
         stop = self.stop(speed)
         share = (np.arange(points) + 0.5) / points
-        radius = stop + (self.inner - stop) * share**2  # the speed falls as the root of the way that is left
+        radius = stop + (self.inner - stop) * share**2  # the speed falls as the root of the distance left
         outer = (radius**self.j + self.outer**self.j - self.inner**self.j) ** (1.0 / self.j)
         mass = 1.0 - radius / outer if self.j == 3 else np.log(outer / radius)
         mass *= 0.5 * self.rho / self.yield_stress * (radius / self.inner) ** self.j

@@ -36,13 +36,13 @@ class Elastic:
 
 
 def sphere(solid: Elastic) -> float:
-    """x of the gravest radial vibration of a sphere."""
+    """x of the lowest radial vibration of a sphere."""
     ratio = solid.longitudinal / (2.0 * solid.transverse)
     return float(brentq(lambda x: x / math.tan(x) - 1.0 + (x * ratio) ** 2, 1e-3, math.pi - 1e-9, xtol=1e-14))
 
 
 def cylinder(solid: Elastic) -> float:
-    """x of the gravest radial vibration of a long cylinder, in plane strain."""
+    """x of the lowest radial vibration of a long cylinder, in plane strain."""
     ratio = solid.transverse / solid.longitudinal
     return float(brentq(lambda x: x * j0(x) - 2.0 * ratio**2 * j1(x), 1e-3, 3.8, xtol=1e-14))
 

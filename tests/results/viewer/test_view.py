@@ -1,5 +1,5 @@
-"""The page of `hydro2d view`: its numbers are those of the run within the error that it states, it is one small file, and what
-cannot be shown is told in one message."""
+"""The page of `hydro2d view`: its numbers are those of the run within the error that it states, it is one small file, and one
+message says what cannot be shown."""
 
 import base64
 import html
@@ -22,12 +22,12 @@ from tests.results import made_run
 
 
 class Page:
-    """A page read back, as its program reads it."""
+    """A page read back in the way its program reads it."""
 
     def __init__(self, text: str):
         self.text = text
-        found = re.search(r'<script type="application/json" id="contents">(.*?)</script>', text, re.S)
-        self.about = json.loads(found[1])
+        match = re.search(r'<script type="application/json" id="contents">(.*?)</script>', text, re.S)
+        self.about = json.loads(match[1])
         self.runs = self.about["runs"]
         self.numbers = [base64.b64decode(each) for each in re.findall(r'class="numbers">([^<]*)</script>', text)]
 
@@ -52,7 +52,7 @@ class Page:
         return np.ascontiguousarray(data.reshape(np.dtype(kind).itemsize, -1).T).view(kind)[:, 0]
 
     def _inflated(self, run: int, place: list[int]) -> bytes:
-        assert place[0] % 3 == 0  # each piece can be cut out of the text
+        assert place[0] % 3 == 0  # every piece can be cut out of the text
         return zlib.decompress(self.numbers[run][place[0] : place[0] + place[1]])
 
     def error(self, run: int, n: int, word: str) -> float:
@@ -101,7 +101,7 @@ def test_fewer_bits_take_less_room(shot):
     assert sizes[0] < 0.8 * sizes[-1]
 
 
-def test_what_is_no_number_stays_none():
+def test_values_that_are_not_numbers_stay_empty():
     values = np.array([[0.0, np.nan], [2.0, 1.0]])
     levels = packing.levels_of(values, 0.0, 2.0, 8)
     np.testing.assert_array_equal(levels, [[0, 255], [254, 127]])
@@ -135,7 +135,7 @@ def test_a_long_history_is_thinned_and_says_so(shot, monkeypatch):
 
 
 def test_ten_thousand_cells_and_a_hundred_dumps_of_five_fields_are_below_ten_megabytes(tmp_path):
-    """Each field has a thousandth of noise in all cells, which no compression removes; real shots have less."""
+    """Each field has noise of a thousandth in all cells, which no compression removes; real shots have less."""
     run = made_run.write(tmp_path / "big", shape=(200, 50), dumps=100, noise=1e-3, names=list(made_run.SCALARS)[:5],
                          everywhere=True)  # fmt: skip
     shown = hydro2d.open_run(run).view()
@@ -257,17 +257,17 @@ def no_dumps(tmp_path):
         (["{run}", "-o", "{run}"], "run"),
     ],
 )
-def test_what_cannot_be_shown_is_told_in_one_message(tmp_path, no_dumps, capsys, arguments, said):
+def test_runs_that_cannot_be_shown_give_one_message(tmp_path, no_dumps, capsys, arguments, said):
     made_run.write(tmp_path / "run", dumps=2, names=["Pressure [Pa]", "Density [kg/m3]"])
     (tmp_path / "empty").mkdir()
     places = {name: str(tmp_path / name) for name in ("run", "empty", "bare")}
     status = call(["view", *(word.format(**places) for word in arguments)])
-    found = capsys.readouterr()
+    printed = capsys.readouterr()
     assert status in (2, 4)
-    assert said in found.err
-    assert "Traceback" not in found.err
-    assert len(found.err.strip().splitlines()) == 1
-    assert found.out == ""
+    assert said in printed.err
+    assert "Traceback" not in printed.err
+    assert len(printed.err.strip().splitlines()) == 1
+    assert printed.out == ""
 
 
 def test_errors_of_the_interface(shot):
@@ -286,7 +286,7 @@ def test_dumps_of_two_meshes_are_refused(tmp_path):
 
 
 def test_a_field_that_only_some_dumps_have(tmp_path):
-    """After a restart with other output.fields: what the last dump lacks is there at the times that have it, and none later."""
+    """After a restart with other output.fields: a field that the last dump lacks is there for the dumps that have it only."""
     run = made_run.write(tmp_path / "run", dumps=2)
     other = made_run.write(tmp_path / "other", dumps=2, names=["Density [kg/m3]"])
     (run / "vtk" / "dump_000001.vtr").write_bytes((other / "vtk" / "dump_000001.vtr").read_bytes())

@@ -1,4 +1,4 @@
-"""The page of `hydro2d view` in a real browser: pictures, numbers, lines, histories, keys, on a desk and on a phone."""
+"""The page of `hydro2d view` in a real browser: pictures, numbers, lines, histories, keys, on a desktop and on a phone."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from hydro2d.output import vtk
 from tests.results import made_run
 
 PHONE, DESK = 390, 1440
-#: what the questions use: when the page is drawn, a pixel of a section, pointers that press and drag, keys
+#: helpers of the questions: when the page is drawn, a pixel of a section, pointers that press and drag, keys
 TOOLS = r"""
   const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
   const settled = async () => { await pause(50); while (drawnStep() !== state.step) await pause(20); await update(); };
@@ -77,7 +77,7 @@ def page(shot, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def pair(shot, tmp_path_factory):
-    """The page of this run beside one with another mesh, which ends earlier."""
+    """The page of this run together with one on another mesh, which ends earlier."""
     folder = tmp_path_factory.mktemp("pair")
     other = hydro2d.open_run(made_run.write(folder / "other", shape=(40, 20), dumps=4, time=30e-6, stations=False))
     return shot.view(other).save(folder / "view.html")
@@ -94,19 +94,19 @@ def dump(shot, n):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_the_page_is_whole_on_a_desk_and_on_a_phone(browser, page, width, scheme):
-    found = ask(browser, page, WHOLE, width, scheme)
-    assert found["faults"] == []
-    assert found["inner"] == width
-    assert found["scroll"] <= width
-    assert found["wide"] == []
-    assert (found["dark"], found["paper"] < 0.2) == (scheme == "dark", scheme == "dark")
-    assert found["requests"] == []
-    assert found["bare"] == []
-    assert [each for each in found["shifts"] if each[0] > 1e-3] == []
-    assert found["canvases"] == 1 + 1 + 5
-    assert found["rows"] > 15
-    assert found["said"] == ("Section of shot at t = 40.00 µs: Pressure [GPa] above, Von Mises Stress [GPa] below")
-    assert found["time"] == "40.00 µs"
+    answer = ask(browser, page, WHOLE, width, scheme)
+    assert answer["faults"] == []
+    assert answer["inner"] == width
+    assert answer["scroll"] <= width
+    assert answer["wide"] == []
+    assert (answer["dark"], answer["paper"] < 0.2) == (scheme == "dark", scheme == "dark")
+    assert answer["requests"] == []
+    assert answer["bare"] == []
+    assert [each for each in answer["shifts"] if each[0] > 1e-3] == []
+    assert answer["canvases"] == 1 + 1 + 5
+    assert answer["rows"] > 15
+    assert answer["said"] == ("Section of shot at t = 40.00 µs: Pressure [GPa] above, Von Mises Stress [GPa] below")
+    assert answer["time"] == "40.00 µs"
 
 
 def test_the_slider_changes_the_picture_and_colours_are_those_of_the_values(browser, page, shot):
@@ -130,18 +130,18 @@ def test_the_slider_changes_the_picture_and_colours_are_those_of_the_values(brow
     early, late = answer["found"]
     assert (early["clock"], late["clock"]) == ("10.00 µs", "40.00 µs")
     assert (early["low"], early["high"]) == (late["low"], late["high"])
-    for n, found in ((1, early), (4, late)):
+    for n, shown in ((1, early), (4, late)):
         value = dump(shot, n).fields["Pressure [Pa]"][37, 2] * 1e-9
-        position = min(max((value - found["low"]) / (found["high"] - found["low"]), 0.0), 1.0)
+        position = min(max((value - shown["low"]) / (shown["high"] - shown["low"]), 0.0), 1.0)
         near = [answer["map"][min(max(int(position * 256) + step, 0), 255)] for step in (-1, 0, 1)]
-        assert found["colour"] in near
-        assert found["mirror"] not in near  # the lower half shows another field
+        assert shown["colour"] in near
+        assert shown["mirror"] not in near  # the lower half shows another field
     assert early["colour"] != late["colour"]
 
 
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_each_half_has_its_own_bar_which_says_so(browser, page, width):
-    """One bar where both halves show one field; else one beside each half, with its name above and its unit along it."""
+    """One bar if both halves show one field; otherwise one next to each half, with its name above and its unit along it."""
     script = r"""
       const words = [], plainFill = CanvasRenderingContext2D.prototype.fillText;
       CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
@@ -155,21 +155,21 @@ def test_each_half_has_its_own_bar_which_says_so(browser, page, width):
       return { two: await told("pressure", "von_mises"), one: await told("pressure", "pressure"), axis: SECTIONS[0].py(
         SECTIONS[0].y(SECTIONS[0].box.top + SECTIONS[0].box.height / 2)), box: SECTIONS[0].box, faults };
     """
-    found = ask(browser, page, script, width)
-    assert found["faults"] == []
-    top, middle, bottom = found["box"]["top"], found["axis"], found["box"]["top"] + found["box"]["height"]
-    at = {text: y for text, _, y in found["two"]}
+    answer = ask(browser, page, script, width)
+    assert answer["faults"] == []
+    top, middle, bottom = answer["box"]["top"], answer["axis"], answer["box"]["top"] + answer["box"]["height"]
+    at = {text: y for text, _, y in answer["two"]}
     assert top <= at["upper half"] < top + 20
     assert middle <= at["lower half"] < middle + 20
-    units = sorted(y for text, _, y in found["two"] if text.endswith("[GPa]"))
+    units = sorted(y for text, _, y in answer["two"] if text.endswith("[GPa]"))
     assert len(units) == 2
     assert at["upper half"] < units[0] < middle < at["lower half"] < units[1] < bottom
-    assert not {"upper half", "lower half"} & {text for text, *_ in found["one"]}
-    assert len([text for text, *_ in found["one"] if text.endswith("[GPa]")]) == 1
-    assert max(x for _, x, _ in found["two"]) < width
+    assert not {"upper half", "lower half"} & {text for text, *_ in answer["one"]}
+    assert len([text for text, *_ in answer["one"] if text.endswith("[GPa]")]) == 1
+    assert max(x for _, x, _ in answer["two"]) < width
 
 
-def test_what_comes_late_is_not_drawn_over_what_is_shown(browser, page):
+def test_a_late_picture_is_not_drawn_over_the_present_one(browser, page):
     script = """
       const run = RUNS[0], values = run.drawn.bind(run);
       run.drawn = async (n, word) => { if (n === 1) await pause(200); return values(n, word); };
@@ -201,7 +201,7 @@ def test_a_click_shows_the_numbers_of_the_cell(browser, page, shot):
     answer = ask(browser, page, script)
     assert answer["faults"] == []
     for n in (4, 2):
-        read, found = dump(shot, n), answer["found"][str(n)]
+        read, answered = dump(shot, n), answer["found"][str(n)]
         expected = {
             "pressure": read.fields["Pressure [Pa]"][30, 3] * 1e-9, "density": read.fields["Density [kg/m3]"][30, 3] * 1e-3,
             "temperature": read.fields["Temperature [K]"][30, 3], "velocity:z": read.fields["Velocity [m/s]"][30, 3, 1],
@@ -210,10 +210,10 @@ def test_a_click_shows_the_numbers_of_the_cell(browser, page, shot):
             "body_temperature:rod": read.fields["Temperature of rod [K]"][30, 3],
             "r": 1e3 * read.r_centres[3], "z": 1e3 * read.z_centres[30], "i": 3, "j": 30,
         }  # fmt: skip
-        assert set(found) >= set(expected)
+        assert set(answered) >= set(expected)
         for word, value in expected.items():
-            off = found[word]["error"] * 1.001 + 1e-4 * (word in "rz")
-            assert found[word]["value"] == pytest.approx(value, abs=off, rel=1e-6)
+            off = answered[word]["error"] * 1.001 + 1e-4 * (word in "rz")
+            assert answered[word]["value"] == pytest.approx(value, abs=off, rel=1e-6)
     shown = answer["found"]["2"]["pressure"]["shown"].replace("−", "-")
     assert float(shown) == pytest.approx(dump(shot, 2).fields["Pressure [Pa]"][30, 3] * 1e-9, abs=2e-3)
     assert answer["csv"].startswith("quantity,unit,shot at 20.00 µs,largest error in shot\n")
@@ -243,32 +243,32 @@ TAP = r"""
 
 
 @pytest.mark.parametrize("j", [14, 30, 40])
-def test_a_tap_on_a_phone_shows_numbers_beside_the_finger(browser, page, shot, j):
-    found = ask(browser, page, TAP.replace("J", str(j), 1), PHONE)
-    assert found["faults"] == []
-    assert found["within"]
-    gaps = found["beside"]
+def test_a_tap_on_a_phone_shows_numbers_next_to_the_finger(browser, page, shot, j):
+    answer = ask(browser, page, TAP.replace("J", str(j), 1), PHONE)
+    assert answer["faults"] == []
+    assert answer["within"]
+    gaps = answer["beside"]
     away = max(gaps["left"], -gaps["right"], gaps["top"], -gaps["bottom"])  # below zero where it covers the finger
     assert 5 < away < 40
-    assert found["table"] > 500, "where all numbers are"
-    for n, told in ((4, found["first"]), (2, found["later"])):
+    assert answer["table"] > 500, "where all numbers are"
+    for n, shown in ((4, answer["first"]), (2, answer["later"])):
         read = dump(shot, n)
-        assert told["z, r [mm]"].replace("−", "-") == f"{1e3 * read.z_centres[j]:.4g}, {1e3 * read.r_centres[3]:.4g}"
-        assert told["body"] == ("void", "rod", "plate")[read.fields["Material"][j, 3]]
-        assert float(told["Pressure [GPa]"].replace("−", "-")) == pytest.approx(
+        assert shown["z, r [mm]"].replace("−", "-") == f"{1e3 * read.z_centres[j]:.4g}, {1e3 * read.r_centres[3]:.4g}"
+        assert shown["body"] == ("void", "rod", "plate")[read.fields["Material"][j, 3]]
+        assert float(shown["Pressure [GPa]"].replace("−", "-")) == pytest.approx(
             read.fields["Pressure [Pa]"][j, 3] * 1e-9, abs=2e-3)  # fmt: skip
-        assert "Velocity [m/s]" in told
-    assert found["first"] != found["later"]
-    assert found["hidden"], "with the mark"
+        assert "Velocity [m/s]" in shown
+    assert answer["first"] != answer["later"]
+    assert answer["hidden"], "with the mark"
 
 
-def test_on_a_desk_the_table_stands_beside_the_picture_alone(browser, page):
+def test_on_a_desktop_the_table_is_next_to_the_picture_only(browser, page):
     assert ask(browser, page, TAP.replace("J", "30", 1), DESK)["shown"] == "none"
 
 
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_the_first_view_is_the_projectile(browser, page, shot, width):
-    """The rod at all times with a rod's diameter around it, and not the mesh, whose fine part alone is half as wide again."""
+    """The rod at all times with a rod's diameter around it, not the mesh, whose fine part alone is half as wide again."""
     script = r"""
       const { box } = SECTIONS[0], first = { ...state.view };
       const seen = [SECTIONS[0].x(box.left), SECTIONS[0].x(box.left + box.width)];
@@ -280,22 +280,22 @@ def test_the_first_view_is_the_projectile(browser, page, shot, width):
       at("projectile").click();
       return { seen, asked, first, whole, fine, again: state.view, hidden: at("projectile").hidden, faults };
     """
-    found = ask(browser, page, script, width)
-    assert found["faults"] == []
+    answer = ask(browser, page, script, width)
+    assert answer["faults"] == []
     ends = []
     for n in range(len(shot.dumps)):
         read = dump(shot, n)
         rows = np.nonzero((read.fields["Volume Fraction for rod"] >= 0.5).any(axis=1))[0]
         moved = read.z_edges[0] - dump(shot, 0).z_edges[0]
         ends += [1e3 * (read.z_edges[rows[0]] - moved), 1e3 * (read.z_edges[rows[-1] + 1] - moved)]
-    low, high = found["asked"][:2]
+    low, high = answer["asked"][:2]
     assert 3.0 < min(ends) - low < 10.0
     assert 3.0 < high - max(ends) < 10.0
-    assert found["seen"][0] <= low + 0.5
-    assert found["seen"][1] >= high - 0.5
-    assert found["again"] == pytest.approx(found["first"])
-    assert found["whole"] < 0.9 * found["first"]["scale"]
-    assert not found["hidden"]
+    assert answer["seen"][0] <= low + 0.5
+    assert answer["seen"][1] >= high - 0.5
+    assert answer["again"] == pytest.approx(answer["first"])
+    assert answer["whole"] < 0.9 * answer["first"]["scale"]
+    assert not answer["hidden"]
 
 
 def test_a_run_without_a_projectile_begins_with_the_fine_mesh(browser, tmp_path):
@@ -303,9 +303,9 @@ def test_a_run_without_a_projectile_begins_with_the_fine_mesh(browser, tmp_path)
     deck = directory / "deck.toml"
     deck.write_text(deck.read_text().replace('rod = "rod"', 'rod = "none"'))
     page = hydro2d.open_run(directory).view().save(tmp_path / "view.html")
-    found = ask(browser, page, """return { same: SECTIONS[0].window("projectile").join() === SECTIONS[0].window("fine").join(),
+    answer = ask(browser, page, """return { same: SECTIONS[0].window("projectile").join() === SECTIONS[0].window("fine").join(),
       hidden: at("projectile").hidden, faults };""")
-    assert found == {"same": True, "hidden": True, "faults": []}
+    assert answer == {"same": True, "hidden": True, "faults": []}
 
 
 def test_a_drag_plots_along_the_line_and_follows_the_slider(browser, page, shot):
@@ -328,15 +328,15 @@ def test_a_drag_plots_along_the_line_and_follows_the_slider(browser, page, shot)
     assert answer["heads"] == ["distance [mm]", "r [mm]", "z [mm]", "Pressure [GPa]"]
     curves = []
     for n in (1, 4):
-        found, read = answer["found"][str(n)], dump(shot, n)
-        assert found["x"][-1] == pytest.approx(35.0, abs=0.3)
-        i = np.searchsorted(read.r_edges, np.array(found["r"]) * 1e-3) - 1
-        j = np.searchsorted(read.z_edges, np.array(found["z"]) * 1e-3) - 1
+        shown, read = answer["found"][str(n)], dump(shot, n)
+        assert shown["x"][-1] == pytest.approx(35.0, abs=0.3)
+        i = np.searchsorted(read.r_edges, np.array(shown["r"]) * 1e-3) - 1
+        j = np.searchsorted(read.z_edges, np.array(shown["z"]) * 1e-3) - 1
         solid = read.fields["Volume Fraction for rod"] + read.fields["Volume Fraction for plate"] >= 0.5
         expected = np.where(solid, read.fields["Pressure [Pa]"] * 1e-9, np.nan)[j, i]
-        curves.append(np.array(found["y"], dtype=float))
+        curves.append(np.array(shown["y"], dtype=float))
         assert np.mean(np.isnan(curves[-1]) != np.isnan(expected)) < 0.01  # a sample on an edge may fall into either cell
-        assert np.nanquantile(np.abs(curves[-1] - expected), 0.98) <= found["error"] * 1.01
+        assert np.nanquantile(np.abs(curves[-1] - expected), 0.98) <= shown["error"] * 1.01
         assert np.isfinite(curves[-1]).sum() > 200
     assert not np.array_equal(curves[0], curves[1], equal_nan=True)
 
@@ -415,17 +415,17 @@ def test_the_wheel_zooms_about_the_pointer_and_drags_move(browser, page):
       const { view, line, probe } = state;
       return { first, zoomed, place, still, moved, again, pinched, last: view, line, probe, faults };
     """
-    found = ask(browser, page, script)
-    assert found["faults"] == []
-    assert found["zoomed"]["scale"] > 1.5 * found["first"]["scale"]
-    assert found["still"] == pytest.approx(found["place"], abs=1.0)  # places of the wheel are whole pixels
-    scale = found["zoomed"]["scale"]
-    assert found["moved"]["x"] == pytest.approx(found["zoomed"]["x"] - 60 / scale)
-    assert found["moved"]["y"] == pytest.approx(found["zoomed"]["y"] + 20 / scale)
-    assert found["again"]["x"] == pytest.approx(found["moved"]["x"] + 10 / scale)
-    assert found["pinched"]["scale"] == pytest.approx(2 * found["again"]["scale"])
-    assert found["last"] == pytest.approx(found["first"])
-    assert (found["line"], found["probe"]) == (None, None)
+    answer = ask(browser, page, script)
+    assert answer["faults"] == []
+    assert answer["zoomed"]["scale"] > 1.5 * answer["first"]["scale"]
+    assert answer["still"] == pytest.approx(answer["place"], abs=1.0)  # places of the wheel are whole pixels
+    scale = answer["zoomed"]["scale"]
+    assert answer["moved"]["x"] == pytest.approx(answer["zoomed"]["x"] - 60 / scale)
+    assert answer["moved"]["y"] == pytest.approx(answer["zoomed"]["y"] + 20 / scale)
+    assert answer["again"]["x"] == pytest.approx(answer["moved"]["x"] + 10 / scale)
+    assert answer["pinched"]["scale"] == pytest.approx(2 * answer["again"]["scale"])
+    assert answer["last"] == pytest.approx(answer["first"])
+    assert (answer["line"], answer["probe"]) == (None, None)
 
 
 def test_ranges_clipping_logarithm_and_typed_limits(browser, page):
@@ -457,15 +457,15 @@ def test_ranges_clipping_logarithm_and_typed_limits(browser, page):
       return { all, same, now, clipped, typed, mode, log: [100, 200, 400].map(scale.position), refused: range(),
                said: at("said").textContent, faults };
     """
-    found = ask(browser, page, script)
-    assert found["faults"] == []
-    assert found["all"] == found["same"]
-    assert found["now"] != found["all"]
-    assert found["clipped"][1] < found["now"][1]
-    assert (found["typed"], found["mode"]) == ([100, 400], "own")
-    assert found["log"] == pytest.approx([0.0, 0.5, 1.0])
-    assert found["refused"] == [100, 400]
-    assert "must be a number below the upper end" in found["said"]
+    answer = ask(browser, page, script)
+    assert answer["faults"] == []
+    assert answer["all"] == answer["same"]
+    assert answer["now"] != answer["all"]
+    assert answer["clipped"][1] < answer["now"][1]
+    assert (answer["typed"], answer["mode"]) == ([100, 400], "own")
+    assert answer["log"] == pytest.approx([0.0, 0.5, 1.0])
+    assert answer["refused"] == [100, 400]
+    assert "must be a number below the upper end" in answer["said"]
 
 
 def test_keys(browser, page):
@@ -505,16 +505,16 @@ def test_keys(browser, page):
       return { steps, zoomed, x, whole, fine, after, open, asleep, probe, playing, label, ended: [state.step, state.playing],
                theme: document.documentElement.dataset.theme, faults };
     """
-    found = ask(browser, page, script)
-    assert found["faults"] == []
-    assert found["steps"] == [0, 1, 2, 1, 4]
-    assert found["zoomed"] == pytest.approx(1.25)
-    assert found["whole"] < 0.9 * found["fine"]
-    assert found["after"] == {"words": ["density", "temperature"], "range": "now", "log": True, "probe": True, "dark": "dark"}
-    assert (found["open"], found["asleep"], found["probe"]) == (True, 4, None)
-    assert (found["playing"], found["label"]) == (True, "Pause")
-    assert found["ended"] == [4, False]  # from the first to the last
-    assert found["theme"] == "dark"  # a key in a choice is the choice's own
+    answer = ask(browser, page, script)
+    assert answer["faults"] == []
+    assert answer["steps"] == [0, 1, 2, 1, 4]
+    assert answer["zoomed"] == pytest.approx(1.25)
+    assert answer["whole"] < 0.9 * answer["fine"]
+    assert answer["after"] == {"words": ["density", "temperature"], "range": "now", "log": True, "probe": True, "dark": "dark"}
+    assert (answer["open"], answer["asleep"], answer["probe"]) == (True, 4, None)
+    assert (answer["playing"], answer["label"]) == (True, "Pause")
+    assert answer["ended"] == [4, False]  # from the first to the last
+    assert answer["theme"] == "dark"  # a key pressed in a choice belongs to the choice
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -527,13 +527,13 @@ def test_dark_and_light_can_be_chosen(browser, page, scheme):
       await pause(100);
       return { before, after: paper(), void_, now: colour(-40, 6), pressed: at("dark").getAttribute("aria-pressed"), faults };
     """
-    found = ask(browser, page, script, scheme=scheme)
-    assert found["faults"] == []
+    answer = ask(browser, page, script, scheme=scheme)
+    assert answer["faults"] == []
     papers = {"light": "rgb(244, 245, 247)", "dark": "rgb(20, 23, 27)"}
     other = "light" if scheme == "dark" else "dark"
-    assert (found["before"], found["after"]) == (papers[scheme], papers[other])
-    assert found["void_"] != found["now"]
-    assert found["pressed"] == ("true" if other == "dark" else "false")
+    assert (answer["before"], answer["after"]) == (papers[scheme], papers[other])
+    assert answer["void_"] != answer["now"]
+    assert answer["pressed"] == ("true" if other == "dark" else "false")
 
 
 def test_two_runs_share_the_time_and_the_colours(browser, pair):
@@ -588,25 +588,25 @@ def test_a_planar_run_without_a_mirror_image_has_one_field(browser, tmp_path):
       return { hidden: at("half-1").hidden, legend: at("half-0").querySelector("legend").textContent, empty, faults,
                bottom: SECTIONS[0].window(false)[2], cell: SECTIONS[0].cellAt({ x: 0, y: 2 }) !== null };
     """
-    found = ask(browser, page, script)
-    assert found == {"hidden": True, "legend": "Field", "empty": None, "faults": [], "bottom": 0, "cell": True}
+    answer = ask(browser, page, script)
+    assert answer == {"hidden": True, "legend": "Field", "empty": None, "faults": [], "bottom": 0, "cell": True}
 
 
 def test_a_run_without_history_and_with_one_dump(browser, tmp_path):
     run = made_run.write(tmp_path / "run", dumps=1)
     (run / "history.h5").unlink()
     page = hydro2d.open_run(run).view().save(tmp_path / "view.html")
-    found = ask(browser, page, "key(' '); await pause(100); return { cards: at('charts').children.length, faults, "
+    answer = ask(browser, page, "key(' '); await pause(100); return { cards: at('charts').children.length, faults, "
                                "playing: state.playing, said: SECTIONS[0].when.textContent };")  # fmt: skip
-    assert found == {"cards": 1, "faults": [], "playing": False, "said": "t = 0.00 µs"}
+    assert answer == {"cards": 1, "faults": [], "playing": False, "said": "t = 0.00 µs"}
 
 
-def test_a_browser_that_is_too_old_is_told(browser, page, tmp_path):
+def test_a_browser_that_is_too_old_gets_a_message(browser, page, tmp_path):
     old = tmp_path / "old.html"
     text = page.read_text(encoding="utf-8")
     old.write_text(text.replace("<head>", "<head><script>delete window.DecompressionStream;</script>"), encoding="utf-8")
-    found = browser.ask(old, """
+    answer = browser.ask(old, """
       const seen = (selector) => getComputedStyle(document.querySelector(selector)).visibility;
       return { said: at("heading").textContent, header: seen("h1"), rest: seen("main"), faults };""", DESK)
-    assert found == {"said": "This browser is too old for this page: Chrome 80, Firefox 113 or Safari 16.4 can show it.",
-                     "header": "visible", "rest": "hidden", "faults": []}  # fmt: skip
+    assert answer == {"said": "This browser is too old for this page: Chrome 80, Firefox 113 or Safari 16.4 can show it.",
+                      "header": "visible", "rest": "hidden", "faults": []}  # fmt: skip
