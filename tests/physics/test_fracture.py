@@ -1,10 +1,11 @@
 """Where material fractures, and how much void opens."""
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d.mesh.fields import CRUSHED, FAILED
+from hydro2d.mesh.fields import CRUSHED, FAILED, INTERNAL, RHO
 from hydro2d.physics import fracture
 
 crushed = fracture.crushed.py_func
@@ -64,3 +65,10 @@ def test_damage_jumps_once_it_reaches_one(before, increment, after):
 def test_the_opening_of_cracks_is_their_volume_per_area():
     """Half of a cell of 40 um, with 1e-5 m^3/kg of cracks in 2000 kg/m^3: 2 % of 20 um."""
     assert fracture.crack_opening.py_func(0.5, 2000.0, 1e-5, 4e-5) == pytest.approx(4e-7, rel=1e-15)
+
+
+def test_new_void_leaves_the_mass_of_a_body_alone():
+    vof, q = np.full((1, 1, 1), 0.8), np.full((INTERNAL, 1, 1, 1), 3.0)
+    fracture.open_void.py_func(0, 0, 0, 0.9, vof, q)
+    assert (vof[0, 0, 0], q[RHO, 0, 0, 0]) == pytest.approx((0.72, 3.0 / 0.9))
+    assert (np.delete(q, RHO, axis=0) == 3.0).all()
