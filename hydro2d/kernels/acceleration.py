@@ -188,39 +188,23 @@ def accelerate_row(b, j, w):
     lo, n = accelerated_columns(b, j, w)
     copy_beside(w.u0[b, j], w.u[b, j], w.i0 - 2, lo, lo + n, w.i1 + 3)
     copy_beside(w.v0[b, j], w.v[b, j], w.i0 - 2, lo, lo + n, w.i1 + 3)
-    hb = w.dz[j - 1]
-    ht = w.dz[j]
-    rr_b = w.sig_rr[j - 1]
-    rr_t = w.sig_rr[j]
-    zz_b = w.sig_zz[j - 1]
-    zz_t = w.sig_zz[j]
-    tt_b = w.sig_tt[j - 1]
-    tt_t = w.sig_tt[j]
-    rz_b = w.sig_rz[j - 1]
-    rz_t = w.sig_rz[j]
-    w_b = w.hg_coefficient[j - 1]
-    w_t = w.hg_coefficient[j]
-    u_b = w.u0[b, j - 1]
-    u_c = w.u0[b, j]
-    u_t = w.u0[b, j + 1]
-    v_b = w.v0[b, j - 1]
-    v_c = w.v0[b, j]
-    v_t = w.v0[b, j + 1]
+    u_j = w.u0[b, j]
+    v_j = w.v0[b, j]
     m_j = w.mass[b, j]
     un = w.u[b, j]
     vn = w.v[b, j]
     for x in range(n):
         i = lo + x
         # Step 1: forces of the stresses of the four cells around the vertex, and of their hourglass filters (4 and 6)
-        force_r = radial_force(i, rr_b, rr_t, tt_b, tt_t, rz_b, rz_t, w.metrics, hb, ht)
-        force_z = axial_force(i, zz_b, zz_t, rz_b, rz_t, w.metrics, hb, ht)
-        force_r += hourglass_force(i, w_b, w_t, u_b, u_c, u_t)
-        force_z += hourglass_force(i, w_b, w_t, v_b, v_c, v_t)
+        force_r = radial_force(j, i, w.sig_rr, w.sig_tt, w.sig_rz, w.metrics, w.dz)
+        force_z = axial_force(j, i, w.sig_zz, w.sig_rz, w.metrics, w.dz)
+        force_r += hourglass_force(j, i, w.hg_coefficient, w.u0[b])
+        force_z += hourglass_force(j, i, w.hg_coefficient, w.v0[b])
         # Step 2: the velocity (5); a vertex without mass has none
         keep = 1.0 if m_j[i] > 0.0 else 0.0
         scale = keep * w.dt / max(m_j[i], TINY)
-        radial = keep * u_c[i] + scale * force_r
-        axial = keep * v_c[i] + scale * force_z
+        radial = keep * u_j[i] + scale * force_r
+        axial = keep * v_j[i] + scale * force_z
         un[i] = radial if abs(radial) > SILENCE else 0.0
         vn[i] = axial if abs(axial) > SILENCE else 0.0
 

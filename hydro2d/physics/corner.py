@@ -43,38 +43,37 @@ def corner_force(rr, zz, tt, rz, c_rr, c_tt, c_z, g):
 
 
 @point
-def radial_force(i, rr_b, rr_t, tt_b, tt_t, rz_b, rz_t, metrics, h_b, h_t):
-    """Radial force of the stresses of the four cells around a vertex in column i, N per radian (equation 4).
+def radial_force(j, i, rr, tt, rz, metrics, dz):
+    """Radial force of the stresses of the four cells around vertex (j, i), N per radian (equation 4).
 
-    rr_b to rz_t : sigma_rr, sigma_tt and sigma_rz of the rows below and above;  h_b, h_t : heights of these rows, m
+    rr, tt, rz : sigma_rr, sigma_tt and sigma_rz [j, i], Pa;  dz : heights of rows [j], m
     """
-    k = i - 1
+    b, k, h_b, h_t = j - 1, i - 1, dz[j - 1], dz[j]
     half, hoop_k, hoop_i = 0.5 * metrics[FACE_R, i], metrics[HOOP, k], metrics[HOOP, i]
-    normal = (half - hoop_k) * (h_b * rr_b[k] + h_t * rr_t[k]) - (half + hoop_i) * (h_b * rr_b[i] + h_t * rr_t[i])
-    hoop = hoop_k * (h_b * tt_b[k] + h_t * tt_t[k]) + hoop_i * (h_b * tt_b[i] + h_t * tt_t[i])
-    shear = metrics[AZ_OUT, k] * (rz_b[k] - rz_t[k]) + metrics[AZ_IN, i] * (rz_b[i] - rz_t[i])
+    normal = (half - hoop_k) * (h_b * rr[b, k] + h_t * rr[j, k]) - (half + hoop_i) * (h_b * rr[b, i] + h_t * rr[j, i])
+    hoop = hoop_k * (h_b * tt[b, k] + h_t * tt[j, k]) + hoop_i * (h_b * tt[b, i] + h_t * tt[j, i])
+    shear = metrics[AZ_OUT, k] * (rz[b, k] - rz[j, k]) + metrics[AZ_IN, i] * (rz[b, i] - rz[j, i])
     return -(normal + hoop + shear)
 
 
 @point
-def axial_force(i, zz_b, zz_t, rz_b, rz_t, metrics, h_b, h_t):
-    """Axial force of the stresses of the four cells around a vertex in column i, N per radian (equation 4)."""
-    k = i - 1
-    normal = metrics[AZ_OUT, k] * (zz_b[k] - zz_t[k]) + metrics[AZ_IN, i] * (zz_b[i] - zz_t[i])
-    shear = metrics[MID_R, k] * (h_b * rz_b[k] + h_t * rz_t[k]) - metrics[MID_R, i] * (h_b * rz_b[i] + h_t * rz_t[i])
+def axial_force(j, i, zz, rz, metrics, dz):
+    """Axial force of the stresses of the four cells around vertex (j, i), N per radian (equation 4)."""
+    b, k, h_b, h_t = j - 1, i - 1, dz[j - 1], dz[j]
+    normal = metrics[AZ_OUT, k] * (zz[b, k] - zz[j, k]) + metrics[AZ_IN, i] * (zz[b, i] - zz[j, i])
+    shear = metrics[MID_R, k] * (h_b * rz[b, k] + h_t * rz[j, k]) - metrics[MID_R, i] * (h_b * rz[b, i] + h_t * rz[j, i])
     return -(normal + shear)
 
 
 @point
-def hourglass_force(i, kappa_b, kappa_t, u_b, u_c, u_t):
-    """Force of the hourglass filters of the four cells around a vertex in column i, N per radian (equation 6).
+def hourglass_force(j, i, kappa, u):
+    """Force of the hourglass filters of the four cells around vertex (j, i), N per radian (equation 6).
 
-    kappa_b, kappa_t : coefficients of the filter below and above, kg/s per radian
-    u_b, u_c, u_t : one component of the velocity in the vertex rows below, of the vertex, and above
+    kappa : coefficients of the filter [j, i], kg/s per radian;  u : one component of the velocity [j, i], m/s
     """
-    k = i - 1
-    inner = kappa_t[k] * hourglass_mode(k, u_c, u_t) - kappa_b[k] * hourglass_mode(k, u_b, u_c)
-    outer = kappa_b[i] * hourglass_mode(i, u_b, u_c) - kappa_t[i] * hourglass_mode(i, u_c, u_t)
+    b, k = j - 1, i - 1
+    inner = kappa[j, k] * hourglass_mode(k, u[j], u[j + 1]) - kappa[b, k] * hourglass_mode(k, u[b], u[j])
+    outer = kappa[b, i] * hourglass_mode(i, u[b], u[j]) - kappa[j, i] * hourglass_mode(i, u[j], u[j + 1])
     return inner + outer
 
 

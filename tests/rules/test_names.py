@@ -7,7 +7,7 @@ import pytest
 from tests.rules import source
 
 #: largest number of names in signatures and calls of hydro2d/kernels together, and of parameters of any function there
-MOST_NAMES, MOST_PARAMETERS = 2600, 20
+MOST_NAMES, MOST_PARAMETERS = 2650, 20
 KERNELS = [file for name, file in sorted(source.modules().items()) if name.startswith("hydro2d.kernels.")]
 
 
