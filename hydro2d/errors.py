@@ -1,12 +1,12 @@
-"""Messages about wrong decks: file, line, key, what is allowed, and the nearest valid name.
-
-tomllib gives values without line numbers, so ``key_lines`` reads the text a second time and notes the line of each key.
-"""
+"""Messages about wrong decks: file, line, key, what is allowed, and the nearest valid name."""
 
 from __future__ import annotations
 
+import bisect
 import difflib
 import functools
+import itertools
+import tomllib
 from collections.abc import Iterable
 from contextlib import contextmanager
 
@@ -108,151 +108,45 @@ def in_words(entry: dict) -> str:
     return f"{message.replace('input ', '')}, is {entry['input']!r}"
 
 
-class _Scanner:
-    """Reads TOML that tomllib has accepted and notes the line of every key and of every array element."""
-
-    def __init__(self, text: str):
-        self.text, self.at, self.line = text, 0, 1
-        self.lines: dict[tuple, int] = {}
-        self.counts: dict[tuple, int] = {}
-
-    def run(self) -> dict[tuple, int]:
-        prefix: tuple = ()
-        while self._skip(newlines=True):
-            if self._next() == "[":
-                prefix = self._header()
-            else:
-                self._pair(prefix)
-        return self.lines
-
-    def _next(self, length: int = 1) -> str:
-        return self.text[self.at : self.at + length]
-
-    def _take(self, length: int = 1) -> str:
-        text = self._next(length)
-        self.at += length
-        self.line += text.count("\n")
-        return text
-
-    def _skip(self, newlines: bool) -> bool:
-        """Skips blanks and comments; False at the end of the text."""
-        while self.at < len(self.text):
-            character = self._next()
-            if character == "#":
-                while self.at < len(self.text) and self._next() != "\n":
-                    self.at += 1
-            elif character in " \t\r" or (newlines and character == "\n"):
-                self._take()
-            else:
-                return True
-        return False
-
-    def _note(self, path: tuple, line: int) -> None:
-        for length in range(1, len(path) + 1):
-            self.lines.setdefault(path[:length], line)
-
-    def _header(self) -> tuple:
-        line, array = self.line, self._next(2) == "[["
-        self._take(2 if array else 1)
-        keys = self._dotted()
-        self._take(2 if array else 1)
-        path = self._resolved(keys[:-1])
-        if array:
-            place = path + keys[-1:]
-            index = self.counts.get(place, 0)
-            self.counts[place] = index + 1
-            path = place + (index,)
-        else:
-            path = self._resolved(keys)
-        self._note(path, line)
-        return path
-
-    def _resolved(self, keys: tuple) -> tuple:
-        """Keys, with the index of the latest element where a key names an array of tables."""
-        path: tuple = ()
-        for key in keys:
-            path += (key,)
-            if path in self.counts:
-                path += (self.counts[path] - 1,)
-        return path
-
-    def _dotted(self) -> tuple:
-        keys = []
-        while True:
-            self._skip(newlines=False)
-            keys.append(self._key())
-            self._skip(newlines=False)
-            if self._next() != ".":
-                return tuple(keys)
-            self._take()
-
-    def _key(self) -> str:
-        if self._next() in "\"'":
-            return self._string()
-        start = self.at
-        while self._next() and (self._next().isalnum() or self._next() in "-_"):
-            self.at += 1
-        return self.text[start : self.at]
-
-    def _string(self) -> str:
-        quote = self._next()
-        ends = quote * 3 if self._next(3) == quote * 3 else quote
-        self._take(len(ends))
-        start = self.at
-        while self._next(len(ends)) != ends:
-            self._take(2 if quote == '"' and self._next() == "\\" else 1)
-        text = self.text[start : self.at]
-        self._take(len(ends))
-        while len(ends) == 3 and self._next() == quote:  # a quotation mark may stand before the closing three
-            self._take()
-        return text
-
-    def _pair(self, prefix: tuple) -> None:
-        line = self.line
-        path = prefix + self._dotted()
-        self._note(path, line)
-        self._take()  # =
-        self._skip(newlines=False)
-        self._value(path)
-
-    def _value(self, path: tuple) -> None:
-        character = self._next()
-        if character in "\"'":
-            self._string()
-        elif character == "[":
-            self._list(path)
-        elif character == "{":
-            self._inline_table(path)
-        else:
-            while self._next() and self._next() not in ",]}#\n":
-                self.at += 1
-
-    def _list(self, path: tuple) -> None:
-        self._take()
-        index = 0
-        while self._skip(newlines=True) and self._next() != "]":
-            self._note(path + (index,), self.line)
-            self._value(path + (index,))
-            index += 1
-            self._skip(newlines=True)
-            if self._next() == ",":
-                self._take()
-        self._take()
-
-    def _inline_table(self, path: tuple) -> None:
-        self._take()
-        while self._skip(newlines=True) and self._next() != "}":
-            self._pair(path)
-            self._skip(newlines=True)
-            if self._next() == ",":
-                self._take()
-        self._take()
+#: what may be missing after the first lines of a TOML file: ends of strings, arrays and inline tables
+_ENDINGS = tuple(end + "".join(brackets) for depth in range(4) for end in ("", '"""', "'''")
+                 for brackets in itertools.product("]}", repeat=depth))  # fmt: skip
 
 
-@functools.lru_cache(maxsize=16)
-def key_lines(text: str) -> dict[tuple, int]:
-    """Line of every key of a valid TOML text; elements of arrays are addressed by their index, from 0."""
-    return _Scanner(text.replace("\r\n", "\n")).run()
+@functools.lru_cache(maxsize=256)
+def _first_lines(text: str, number: int) -> dict | None:
+    """The data in the first lines of a TOML text, with open strings, arrays and tables closed; None where they do not end."""
+    head = "\n".join(text.split("\n")[:number])
+    for ending in _ENDINGS:
+        try:
+            return tomllib.loads(f"{head}\n{ending}")
+        except tomllib.TOMLDecodeError:
+            continue
+    return None
+
+
+def line_of(path: tuple, text: str) -> int | None:
+    """Line of a key in a valid TOML text, None if it has no such key; elements of arrays are counted from 0.
+
+    tomllib gives values without line numbers: the line is the first that has to be read for the key to be there.
+    """
+    text = text.replace("\r\n", "\n")
+    last = text.count("\n") + 1
+
+    def is_there(number: int) -> bool:
+        while (data := _first_lines(text, number)) is None:
+            number += 1
+        return _has(data, path)
+
+    return bisect.bisect_left(range(last + 1), True, key=is_there) if is_there(last) else None
+
+
+def _has(data, path: tuple) -> bool:
+    for part in path:
+        if not (part in data if isinstance(data, dict) else isinstance(data, list) and part in range(len(data))):
+            return False
+        data = data[part]
+    return True
 
 
 def spelled(path: tuple) -> str:
@@ -295,7 +189,7 @@ class Sources:
                 return said
         for length in range(len(named), 0, -1):
             for name, data, text in self._files:
-                line = _line_of(named[:length], data, key_lines(text))
+                line = _line_of(named[:length], data, text)
                 if line is not None:
                     return f"{name}:{line}"
         return self._files[0][0] if self._files else ""
@@ -315,7 +209,7 @@ def _named(path: tuple, data) -> tuple:
     return result
 
 
-def _line_of(named: tuple, data, lines: dict[tuple, int]) -> int | None:
+def _line_of(named: tuple, data, text: str) -> int | None:
     path: tuple = ()
     for part in named:
         if isinstance(data, list):
@@ -327,7 +221,7 @@ def _line_of(named: tuple, data, lines: dict[tuple, int]) -> int | None:
             path, data = path + (part,), data[part]
         else:
             return None
-    return lines.get(path)
+    return line_of(path, text)
 
 
 def entry_index(entries: list, key) -> int | None:

@@ -13,7 +13,7 @@ import pytest
 
 from hydro2d.deck import deck, keys
 from hydro2d.deck.mesh import axis_edges
-from hydro2d.errors import key_lines, nearest
+from hydro2d.errors import line_of, nearest
 
 TEXT = """\
 title = "a rod and a plate"
@@ -634,12 +634,14 @@ z = 1
         (("last", "z"), 30),
     ],
 )
-def test_key_lines(path, line):
-    assert key_lines(AWKWARD)[path] == line
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_the_line_of_a_key(path, line, newline):
+    assert line_of(path, AWKWARD.replace("\n", newline)) == line
 
 
-def test_key_lines_of_windows_files():
-    assert key_lines(AWKWARD.replace("\n", "\r\n")) == key_lines(AWKWARD)
+def test_a_key_that_is_not_there_has_no_line():
+    assert line_of(("array", 2), AWKWARD) is None
+    assert line_of(("list", "d"), AWKWARD) is None
 
 
 @pytest.mark.parametrize(("override", "depth"), [
