@@ -7,11 +7,13 @@ float64 array that its ``@point`` functions read.
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import ModuleType
+from typing import Any, Protocol
+
+from hydro2d.errors import unknown
 
 
 class Required:
@@ -23,7 +25,14 @@ class Required:
 
 REQUIRED = Required()
 
-ANY, POSITIVE, NON_NEGATIVE = "any", "positive", "non-negative"
+ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "fraction"
+
+
+def check_sign(name: str, number: float, sign: str, error: type[ValueError] = ValueError) -> None:
+    """Raises an error for a number outside its range; sign : ANY, POSITIVE, NON_NEGATIVE or FRACTION (at least 0, below 1)."""
+    inside = {ANY: True, POSITIVE: number > 0.0, NON_NEGATIVE: number >= 0.0, FRACTION: 0.0 <= number < 1.0}[sign]
+    if not inside:
+        raise error(f"{name} = {number:g}: must be {'at least 0 and below 1' if sign == FRACTION else sign}")
 
 
 @dataclass(frozen=True)
@@ -51,32 +60,47 @@ class Parameter:
         """The value as a float. Raises ValueError if it is not a number or outside the range of the parameter."""
         number = float(value)
         if math.isnan(number) or (math.isinf(number) and number != self.default):
-            raise ValueError(f"{self.name} = {value}: not a finite number")
-        if (self.sign == POSITIVE and number <= 0.0) or (self.sign == NON_NEGATIVE and number < 0.0):
-            raise ValueError(f"{self.name} = {value}: must be {self.sign}")
+            raise ValueError(f"{self.name} = {number:g}: not a finite number")
+        check_sign(self.name, number, self.sign)
         return number
 
 
-def collect(model: str, parameters: Iterable[Parameter], values: Mapping[str, float]) -> dict[str, float]:
-    """Every parameter of a model by name, with defaults filled in.
+class Declared(Protocol):
+    """A quantity that a model declares: a parameter of a material model, an input of an analytic one."""
 
-    Raises ValueError for a missing, unknown or impossible value.
+    @property
+    def name(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def default(self) -> Any: ...
+
+    def check(self, value: Any) -> Any:
+        """The value as the model takes it. Raises ValueError for an impossible one."""
+
+
+def collect(model: str, declared: Iterable[Declared], values: Mapping[str, Any], noun: str = "parameter",
+            error: type[ValueError] = ValueError) -> dict[str, Any]:  # fmt: skip
+    """Every declared quantity by name, with defaults filled in.
+
+    noun : word for a quantity in messages;  error : raised for a missing, unknown or impossible value
     """
-    known = {parameter.name: parameter for parameter in parameters}
+    known = {each.name: each for each in declared}
     for name in values:
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = f"; did you mean {near[0]}?" if near else ""
-            raise ValueError(f"{model}: unknown parameter {name!r}{hint} (known: {', '.join(known) or 'none'})")
+            raise error(f"{model}: {unknown(noun, str(name), known)}")
     collected = {}
-    for name, parameter in known.items():
-        if name not in values and parameter.required:
-            unit = f", {parameter.unit}" if parameter.unit else ""
-            raise ValueError(f"{model}: parameter {name!r} is missing ({parameter.description}{unit})")
+    for name, each in known.items():
+        value = values.get(name, each.default)
+        if isinstance(value, Required):
+            unit = "" if each.unit in ("", "1") else f", {each.unit}"
+            raise error(f"{model}: {noun} {name!r} is missing ({each.description}{unit})")
         try:
-            collected[name] = parameter.check(values.get(name, parameter.default))
-        except ValueError as error:
-            raise ValueError(f"{model}: {error}") from None
+            collected[name] = each.check(value)
+        except ValueError as problem:
+            raise error(f"{model}: {problem}") from None
     return collected
 
 
@@ -119,7 +143,5 @@ def described(module: ModuleType, kind: str) -> Description:
 def by_name(name: str, kind: str, models: Mapping[str, ModuleType]) -> ModuleType:
     """The module of a model. Raises ValueError with the nearest name if there is none."""
     if name not in models:
-        near = difflib.get_close_matches(name, models, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise ValueError(f"no {kind} is named {name!r}{hint} (known: {', '.join(models)})")
+        raise ValueError(unknown(kind, name, models))
     return models[name]

@@ -24,8 +24,8 @@ def test_defaults_are_filled_in():
     ("values", "message"),
     [
         ({}, r"spring: parameter 'stiffness' is missing \(a stiffness, Pa\)"),
-        ({"stifness": 1.0}, r"unknown parameter 'stifness'; did you mean stiffness\?"),
-        ({"stiffness": 0.0}, "spring: stiffness = 0.0: must be positive"),
+        ({"stifness": 1.0}, r'unknown parameter "stifness"; did you mean "stiffness"\?'),
+        ({"stiffness": 0.0}, "spring: stiffness = 0: must be positive"),
         ({"stiffness": math.inf}, "not a finite number"),
         ({"stiffness": 1.0, "limit": -1.0}, "must be non-negative"),
         ({"stiffness": 1.0, "shift": math.nan}, "not a finite number"),

@@ -59,7 +59,7 @@ def row(case: Case) -> None:
 
 def wrong_parameters(case: Case) -> None:
     """row refuses parameters that are unknown, missing or not numbers, and names them"""
-    refused(case, {**case.values, "colour": 1.0}, "unknown parameter 'colour'")
+    refused(case, {**case.values, "colour": 1.0}, 'unknown parameter "colour"')
     for parameter in case.parameters:
         refused(case, {**case.values, parameter.name: math.nan}, parameter.name)
         if parameter.required:
@@ -71,7 +71,7 @@ def ranges(case: Case) -> None:
     """row refuses negative and zero values where the range of a parameter excludes them"""
     for parameter in case.parameters:
         for number in {POSITIVE: (-1.0, 0.0), NON_NEGATIVE: (-1.0,)}.get(parameter.sign, ()):
-            refused(case, {**case.values, parameter.name: number}, f"{parameter.name} = {number}")
+            refused(case, {**case.values, parameter.name: number}, f"{parameter.name} = {number:g}")
 
 
 def refused(case: Case, values: Mapping[str, float], words: str) -> None:

@@ -16,8 +16,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import FRACTION, NON_NEGATIVE
 from hydro2d.penetration import inputs
-from hydro2d.penetration.model import FRACTION, NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 
 #: powers of the density ratio and of rho_p V^2/sigma in the nondimensional velocity
 DENSITY_POWER, VELOCITY_POWER = -0.14, 0.2

@@ -15,8 +15,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import NON_NEGATIVE
 from hydro2d.penetration import inputs
-from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 
 #: the solution is integrated towards the wall, to exp(-DEEP) of the mass inside the plastic front
 DEEP = 32.0

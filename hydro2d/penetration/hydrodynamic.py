@@ -17,19 +17,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import ANY, NON_NEGATIVE
 from hydro2d.penetration import inputs
-from hydro2d.penetration.model import (
-    ANY,
-    NON_NEGATIVE,
-    Example,
-    Input,
-    InputError,
-    Model,
-    Output,
-    complain,
-    non_negative,
-    positive,
-)
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, complain, non_negative, positive
 
 #: sigma_t over the yield stress of 7075-T6, as found by Allen and Rogers for rods of six metals: Anderson (2017), section 3.2
 ALLEN_ROGERS_FACTOR = 3.9

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from hydro2d.penetration.model import ANY, FRACTION, NON_NEGATIVE, Input
+from hydro2d.parameters import ANY, FRACTION, NON_NEGATIVE
+from hydro2d.penetration.model import Input
 
 ROD_DENSITY = Input("rod.density", "kg/m^3", "density of the rod", "rho_p")
 ROD_STRENGTH = Input("rod.strength", "Pa", "flow stress of the rod, against rigid-body motion or erosion", "Y_p")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -12,21 +11,13 @@ from typing import TypeVar
 import numpy as np
 
 from hydro2d import units
+from hydro2d.errors import unknown
+from hydro2d.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Required, check_sign, collect
 
 
 class InputError(ValueError):
     """An input that a model cannot take; the message is for the user."""
 
-
-class Required:
-    """The default of an input that must be given."""
-
-    def __repr__(self) -> str:
-        return "required"
-
-
-REQUIRED = Required()
-ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "fraction"
 
 Value = float | str | None
 T = TypeVar("T")
@@ -73,8 +64,7 @@ class Input:
             return None
         if self.choices:
             if value not in self.choices:
-                known = ", ".join(self.choices)
-                raise InputError(f"{self.name} = {value!r}: choose one of {known}{_near(value, self.choices)}")
+                raise InputError(f"{self.name}: {unknown('value', str(value), self.choices)}")
             return value
         try:
             number = float(value)
@@ -143,21 +133,8 @@ class Model:
 
     def collect(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Every input by keyword, defaults filled in; InputError for a missing, unknown or impossible value."""
-        known = {entry.name: entry for entry in self.inputs}
-        for name in values:
-            if name not in known:
-                raise InputError(f"{self.name}: no input is named {name!r}{_near(name, known)} (known: {', '.join(known)})")
-        collected = {}
-        for name, entry in known.items():
-            value = values.get(name, entry.default)
-            if isinstance(value, Required):
-                unit = "" if entry.unit in ("", "1") else f", {entry.unit}"
-                raise InputError(f"{self.name}: {name} is missing ({entry.description}{unit})")
-            try:
-                collected[entry.keyword] = entry.check(value)
-            except InputError as error:
-                raise InputError(f"{self.name}: {error}") from None
-        return collected
+        collected = collect(self.name, self.inputs, values, "input", InputError)
+        return {entry.keyword: collected[entry.name] for entry in self.inputs}
 
     def __call__(self, velocity: float, values: Mapping[str, Value]) -> dict[str, float | str]:
         """The outputs at one impact velocity; InputError for values outside the model's range."""
@@ -203,15 +180,7 @@ def complain(name: str, number: float, sign: str = POSITIVE) -> None:
     """Raises InputError if a number is not finite or outside its range."""
     if not math.isfinite(number):
         raise InputError(f"{name} = {number}: not a finite number")
-    bad = {
-        POSITIVE: number <= 0.0,
-        NON_NEGATIVE: number < 0.0,
-        FRACTION: not 0.0 <= number < 1.0,
-        ANY: False,
-    }[sign]
-    if bad:
-        allowed = "at least 0 and below 1" if sign == FRACTION else sign
-        raise InputError(f"{name} = {number:g}: must be {allowed}")
+    check_sign(name, number, sign, InputError)
 
 
 def positive(**numbers: float) -> None:
@@ -224,8 +193,3 @@ def non_negative(**numbers: float) -> None:
     """Raises InputError for the first number that is not finite and non-negative."""
     for name, number in numbers.items():
         complain(name, number, NON_NEGATIVE)
-
-
-def _near(name, known) -> str:
-    near = difflib.get_close_matches(str(name), list(known), n=1)
-    return f"; did you mean {near[0]}?" if near else ""

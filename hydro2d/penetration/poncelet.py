@@ -13,8 +13,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import NON_NEGATIVE
 from hydro2d.penetration import inputs
-from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 
 #: b V^2/a below which the drag term is lost in round-off
 NO_DRAG = 1e-12

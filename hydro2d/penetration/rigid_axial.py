@@ -15,10 +15,11 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import NON_NEGATIVE
 from hydro2d.penetration import inputs
 from hydro2d.penetration.cavity import given_or_fitted
 from hydro2d.penetration.forrestal import NOSE_ENTRY, SHOT
-from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 from hydro2d.penetration.surface import Surface, nose_surface
 
 #: a step carries the rod by no more than this share of its diameter, and a shot has about this many steps or more

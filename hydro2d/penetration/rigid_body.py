@@ -16,10 +16,11 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import ANY
 from hydro2d.penetration import inputs
 from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
 from hydro2d.penetration.layers import Layer, Target, stack
-from hydro2d.penetration.model import ANY, Example, Input, InputError, Model, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 from hydro2d.penetration.projectile import Body, load, projectile
 from hydro2d.penetration.rotation import coast, matrix, pointing
 

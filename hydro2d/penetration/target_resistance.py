@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import math
 
+from hydro2d.parameters import FRACTION, NON_NEGATIVE
 from hydro2d.penetration import inputs
-from hydro2d.penetration.model import FRACTION, NON_NEGATIVE, Example, Input, InputError, Model, Output, complain, positive
+from hydro2d.penetration.model import Example, Input, InputError, Model, Output, complain, positive
 
 #: Tate's share of dynamic effects in the flow stress, lambda: Anderson (2017), section 6.4
 DYNAMIC_FACTOR = 0.7

@@ -18,9 +18,10 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.parameters import NON_NEGATIVE
 from hydro2d.penetration import inputs
 from hydro2d.penetration.hydrodynamic import interface_velocity
-from hydro2d.penetration.model import NON_NEGATIVE, Example, Input, Model, Motion, Output, non_negative, positive
+from hydro2d.penetration.model import Example, Input, Model, Motion, Output, non_negative, positive
 from hydro2d.penetration.target_resistance import RESISTANCE_INPUTS, resistance_of
 
 NO_PENETRATION, RIGID, ERODING, ERODING_THEN_RIGID = "no penetration", "rigid", "eroding", "eroding, then rigid"

@@ -165,7 +165,7 @@ def test_settings_are_checked():
     for text, message in (
         ("rod.diameter", "expected key=value"), ("rod.diametre=1", "did you mean .rod.diameter"),
         ("rod.diameter=1 s", "a time"), ("rod.diameter=1", "has no unit; write .1 mm."),
-        ("rod.diameter=-1 m", "must be positive"), ("nose.shape=flad", "did you mean flat"),
+        ("rod.diameter=-1 m", "must be positive"), ("nose.shape=flad", 'did you mean "flat"'),
     ):  # fmt: skip
         with pytest.raises(InputError, match=message):
             models.settings([text], [model])
@@ -270,7 +270,7 @@ def test_a_deck_gives_materials_geometry_and_velocity(capsys):
         (["tate", "--deck", "problems/verification/sod_z.toml"], "a rod on the axis"),
         (["--rod", "W_alloy"], "the name of a model is missing"),
         (["transition", "--rod", "W_alloy"], "--target"),
-        (["transition", *W_INTO_5083, "--nose", "ogiva"], "did you mean ogival"),
+        (["transition", *W_INTO_5083, "--nose", "ogiva"], 'did you mean "ogival"'),
         (["transition", *W_INTO_5083, "--set", "rod.strength=-1 Pa"], "rod.strength"),
         (["transition", *W_INTO_5083, "--runs", "problems"], "is not a run directory"),
     ],

@@ -280,7 +280,7 @@ def test_every_model_describes_itself(describe, models):
         for parameter in module.PARAMETERS:
             assert parameter.name in text
             assert parameter.description in text
-        with pytest.raises(ValueError, match=f"did you mean '{name}'"):
+        with pytest.raises(ValueError, match=f'did you mean "{name}"'):
             describe(name + "x")
 
 

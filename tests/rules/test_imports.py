@@ -34,7 +34,7 @@ NARROW = {
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
                         "hydro2d.materials.rows", "eos", "strength"),
-    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.units"),
+    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.units", "hydro2d.parameters", "hydro2d.errors"),
 }
 
 
