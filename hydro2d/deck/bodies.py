@@ -44,7 +44,7 @@ class Flow(Section):
 
 
 class Body(Section):
-    """The keys that all bodies have. Where bodies overlap, the first of them in the deck is there."""
+    """Keys common to all bodies. Where bodies overlap, the first of them in the deck takes the space."""
 
     name: Name = Field(description="name of the body in fields, tables and other sections", examples=["rod"])
     material: str = Field(description="a material of the library or of [materials]; NAME:VARIANT is a variant of it",
@@ -56,13 +56,13 @@ class Body(Section):
         examples=[{"pattern": "spherical", "speed": "-200 m/s"}],
     )
     density: PositiveDensity | None = Field(
-        None, description="initial density; default: the material's, or what `temperature` leaves", examples=["17.6 g/cm^3"]
+        None, description="initial density; default: the material's, or set by `temperature`", examples=["17.6 g/cm^3"]
     )
     energy: SpecificEnergy | None = Field(None, description="initial specific internal energy", examples=["10 kJ/kg"])
     pressure: Pressure | None = Field(None, description="initial pressure, instead of `energy`", examples=["1 GPa"])
     temperature: Temperature | None = Field(
-        None, description="initial temperature, instead of `energy`; without `density` the material has the density of that "
-        "temperature at `pressure`, or at no pressure (a gas: its own density)", examples=["300 K"],
+        None, description="initial temperature, instead of `energy`; without `density`, the density follows from this "
+        "temperature and `pressure`, or zero pressure (a gas: its own density)", examples=["300 K"],
     )
 
     @model_validator(mode="after")

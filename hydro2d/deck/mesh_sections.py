@@ -16,7 +16,7 @@ _SEGMENTS = (
 
 
 _UNEVEN = "neighbouring cells that differ by more cannot transmit a wave"
-CellsAcross = Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more fit on no machine")]
+CellsAcross = Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more do not fit on any machine")]
 
 
 def radii(reach: float | str) -> float | None:
@@ -84,7 +84,7 @@ def as_text(segment: dict[str, Any]) -> dict[str, Any]:
     return {key: units.exact(value, "m") if key in LENGTHS else value for key, value in segment.items()}
 
 
-#: keys of a mesh that is described in words
+#: keys of a generated mesh
 GENERATED = ("cells_across", "reach", "across")
 
 
@@ -112,12 +112,12 @@ class Mesh(Section):
         "cancels this and cells_across of an included deck", examples=["30 radii"],
     )
     across: str | None = Field(
-        None, description="the body that cells_across and reach mean; default: the one that the mesh follows, else the rod of "
-        "[penetration], else the first that moves", examples=["rod"],
+        None, description="the body that cells_across and reach refer to; default: the one that the mesh follows, else the rod "
+        "of [penetration], else the first that moves", examples=["rod"],
     )
     follow: str | None = Field(
-        None, description="a body with which the whole mesh travels along z; what the deck places ahead enters when the mesh "
-        "reaches it; default and none: the mesh does not move",
+        None, description="a body with which the whole mesh travels along z; bodies further ahead enter when the mesh "
+        "reaches them; default and none: the mesh does not move",
         examples=["rod"],
     )
 
