@@ -40,7 +40,7 @@ def test_values_and_units(text, unit, value):
         ("min(depth, u)", "the units are m and m/s"),
         ("exp(depth)", "exp takes a plain number, not one in m"),
         ("ratio ** depth", "an exponent is a plain number"),
-        ("depth ** ratio", "takes a number as its exponent"),
+        ("depth ** ratio", "with a unit must be a number"),
         ("depht / length0", 'did you mean "depth"'),
         ("depth /", "is not a formula"),
         ("sqr(depth)", 'unknown function "sqr"'),

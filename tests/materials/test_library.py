@@ -288,7 +288,7 @@ def test_strength_takes_what_the_eos_has():
         ('based_on = "W_alloy"\nvariant = "cv-prined"', 19, 'did you mean "cv-printed"?'),
         ('based_on = "W_alloy"\nvariant = 3', 19, "must be the name of a variant or a list of names"),
         ('based_on = ["W_alloy"]', 18, "must be the name of a material"),
-        ('based_on = "W_alloy"\nvariants.x = 3', 19, "must hold a table for each variant"),
+        ('based_on = "W_alloy"\nvariants.x = 3', 19, "must contain a table for each variant"),
         ('title = "x"', 17, "materials.A: has no eos"),
         ('based_on = "W_alloy"\neos.sound_sped = 1.0', 19, 'did you mean "sound_speed"?'),
         ('based_on = "W_alloy"\neos.c0 = 1.0', 19, 'its name is "sound_speed"'),
