@@ -81,9 +81,9 @@ def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, int
     started = time.perf_counter()
     about = {"host": socket.gethostname()}
     try:
-        found = _finished(directory, deck_text)
-        fresh = found is None
-        summary = found or _run(directory, deck_text, threads, overwrite, interrupt)
+        finished = _finished(directory, deck_text)
+        fresh = finished is None
+        summary = finished or _run(directory, deck_text, threads, overwrite, interrupt)
         if summary["status"] != DONE:
             about["message"] = summary["stop_reason"]
         about |= {"status": summary["status"], "fresh": fresh}
@@ -95,9 +95,9 @@ def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, int
 def _finished(directory: Path, deck_text: str) -> dict | None:
     """The summary of a finished run of this deck. A run that ended as unphysical counts, because it would do so again."""
     sha256 = run.deck_hash(deck_text)
-    found = state(directory, sha256)
-    ended = found["status"] in (DONE, UNPHYSICAL) and found["summary"].get("deck_sha256") == sha256
-    return found["summary"] if ended and not is_older(found["summary"]) else None
+    present = state(directory, sha256)
+    ended = present["status"] in (DONE, UNPHYSICAL) and present["summary"].get("deck_sha256") == sha256
+    return present["summary"] if ended and not is_older(present["summary"]) else None
 
 
 def is_older(summary: dict) -> bool:
@@ -142,8 +142,8 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
 
 def _signs(directory: Path) -> list[tuple[int, int]]:
     """What changes as long as the process lives that runs in a directory."""
-    found = (file.stat() for name in (run.LOCK, run.PROGRESS) if (file := directory / name).exists())
-    return [(each.st_ino, each.st_mtime_ns) for each in found]
+    stats = (file.stat() for name in (run.LOCK, run.PROGRESS) if (file := directory / name).exists())
+    return [(each.st_ino, each.st_mtime_ns) for each in stats]
 
 
 def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:

@@ -129,21 +129,21 @@ class _Planner:
         self._raise()
         described = [{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
                      for axis, choices in zip(self.definition.axis, axes, strict=True)]  # fmt: skip
-        found = self._velocities(speeds, bare, files) if speeds else None
-        if found is not None:
-            combinations = self._at_velocities(combinations, found)
-            described.append({"name": velocities.AXIS, "key": found.key, "values": list(found.labels)})
+        interval = self._velocities(speeds, bare, files) if speeds else None
+        if interval is not None:
+            combinations = self._at_velocities(combinations, interval)
+            described.append({"name": velocities.AXIS, "key": interval.key, "values": list(interval.labels)})
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
         planned = [self._repeated(name, *self._case(each), files)
                    for name, each in zip(names, counted(combinations, "decks read", quiet), strict=True)]
         self.wrong = list(dict.fromkeys(self.wrong))
         self._raise()
         cases = [case for group in planned for case in group]
-        if found is not None:
-            self._check_impacts(cases, found)
+        if interval is not None:
+            self._check_impacts(cases, interval)
         return Plan(
             name=self.path.stem, title=self.definition.title, text=self.text,
-            out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=found,
+            out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=interval,
             ensemble=self.ensemble, keep=self.path.parent / keep if (keep := self.definition.keep) else None,
         )  # fmt: skip
 
@@ -211,10 +211,10 @@ class _Planner:
         """Checks that no axis sets what the members of an ensemble change."""
         for number, (axis, choices) in enumerate(zip(self.definition.axis, axes, strict=True)):
             for choice in choices:
-                found = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
-                if found:
-                    self._say(("axis", number), f'axis "{axis.name}" sets {found[1]}, and the ensemble changes it by '
-                                                f'"{found[0]}"; leave out one of them')  # fmt: skip
+                clash = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
+                if clash:
+                    self._say(("axis", number), f'axis "{axis.name}" sets {clash[1]}, and the ensemble changes it by '
+                                                f'"{clash[0]}"; leave out one of them')  # fmt: skip
                     break
 
     # ------------------------------------------------------------------------------------------------ velocities of a search
@@ -250,15 +250,15 @@ class _Planner:
         given = self.definition.transition
         return velocities.Velocities.of_study(key, given, tuple(labels))
 
-    def _at_velocities(self, combinations: list[tuple], found: velocities.Velocities) -> list[tuple]:
+    def _at_velocities(self, combinations: list[tuple], interval: velocities.Velocities) -> list[tuple]:
         """Every combination at every velocity."""
-        choices = [Option(label, short(label), {found.key: label}) for label in found.labels]
+        choices = [Option(label, short(label), {interval.key: label}) for label in interval.labels]
         return [(*combination, choice) for combination in combinations for choice in choices]
 
-    def _check_impacts(self, cases: list[Planned], found: velocities.Velocities) -> None:
+    def _check_impacts(self, cases: list[Planned], interval: velocities.Velocities) -> None:
         """Raises StudyError if the velocity of the search is not the impact velocity."""
-        for case in cases[:: len(found.labels)]:
-            fault = velocities.fault(decks.loads(case.text), found.key, found.labels[0]) if case.text else None
+        for case in cases[:: len(interval.labels)]:
+            fault = velocities.fault(decks.loads(case.text), interval.key, interval.labels[0]) if case.text else None
             if fault and not self.wrong:
                 self._say(("transition", "key"), f"transition.key: {fault}")
         self._raise()
@@ -379,8 +379,8 @@ def _read(file: Path, overrides: list[str]) -> tuple[decks.Deck | None, str]:
 def _changed(case: Planned, deck: decks.Deck, file: Path) -> Planned:
     """A member with its own deck; ``deck`` is that of its case, which must allow the changes, else DeckError."""
     overrides = [*case.overrides, *members.overrides(deck, case.changed)]
-    found, message = _read(file, overrides)
-    return replace(case, overrides=overrides, text=found.to_toml() if found else "", message=message)
+    changed, message = _read(file, overrides)
+    return replace(case, overrides=overrides, text=changed.to_toml() if changed else "", message=message)
 
 
 def _place(table: tuple, key: str, given: dict) -> tuple:
@@ -396,10 +396,10 @@ def short(label: str) -> str:
 
 def distinct(names: list[str]) -> list[str]:
     """The names, with -2, -3 and so on added to repeated ones."""
-    found: dict[str, None] = {}
+    unique: dict[str, None] = {}
     for name in names:
         number, given = 2, name
-        while given in found:
+        while given in unique:
             given, number = f"{name}-{number}", number + 1
-        found[given] = None
-    return list(found)
+        unique[given] = None
+    return list(unique)

@@ -221,27 +221,28 @@ def _depths(figure, series: Sequence[Series], x: Variable, y: Response, measured
         places = [(x.value(each), measured[each.case.name]) for each in records if each.case.name in measured]
         places = list(dict.fromkeys(entry for entry in places if entry[0] is not None))
     for qualifier in MEASURED:
-        found = [(place, entry.velocity, entry.depth, entry.source) for place, entry in places if entry.qualifier == qualifier]
-        _experiments(figure, qualifier, y, found)
+        entries = [(place, entry.velocity, entry.depth, entry.source) for place, entry in places
+                   if entry.qualifier == qualifier]
+        _experiments(figure, qualifier, y, entries)
 
 
 def _residuals(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
     """Measured residual velocities, at the places of the runs with these shots in their decks."""
     records = [record for each in series for record in each.records]
-    found = [(x.value(each), each.velocity, each.measured_residual, each.deck["experiment"]["source"])
-             for each in records if each.measured_residual is not None]  # fmt: skip
-    _experiments(figure, "measured", y, [entry for entry in dict.fromkeys(found) if entry[0] is not None])
+    entries = [(x.value(each), each.velocity, each.measured_residual, each.deck["experiment"]["source"])
+               for each in records if each.measured_residual is not None]  # fmt: skip
+    _experiments(figure, "measured", y, [entry for entry in dict.fromkeys(entries) if entry[0] is not None])
 
 
-def _experiments(figure, qualifier: str, y: Response, found: Sequence[tuple[float | str, float | None, float, str]]) -> None:
+def _experiments(figure, qualifier: str, y: Response, entries: Sequence[tuple[float | str, float | None, float, str]]) -> None:
     """Marks of experiments by place on the x axis, impact velocity in m/s, value in SI and source."""
-    if not found:
+    if not entries:
         return
     marker, word = MEASURED[qualifier]
-    told = [f"<b>{word}</b><br>{verbatim(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
-            + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in found]  # fmt: skip
-    figure.add_scatter(x=[place for place, *_ in found], y=[value * y.factor for _, _, value, _ in found], mode="markers",
-                       name=word, text=told, hovertemplate="%{text}<extra></extra>", meta="experiment",
+    labels = [f"<b>{word}</b><br>{verbatim(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
+              + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in entries]  # fmt: skip
+    figure.add_scatter(x=[place for place, *_ in entries], y=[value * y.factor for _, _, value, _ in entries], mode="markers",
+                       name=word, text=labels, hovertemplate="%{text}<extra></extra>", meta="experiment",
                        marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
 
 
@@ -294,7 +295,7 @@ def histories(series: Sequence[Series],
     """
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
-    few, told = few_lines(drawn), set()
+    few, in_legend = few_lines(drawn), set()
     figure = _figure(len(names))
     for number, (each, record) in enumerate(drawn):
         how = style(number) if few else each.style
@@ -308,11 +309,11 @@ def histories(series: Sequence[Series],
                 opacity=0.4 if record.case.member else 1.0,
                 line={"color": how.colour, "width": 0.9 if record.case.member else 1.4, "dash": how.dash},
                 name=label, legendgroup=label,
-                showlegend=label not in told, row=row, col=1,
+                showlegend=label not in in_legend, row=row, col=1,
                 hovertemplate=f"<b>{verbatim(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
                               "<extra></extra>",
             )  # fmt: skip
-            told.add(label)
+            in_legend.add(label)
     _motions(figure, motions, names)
     for row, name in enumerate(names, 1):
         figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)

@@ -78,8 +78,8 @@ def needed(workers: int | None, threads: int, cases: int) -> int:
 
 def environment(threads: int) -> dict[str, str]:
     """Variables of a worker process."""
-    found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads), children.SAFE: "1"}
-    return {**found, **{name: os.environ[name] for name in ("HYDRO2D_CACHE_DIR", "HYDRO2D_TARGET") if name in os.environ}}
+    variables = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads), children.SAFE: "1"}
+    return {**variables, **{name: os.environ[name] for name in ("HYDRO2D_CACHE_DIR", "HYDRO2D_TARGET") if name in os.environ}}
 
 
 @contextmanager
@@ -147,10 +147,10 @@ def _check_workers(client, address: str) -> None:
     from hydro2d.study import worker
 
     try:
-        found = client.run(worker.introduce)
+        workers = client.run(worker.introduce)
     except Exception as error:
         raise StudyError(f"--scheduler {address}: its workers cannot import hydro2d {__version__} ({error})") from None
-    for place, about in found.items():
+    for place, about in workers.items():
         has = f"--scheduler {address}: {place} has"
         if about["version"] != __version__:
             raise StudyError(f"{has} hydro2d {about['version']}, not {__version__}")

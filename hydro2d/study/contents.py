@@ -60,9 +60,9 @@ def collect(study: Study, trust: bool = False) -> Contents:
         placed = [each for each in members if _key(each) not in unplaced]
         known[setup] = experiments.measured(setup, placed)
         for each in members:
-            found = experiments.belonging(each, known[setup])
-            if found is not None:
-                belonging[each.case.name] = found
+            measurement = experiments.belonging(each, known[setup])
+            if measurement is not None:
+                belonging[each.case.name] = measurement
             elif _key(each) in unplaced and not any(experiments.same_depth(each, entry) for entry in known[setup]):
                 lost.add(_key(each))
     notes += [_said(key, unplaced[key]) for key in unplaced if key in lost]

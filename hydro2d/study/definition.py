@@ -274,14 +274,14 @@ def _validated(data: dict, sources: Sources) -> Definition:
     """The study; numbers of its search need their units, as those of its decks do, unless [set] has numbers = "SI"."""
     in_si = _settings(data).get("numbers") == toml.SI
     try:
-        found = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
+        study = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
-    if not (found.axis or found.transition or found.ensemble or found.part):
+    if not (study.axis or study.transition or study.ensemble or study.part):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
-    if found.transition and found.ensemble:
-        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(found.transition)}")
-    return found
+    if study.transition and study.ensemble:
+        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(study.transition)}")
+    return study
 
 
 def _instead(search: Transition) -> str:

@@ -19,11 +19,11 @@ def flatten(value, prefix: str = "") -> dict[str, object]:
         entries = [(entry.get("name", number), entry) for number, entry in enumerate(value)]
     else:
         return {prefix: tuple(value) if isinstance(value, (list, tuple)) else value}
-    found: dict[str, object] = {}
+    flat: dict[str, object] = {}
     for key, entry in entries:
         if not (prefix and key == "name"):
-            found.update(flatten(entry, f"{prefix}.{key}" if prefix else str(key)))
-    return found
+            flat.update(flatten(entry, f"{prefix}.{key}" if prefix else str(key)))
+    return flat
 
 
 def text(value, exact: bool = False) -> str:

@@ -77,8 +77,8 @@ class Curve:
 
     def first_beyond(self, size: float) -> int | None:
         """Number of the first time at which the difference exceeds a size; None if it never does."""
-        (found,) = np.nonzero(self.difference > size)
-        return int(found[0]) if len(found) else None
+        (beyond,) = np.nonzero(self.difference > size)
+        return int(beyond[0]) if len(beyond) else None
 
     def growth(self, size: float) -> Growth | None:
         """The growth from a thousandth of a size up to it; None if the difference does not grow so, or is one of the times."""
@@ -116,16 +116,16 @@ class Divergence:
     def lines(self, size: float) -> list[str]:
         """The results as lines of text."""
         one, other = (run.label for run in self.runs)
-        told = [f"{one} and {other}", ""]
-        told += [f"  {key}: {values[0]} and {values[1]}" for key, values in self.keys.items()] or ["  their decks are the same"]
+        text = [f"{one} and {other}", ""]
+        text += [f"  {key}: {values[0]} and {values[1]}" for key, values in self.keys.items()] or ["  their decks are the same"]
         rows = [("quantity", "difference at the end", f"beyond {size:g} of its largest", "growth time"),
                 *(self._row(curve, size) for curve in self.curves)]  # fmt: skip
-        told += ["", *columns(rows)]
-        found = self.first(size)
-        told += ["", f"  {found}" if found else f"  no field differs by more than {size:g} of its largest value"]
+        text += ["", *columns(rows)]
+        first = self.first(size)
+        text += ["", f"  {first}" if first else f"  no field differs by more than {size:g} of its largest value"]
         by_time = [f"{curve.by_time:.2g} of {curve.name}" for curve in self.curves if curve.by_time > 0.1 * size]
-        told += [f"  the times of the dumps differ, which alone makes up to {', '.join(by_time)}"] if by_time else []
-        return [*told, *(f"  {note}" for note in self.notes)]
+        text += [f"  the times of the dumps differ, which alone makes up to {', '.join(by_time)}"] if by_time else []
+        return [*text, *(f"  {note}" for note in self.notes)]
 
     def _row(self, curve: Curve, size: float) -> tuple[str, str, str, str]:
         number, grown = curve.first_beyond(size), curve.growth(size)
@@ -136,10 +136,10 @@ class Divergence:
     def first(self, size: float) -> str:
         """The time and the cell at which a field first differs by more than a size, in words; empty if none does."""
         of_fields = [(curve, curve.first_beyond(size)) for curve in self.curves if curve.places]
-        found = [(curve.time[number], curve, number) for curve, number in of_fields if number is not None]
-        if not found:
+        beyond = [(curve.time[number], curve, number) for curve, number in of_fields if number is not None]
+        if not beyond:
             return ""
-        time, curve, number = min(found, key=lambda entry: (entry[0], -entry[1].difference[entry[2]]))
+        time, curve, number = min(beyond, key=lambda entry: (entry[0], -entry[1].difference[entry[2]]))
         place = curve.places[number]
         before = f", not yet in the dump of {curve.time[number - 1] * 1e6:.4g} us" if number else ""
         return (
@@ -160,9 +160,9 @@ def _place(curve: Curve, number: int) -> tuple:
     return curve.places[number] if curve.places else (None,) * len(Place._fields)
 
 
-def write_csv(found: Divergence, path: Path) -> None:
+def write_csv(divergence: Divergence, path: Path) -> None:
     """Writes the rows. Raises OSError."""
-    write_text(path, to_csv(found.rows()))
+    write_text(path, to_csv(divergence.rows()))
 
 
 def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Divergence:
@@ -175,8 +175,8 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
     for name in fields:
         if name not in quantities.BY_KEY:
             raise ResultsError(f"--field: {unknown('field', name, quantities.BY_KEY)}")
-    found = differences.compare({"one": one.tables, "other": other.tables}, exact=True)
-    keys = {key: _both(users) for key, users in found.varying.items()}
+    compared = differences.compare({"one": one.tables, "other": other.tables}, exact=True)
+    keys = {key: _both(users) for key, users in compared.varying.items()}
     if alone := [key for key, values in keys.items() if key.startswith("body.") and "not there" in values]:
         raise ResultsError(f"{one.directory} and {other.directory} are not of one shot: only one has {', '.join(alone)}")
     of_history = list(_histories(one, other))
@@ -212,11 +212,11 @@ def _histories(one: Results, other: Results) -> Iterator[Curve]:
         if name not in second or name not in first:
             continue
         values = first[name][: len(time)].astype(float)
-        apart = np.abs(values - np.interp(time, second["time"], second[name]))
-        known = np.isfinite(apart)
+        difference = np.abs(values - np.interp(time, second["time"], second[name]))
+        known = np.isfinite(difference)
         scale = float(max(np.nanmax(np.abs(first[name]), initial=0.0), np.nanmax(np.abs(second[name]), initial=0.0)))
         if scale > 0.0 and known.any():
-            yield Curve(name, "history", scale, time[known], apart[known] / scale)
+            yield Curve(name, "history", scale, time[known], difference[known] / scale)
 
 
 def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[Curve], list[str]]:
@@ -233,7 +233,7 @@ def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[C
         if why:
             return _curves(rows, scales), [f"the fields are compared before {time * 1e6:.4g} us: {why}"]
         for name in [name for key in fields for name in _names(key, a) if name in a.fields and name in b.fields]:
-            largest, place = _apart(a, b, name)
+            largest, place = _largest_difference(a, b, name)
             rows.setdefault(name, []).append((time, largest, place, _by_time(a, b, before, name)))
             scales[name] = max(scales.get(name, 0.0), *(float(np.abs(each.fields[name]).max()) for each in (a, b)))
         before = a
@@ -266,13 +266,14 @@ def _names(key: str, dump: vtk.Dump) -> list[str]:
 
 
 def _curves(rows: dict[str, list[tuple[float, float, Place, float]]], scales: dict[str, float]) -> list[Curve]:
-    found = []
+    curves = []
     for name, entries in rows.items():
         if scales[name] > 0.0:
-            time, apart, places, by_time = zip(*entries, strict=True)
+            time, difference, places, by_time = zip(*entries, strict=True)
             shown, scale = name.partition(" [")[0].lower(), scales[name]
-            found.append(Curve(shown, "field", scale, np.array(time), np.array(apart) / scale, places, max(by_time) / scale))
-    return found
+            curves.append(Curve(shown, "field", scale, np.array(time), np.array(difference) / scale, places,
+                                max(by_time) / scale))
+    return curves
 
 
 def _meshes_apart(a: vtk.Dump, b: vtk.Dump) -> str:
@@ -288,25 +289,25 @@ def _meshes_apart(a: vtk.Dump, b: vtk.Dump) -> str:
     return ""
 
 
-def _apart(dump: vtk.Dump, other: vtk.Dump, name: str) -> tuple[float, Place]:
+def _largest_difference(dump: vtk.Dump, other: vtk.Dump, name: str) -> tuple[float, Place]:
     """The largest difference of a field in cells that are half filled in both dumps, and its cell; a vector's magnitude."""
-    apart = np.nan_to_num(np.abs(dump.fields[name].astype(float) - other.fields[name].astype(float)))
-    if apart.ndim == 3:
-        apart = np.sqrt((apart**2).sum(axis=-1))
-    apart[(dump.filling().fraction < 0.5) | (other.filling().fraction < 0.5)] = 0.0
-    j, i = (int(n) for n in np.unravel_index(np.argmax(apart), apart.shape))
+    difference = np.nan_to_num(np.abs(dump.fields[name].astype(float) - other.fields[name].astype(float)))
+    if difference.ndim == 3:
+        difference = np.sqrt((difference**2).sum(axis=-1))
+    difference[(dump.filling().fraction < 0.5) | (other.filling().fraction < 0.5)] = 0.0
+    j, i = (int(n) for n in np.unravel_index(np.argmax(difference), difference.shape))
     share = quantities.BY_KEY["volume_fraction"]
     body = max(dump.bodies, key=lambda name: dump.fields[share.name(name)][j, i])
-    return float(apart[j, i]), Place(j, i, float(dump.z_centres[j]), float(dump.r_centres[i]), body)
+    return float(difference[j, i]), Place(j, i, float(dump.z_centres[j]), float(dump.r_centres[i]), body)
 
 
-def figure(found: Divergence, size: float):
+def figure(divergence: Divergence, size: float):
     """The differences against time on a logarithmic scale: histories to the left, fields to the right, with fitted growth."""
     from hydro2d.results import figures
 
     drawn, (axes,) = figures.new_figure(10.5, 4.2, 1, 2)
     for place, kind in zip(axes, ("history", "field"), strict=True):
-        for number, curve in enumerate(curve for curve in found.curves if curve.kind == kind):
+        for number, curve in enumerate(curve for curve in divergence.curves if curve.kind == kind):
             _draw(place, curve, size, f"C{number}", figures.verbatim(curve.name))
         place.axhline(size, color="black", linestyle=":", linewidth=1.0, label=f"{size:g} of the largest value")
         place.set_yscale("log")

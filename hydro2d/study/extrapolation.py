@@ -52,8 +52,8 @@ class Limit(NamedTuple):
 
 def level(cells: float, values: Sequence[float]) -> Level:
     """The mean and scatter of the members on a mesh."""
-    found = np.asarray(values, dtype=float)
-    return Level(cells, len(found), float(found.mean()), float(found.std(ddof=1)) if len(found) > 1 else 0.0)
+    members = np.asarray(values, dtype=float)
+    return Level(cells, len(members), float(members.mean()), float(members.std(ddof=1)) if len(members) > 1 else 0.0)
 
 
 def alike(samples: Sequence[Sequence[float]]) -> float:

@@ -81,28 +81,29 @@ class Wanted:
 
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
-        told = case.summary
-        origin = told.get("provenance") or {}
+        summary = case.summary
+        origin = summary.get("provenance") or {}
         commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
-        found = {**_results(told), SETUP: self.setup, OF_METHOD: told.get("method", ""), "commit": commit,
-                 "date": (origin.get("written") or "")[:10]}  # fmt: skip
-        return self.about | {name: _text(value) for name, value in found.items()}
+        entries = {**_results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
+                   "date": (origin.get("written") or "")[:10]}  # fmt: skip
+        return self.about | {name: _text(value) for name, value in entries.items()}
 
 
-def _results(told: Mapping) -> dict[str, object]:
-    audit = told.get("conservation") or {}
+def _results(summary: Mapping) -> dict[str, object]:
+    audit = summary.get("conservation") or {}
     dropped = (audit.get("sinks") or {}).get("advection", {}).get("energy_J")
-    found = {
-        "status": told["status"], "stop_reason": told.get("stop_reason"), "trustworthy": told.get("trustworthy"),
-        "depth_m": told.get("penetration_depth_m"), "tail_velocity_m_s": told.get("rod_tail_velocity_m_s"),
-        "residual_velocity_m_s": told.get("rod_residual_velocity_m_s"), "regime": told.get("regime"),
-        "hole_m3": (told.get("crater") or {}).get("volume_m3"), "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
-        "time_s": told.get("time_s"), "cycles": told.get("cycles"), "wall_s": told.get("wall_s"),
-        "length_ratio": ratio(told.get("rod_length_m"), told.get("rod_initial_length_m")),
-        "radius_ratio": ratio(told.get("rod_max_radius_m"), told.get("rod_initial_radius_m")),
-        "mass_ratio": ratio(told.get("rod_mass_kg"), told.get("rod_initial_mass_kg")),
+    results = {
+        "status": summary["status"], "stop_reason": summary.get("stop_reason"), "trustworthy": summary.get("trustworthy"),
+        "depth_m": summary.get("penetration_depth_m"), "tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
+        "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"), "regime": summary.get("regime"),
+        "hole_m3": (summary.get("crater") or {}).get("volume_m3"),
+        "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
+        "time_s": summary.get("time_s"), "cycles": summary.get("cycles"), "wall_s": summary.get("wall_s"),
+        "length_ratio": ratio(summary.get("rod_length_m"), summary.get("rod_initial_length_m")),
+        "radius_ratio": ratio(summary.get("rod_max_radius_m"), summary.get("rod_initial_radius_m")),
+        "mass_ratio": ratio(summary.get("rod_mass_kg"), summary.get("rod_initial_mass_kg")),
     }  # fmt: skip
-    return {name: found[name] for name in RESULTS}
+    return {name: results[name] for name in RESULTS}
 
 
 def _text(value) -> str:
@@ -142,12 +143,12 @@ def labels(row: Row) -> Row:
 
 def methods(versions: Iterable[str]) -> str:
     """What a table must say of the versions of its runs: nothing if all are of this method, else which are not."""
-    found = Counter(version or "unknown" for version in versions)
-    others = {name: number for name, number in found.items() if name != METHOD}
+    counts = Counter(version or "unknown" for version in versions)
+    others = {name: number for name, number in counts.items() if name != METHOD}
     if not others:
         return ""
-    told = ", ".join(f"{number} of {name}" for name, number in sorted(others.items()))
-    return f"Not all runs are of the method of {METHOD}: {told}."
+    listed = ", ".join(f"{number} of {name}" for name, number in sorted(others.items()))
+    return f"Not all runs are of the method of {METHOD}: {listed}."
 
 
 class Keeper:

@@ -75,8 +75,8 @@ class Fit:
     def band(self, speeds) -> tuple[np.ndarray, np.ndarray]:
         """Ends of the 90 % interval of the probability at each of these velocities, shapes (n,)."""
         v50, scale = self.region.T
-        found = _logistic((np.asarray(speeds, float)[:, None] - v50) / scale)
-        return found.min(axis=1), found.max(axis=1)
+        probabilities = _logistic((np.asarray(speeds, float)[:, None] - v50) / scale)
+        return probabilities.min(axis=1), probabilities.max(axis=1)
 
 
 def _logistic(x: np.ndarray) -> np.ndarray:
@@ -142,9 +142,9 @@ def _highest(limits, v: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, float]:
 def _climbed(v50: float, scale: float, limits, v: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, float]:
     """The maximum near v50 and s."""
     simplex = np.array([[v50, math.log(scale)], [v50 + scale, math.log(scale)], [v50, math.log(scale) + 1.0]])
-    found = optimize.minimize(lambda x: -float(penalised(x[0], math.exp(x[1]), v, y)), simplex[0], method="Nelder-Mead",
-                              bounds=limits, options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": simplex})  # fmt: skip
-    return found.x, -float(found.fun)
+    result = optimize.minimize(lambda x: -float(penalised(x[0], math.exp(x[1]), v, y)), simplex[0], method="Nelder-Mead",
+                               bounds=limits, options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": simplex})  # fmt: skip
+    return result.x, -float(result.fun)
 
 
 def _box(best: np.ndarray, limits, top: float, v: np.ndarray, y: np.ndarray) -> list[tuple[float, float]]:

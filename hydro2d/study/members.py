@@ -49,14 +49,14 @@ class Knob:
 
 def _segments(deck: decks.Deck, axis: str, changed: Callable[[str, float], float]) -> list[str]:
     """Overrides of the lengths of the segments of an axis."""
-    found = []
+    settings = []
     for number, segment in enumerate(getattr(deck.mesh, axis)):
         for key in (*POSITIONS, *SIZES, "cells_across"):
             value = getattr(segment, key)
             if value is not None and (new := changed(key, value)) != value:
                 written = new if key == "cells_across" else units.exact(new, "m")
-                found.append(f"mesh.{axis}.{number}.{key}={toml.inline(written)}")
-    return found
+                settings.append(f"mesh.{axis}.{number}.{key}={toml.inline(written)}")
+    return settings
 
 
 def _free(deck: decks.Deck, what: str, edges: tuple[str, ...]) -> None:
@@ -126,14 +126,14 @@ def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:
 
 def allowed(deck: decks.Deck) -> tuple[str, ...]:
     """The default changes, without those that a deck does not allow."""
-    found = []
+    changes = []
     for each in Ensemble.model_fields["by"].default:
         try:
             KNOBS[each].overrides(deck, KNOBS[each].value(1.0))
         except DeckError:
             continue
-        found.append(each)
-    return tuple(found)
+        changes.append(each)
+    return tuple(changes)
 
 
 def overrides(deck: decks.Deck, changed: Mapping[str, float]) -> list[str]:
@@ -141,9 +141,9 @@ def overrides(deck: decks.Deck, changed: Mapping[str, float]) -> list[str]:
 
     Raises DeckError if the deck does not allow a change.
     """
-    found = [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]
-    segments = decks.written_segments(deck) if any(text.startswith("mesh.") for text in found) else {}
-    return [*(f"{key}={toml.inline(value)}" for key, value in segments.items()), *found]
+    settings = [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]
+    segments = decks.written_segments(deck) if any(text.startswith("mesh.") for text in settings) else {}
+    return [*(f"{key}={toml.inline(value)}" for key, value in segments.items()), *settings]
 
 
 def name(case: str, number: int) -> str:

@@ -73,12 +73,12 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
               if not only or any(fnmatchcase(name, pattern) for pattern in only)]  # fmt: skip
     if not chosen:
         raise StudyError(f"only {' '.join(only)}: matches no part; parts: {', '.join(_names(definition))}")
-    found = []
+    parts = []
     for part, name in chosen:
         of_part = Size(size.members or part.members, size.cells or part.cells)
         plan = cases.plan(path.parent / part.study, definition.set, quiet=quiet, size=of_part)
-        found.append(Chosen(part, name, plan, again))
-    return found
+        parts.append(Chosen(part, name, plan, again))
+    return parts
 
 
 def _names(definition: Definition) -> list[str]:
@@ -86,10 +86,10 @@ def _names(definition: Definition) -> list[str]:
     return cases.distinct(given)
 
 
-def show(found: Sequence[Chosen], workers: int) -> int:
+def show(parts: Sequence[Chosen], workers: int) -> int:
     """Prints what each part and all together take. Returns 0, or 2 if a case is invalid."""
     rows, wrong, hours, size, left = [], [], 0.0, 0.0, 0
-    for each in found:
+    for each in parts:
         runs, fresh, stale = each.states
         seconds, space, problems = _cost(each)
         wrong += problems
@@ -99,14 +99,14 @@ def show(found: Sequence[Chosen], workers: int) -> int:
         rows.append((each.name, str(runs), str(fresh), str(stale), str(to_run), f"{part_hours:.1f}", f"{part_size:.0f}"))
     sums = (str(sum(int(row[column]) for row in rows)) for column in (1, 2, 3, 4))
     rows.append(("all", *sums, f"{hours:.1f}", f"{size:.0f}"))
-    for told in lines(rows, HEADS):
-        say(told)
-    for each in found:
+    for line in lines(rows, HEADS):
+        say(line)
+    for each in parts:
         if each.part.about:
             say(wrapped(f"{each.name}: {each.part.about}"))
     say(wrapped(f"{left} runs, about {hours / workers:.1f} hours on {workers} workers (a guess), at most {size:.0f} MB"))
-    for told in wrong:
-        say(told)
+    for line in wrong:
+        say(line)
     return 2 if wrong else 0
 
 
@@ -130,8 +130,8 @@ def _checked(case: Planned) -> check.Check:
     return check.check(decks.loads(case.text))
 
 
-def mixed(found: Sequence[Chosen]) -> Iterator[str]:
+def mixed(parts: Sequence[Chosen]) -> Iterator[str]:
     """What must be said of kept rows that are not all of this method."""
-    for path in dict.fromkeys(each.plan.keep for each in found if each.plan.keep):
-        if told := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
-            yield f"{path.name}: {told}"
+    for path in dict.fromkeys(each.plan.keep for each in parts if each.plan.keep):
+        if sentence := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
+            yield f"{path.name}: {sentence}"

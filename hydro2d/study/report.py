@@ -23,7 +23,7 @@ from hydro2d.terminal import say
 
 def _views(contents: Contents, folder: Path, make: bool, say: Callable[[str], None]) -> dict[str, str]:
     """Links from a folder to the pages that show runs, by case; ``make``: those of runs with dumps are made first."""
-    found = {}
+    links = {}
     for each in contents.records:
         file = own(each.case.directory / viewer.PAGE)
         if make:
@@ -34,8 +34,8 @@ def _views(contents: Contents, folder: Path, make: bool, say: Callable[[str], No
             except (ResultsError, ViewError, VtkError, HistoryError) as error:
                 say(f"warning: {each.case.name} has no page of its own: {error}")
         if file.is_file():
-            found[each.case.name] = quote(Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix())
-    return found
+            links[each.case.name] = quote(Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix())
+    return links
 
 
 def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = say, *, x: str | None = None,

@@ -23,10 +23,10 @@ class Size:
 
     def ensemble(self, definition: Definition) -> Ensemble | None:
         """How the members are made. Without [ensemble] in the study they are made in the usual way."""
-        found = definition.ensemble
-        if self.members is None or (found is None and self.members == 1):
-            return found
-        return (found or Ensemble(repeats=2)).model_copy(update={"repeats": self.members})
+        given = definition.ensemble
+        if self.members is None or (given is None and self.members == 1):
+            return given
+        return (given or Ensemble(repeats=2)).model_copy(update={"repeats": self.members})
 
     def overrides(self, deck: Deck) -> list[str]:
         """Overrides that give a deck these cells. Raises DeckError."""

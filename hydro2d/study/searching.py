@@ -45,9 +45,9 @@ class Searching(Choice, ABC):
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """As many cases as there are idle workers."""
         names: list[str] = []
-        while len(names) < room and (found := self._next(cases, {*busy, *names})) is not None:
-            names.append(found)
-            self.given.add(found)
+        while len(names) < room and (name := self._next(cases, {*busy, *names})) is not None:
+            names.append(name)
+            self.given.add(name)
         return names
 
     @abstractmethod

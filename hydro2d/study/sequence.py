@@ -52,10 +52,10 @@ def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: t
     if begin == 0:
         return float(np.linspace(*ends, size)[place])
     before = [(speed, outcome) for speed, outcome in zip(speeds[:begin], outcomes, strict=False) if outcome is not None]
-    found = logit.fit(*zip(*before, strict=True)) if before else None
-    if found is not None and found.overlap:
-        scale = found.scale if place < size - 1 else _wide(found, ends)
-        best = _most_telling(found.v50, scale, np.array(speeds), np.linspace(*ends, CANDIDATES))
+    fitted = logit.fit(*zip(*before, strict=True)) if before else None
+    if fitted is not None and fitted.overlap:
+        scale = fitted.scale if place < size - 1 else _wide(fitted, ends)
+        best = _most_telling(fitted.v50, scale, np.array(speeds), np.linspace(*ends, CANDIDATES))
         beside = SCATTER * scale * np.random.default_rng([seed, len(speeds)]).uniform(-1.0, 1.0)
         return float(np.clip(best + beside, *ends))
     low, high = _gap(before, ends, speeds[:begin])
@@ -73,9 +73,9 @@ def _gap(before: Sequence[tuple[float, bool]], ends: tuple[float, float], speeds
     return low + WIDER * (high - low) / (1.0 + 2.0 * WIDER), high - WIDER * (high - low) / (1.0 + 2.0 * WIDER)
 
 
-def _wide(found: logit.Fit, ends: tuple[float, float]) -> float:
+def _wide(fitted: logit.Fit, ends: tuple[float, float]) -> float:
     """A scale between the estimate and the largest of the 90 % region, or that of the whole interval, m/s."""
-    return math.sqrt(found.scale * min(found.region[:, 1].max(), (ends[1] - ends[0]) / logit.WIDTHS))
+    return math.sqrt(fitted.scale * min(fitted.region[:, 1].max(), (ends[1] - ends[0]) / logit.WIDTHS))
 
 
 def _most_telling(v50: float, scale: float, speeds: np.ndarray, candidates: np.ndarray) -> float:

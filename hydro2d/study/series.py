@@ -57,10 +57,10 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis], choice: Choice) -> 
         labels = [", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in kept) for record in records]
     else:
         labels = _labels_from_decks(records)
-    found: dict[str, list[Record]] = {}
+    groups: dict[str, list[Record]] = {}
     for label, record in zip(labels, records, strict=True):
-        found.setdefault(label, []).append(record)
-    return [Series(label or "hydro2d", style(n), tuple(each)) for n, (label, each) in enumerate(found.items())]
+        groups.setdefault(label, []).append(record)
+    return [Series(label or "hydro2d", style(n), tuple(each)) for n, (label, each) in enumerate(groups.items())]
 
 
 def _said(variable: Variable, record: Record) -> str:

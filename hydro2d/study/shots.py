@@ -173,14 +173,14 @@ class Shots(Searching):
 
     def _ended(self, shot: Planned, cases: dict[str, Case], under_way: Collection[str]) -> bool:
         """Whether a shot has ended, in whatever way."""
-        found = cases.get(shot.name)
-        return found is not None and shot.name not in under_way and (found.status in ENDED or shot.name in self.given)
+        case = cases.get(shot.name)
+        return case is not None and shot.name not in under_way and (case.status in ENDED or shot.name in self.given)
 
     def _outcomes(self, shots: Sequence[Planned], cases: dict[str, Case]) -> list[bool | None]:
         """Whether each shot has the outcome of fast ones; None where it has no outcome."""
         fast = regimes.SCHEMES[self.search.of].order[-1]
-        found = [self.outcome(cases[shot.name]) for shot in shots]
-        return [None if each is None else each == fast for each in found]
+        outcomes = [self.outcome(cases[shot.name]) for shot in shots]
+        return [None if each is None else each == fast for each in outcomes]
 
     def _given_up(self, group: Combination, cases: dict[str, Case], under_way: Collection[str]) -> bool:
         ended = [shot for shot in group.shots if self._ended(shot, cases, under_way)]
@@ -199,5 +199,5 @@ class Shots(Searching):
         shots = [v50.Shot(case.name, velocities.speed(case.values[velocities.AXIS]), self.outcome(case), case.status == DONE)
                  for case in cases if case.name in names]  # fmt: skip
         words = regimes.label(group.ends[0].values)
-        found = v50.estimate(self.search, regimes.SCHEMES[self.search.of], shots)
-        return f"  {words + ': ' if words else ''}{found.name}: {found.in_short}"
+        estimate = v50.estimate(self.search, regimes.SCHEMES[self.search.of], shots)
+        return f"  {words + ': ' if words else ''}{estimate.name}: {estimate.in_short}"

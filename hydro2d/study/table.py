@@ -27,9 +27,9 @@ Row = dict[str, object]
 
 def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measurement]) -> list[Row]:
     """One row for each case, with values by name and unit; None for missing values. ``measurements`` by case."""
-    found = [_row(study, record, measurements.get(record.case.name)) for record in records]
-    names = list(dict.fromkeys(name for row in found for name in row))
-    return [{name: row.get(name) for name in names} for row in found]
+    all_rows = [_row(study, record, measurements.get(record.case.name)) for record in records]
+    names = list(dict.fromkeys(name for row in all_rows for name in row))
+    return [{name: row.get(name) for name in names} for row in all_rows]
 
 
 def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
@@ -91,8 +91,8 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     residual = {"experiment_residual_m_s": measured, "residual_error_m_s": left - measured if compared else None}
     if measurement is None:
         return dict.fromkeys(names) | residual
-    told = not record.unfinished and record.depth is not None
-    error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if told else (None, None)
+    comparable = not record.unfinished and record.depth is not None
+    error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if comparable else (None, None)
     per_cent = None if error is None else 100.0 * error / measurement.depth
     values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
     return dict(zip(names, values, strict=True)) | residual
@@ -245,8 +245,8 @@ def _of_axis(axis: Axis, row: Row) -> Column:
 
 
 def _of_response(name: str) -> Column:
-    found = response(name)
-    return Column(found.title[0].upper() + found.title[1:], name, _number(name, "{:.4g}", found.factor))
+    quantity = response(name)
+    return Column(quantity.title[0].upper() + quantity.title[1:], name, _number(name, "{:.4g}", quantity.factor))
 
 
 def columns_of_audit() -> list[Column]:

@@ -44,7 +44,7 @@ def motions(shot: model_deck.Shot, velocity: float, *, eroding: bool, thickness:
     eroding : whether rods of the runs erode, to which the model of a rigid rod does not apply
     thickness : of the target, m; a motion ends where it reaches the rear, from which on no model here applies
     """
-    found = {}
+    by_name = {}
     for name in OF_ERODING if eroding else MOVING:
         try:
             motion = models.named(name).moves(velocity, beside.case(name, shot).values)
@@ -52,8 +52,8 @@ def motions(shot: model_deck.Shot, velocity: float, *, eroding: bool, thickness:
             continue
         motion = motion if thickness is None else _up_to(motion, thickness)
         if len(motion.time) > 1:
-            found[_title(name)] = motion
-    return found
+            by_name[_title(name)] = motion
+    return by_name
 
 
 def _up_to(motion: Motion, depth: float) -> Motion:

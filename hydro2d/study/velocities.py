@@ -60,8 +60,8 @@ def labels(given: Transition) -> tuple[str, ...]:
     if given.budget is not None:
         return first, last
     step = f"{math.copysign(given.tolerance or TOLERANCE, given.to):.12g} m/s"
-    found = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
-    return (*found, *([] if found[-1] == last else [last]))
+    speeds = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
+    return (*speeds, *([] if speeds[-1] == last else [last]))
 
 
 def speed(label: str) -> float:
