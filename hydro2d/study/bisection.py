@@ -1,4 +1,4 @@
-"""Bisection for the velocities at which the regime of a rod changes, with any number of runs at a time, apart from any files.
+"""Bisection for the velocities at which the regime of a rod changes, with any number of runs at a time; uses no files.
 
 Regimes are ordered: rigid, deforming, eroding; for the loss of length kept, used up; for a ballistic limit stopped, perforated.
 The transition to a regime lies between the slowest run that has reached it and the fastest slower run that has not. All
@@ -21,7 +21,7 @@ MOST_FAILED = 4
 def bracket(regimes: Mapping[float, str], regime: str, order: Sequence[str] = GROWING) -> tuple[float | None, float | None]:
     """Velocities between which a regime is reached: the fastest run below it and the slowest run in it; None is an open end.
 
-    found : regimes by velocity, or by anything that grows with it;  order : all regimes in order
+    regimes : by velocity, or by anything that grows with it;  order : all regimes in order
     """
     reached = {speed: order.index(each) >= order.index(regime) for speed, each in regimes.items()}
     high = min((speed for speed, yes in reached.items() if yes), default=None)
@@ -40,7 +40,7 @@ class Search:
     """One search on positions 0 to count - 1, the velocities in their order.
 
     order : regimes in the order of velocity;  found : regimes by position;  failed : positions without a regime
-    begun : positions that have a restart file to continue from
+    begun : positions with a restart file to continue from
     """
 
     count: int

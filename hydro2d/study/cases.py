@@ -42,7 +42,7 @@ class Option:
 class Planned:
     """A case before it runs. `text` is its resolved deck, or empty if the deck is wrong, and `message` then says why.
 
-    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name
+    of, member, changed : in an ensemble the case that it repeats, its number, and the changes, by name
     """
 
     name: str
@@ -82,7 +82,7 @@ def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None 
 
     search : whether the study must be a search; None: it may be either
     quiet : prints nothing while the decks of many cases are read
-    size : members and cells, where they are not those of the file
+    size : members and cells that replace those of the file
 
     Raises StudyError for mistakes in the study itself.
     """
@@ -208,7 +208,7 @@ class _Planner:
             raise StudyError(f"{self.path}: {of} {count} cases; at most {ranges.MOST} are allowed")
 
     def _free_of_axes(self, axes: list[list[Option]]) -> None:
-        """Checks that no axis sets what the members of an ensemble change."""
+        """Checks that no axis sets a key that the members of an ensemble change."""
         for number, (axis, choices) in enumerate(zip(self.definition.axis, axes, strict=True)):
             for choice in choices:
                 clash = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
@@ -345,7 +345,7 @@ class _Planner:
                 yield from ((_place(place, key, table), key) for key in settings if key != DECK)
 
     def _repeated(self, name: str, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> list[Planned]:
-        """A case, or its members if there is an ensemble; of a wrong deck the first alone, so that it is reported once."""
+        """A case, or its members if there is an ensemble; of a wrong deck only the first, so that it is reported once."""
         deck, message = _read(files[base], overrides)
         if deck and self.size.cells:
             try:
@@ -369,7 +369,7 @@ class _Planner:
 
 
 def _read(file: Path, overrides: list[str]) -> tuple[decks.Deck | None, str]:
-    """A deck, or None and why there is none."""
+    """A deck, or None and the reason."""
     try:
         return decks.load(file, overrides), ""
     except DeckError as error:

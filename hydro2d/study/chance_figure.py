@@ -31,7 +31,7 @@ def write(study: Study, results: Sequence[Transitions]) -> list[Path]:
 
 
 def _draws(study: Study, result: Transitions) -> list[dict]:
-    """What every shot differs in, by column; None in those of one that has not begun."""
+    """The changes of every shot by column; None for one that has not begun."""
     cases = {case.name: case for case in study.cases}
     begun = [cases[shot.case].deck or {} for shot in result.estimate.shots]
     keys = {column: key.split(".") for column, key in draws.KEYS.items()}

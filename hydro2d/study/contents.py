@@ -18,7 +18,7 @@ class Contents:
     """The cases of a study, as read.
 
     groups, measurements : by setup;  belonging : the measurement of each case by its name;  rows : of the table, in SI
-    notes : what could not be used
+    notes : on data that could not be used
     """
 
     study: Study
@@ -31,7 +31,7 @@ class Contents:
 
     @property
     def ensembles(self) -> list[Ensemble]:
-        """The ensembles of the study; a run that is no member is one by itself."""
+        """The ensembles of the study; a run outside ensembles is one by itself."""
         return grouped(self.records, self.belonging)
 
     @cached_property

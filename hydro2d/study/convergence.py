@@ -1,4 +1,4 @@
-"""`hydro2d converge`: the members of an ensemble on several meshes, scatter within a mesh apart from change between meshes."""
+"""`hydro2d converge`: an ensemble on several meshes; scatter within a mesh is separated from change between meshes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ HEADS = ("cells", "members", "mean", "scatter", "error of the mean", "change", "
 class Meshes:
     """A response on several meshes, from the coarsest to the finest.
 
-    regimes : on each mesh, in words;  limit : the value for cells of no size, or why none is given
+    regimes : on each mesh, in words;  limit : the value for cells of zero size, or why there is none
     """
 
     response: Response
@@ -39,7 +39,7 @@ class Meshes:
     limit: Limit
 
     def lines(self) -> list[str]:
-        """The table of the meshes, and what follows from it."""
+        """The table of the meshes, and the conclusions."""
         means = [each.mean for each in self.levels]
         changes = ["", *(f"{fine - coarse:+.3g}" for coarse, fine in itertools.pairwise(means))][: len(means)]
         rows = [(f"{each.cells:g}", str(each.count), f"{each.mean:.4g}", f"{each.scatter:.2g}", f"{each.error:.2g}", change,
@@ -116,8 +116,8 @@ def _sequence(ensembles: Sequence[Ensemble], y: Response) -> Meshes:
         few = ", ".join(f"{cells:g}" for cells, values in samples if len(values) < 2)
         limit = Limit(None, None, None, None, f"fewer than two members have ended on {few} cells")
     elif len(kinds) > 1:
-        limit = Limit(None, None, None, None, f"runs end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean of them "
-                                              "is the depth of none")  # fmt: skip
+        limit = Limit(None, None, None, None, f"runs end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean "
+                                              "describes none of them")  # fmt: skip
     elif y.name == DEPTH and any(each.bound is not None for each in ensembles):
         limit = Limit(None, None, None, None, "some depths are lower bounds, since the projectile perforated or left the mesh")
     else:

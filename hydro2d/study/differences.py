@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-#: keys that every run has for itself
+#: keys that are particular to each run
 OWN = ("name", "output.directory")
 #: sections whose tables have names
 NAMED = ("body", "materials", "tracer", "gauge", "source")

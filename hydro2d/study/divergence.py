@@ -1,10 +1,10 @@
-"""`hydro2d diverge`: where and when two runs of nearly the same deck part, and how fast their difference grows.
+"""`hydro2d diverge`: where and when two runs of nearly the same deck diverge, and how fast their difference grows.
 
 The difference of a column of the history is its absolute value; that of a field is the largest over all cells that are at
 least half filled. Each is divided by the largest magnitude that the quantity has in either run. Columns of the second run are
 interpolated to the times of the first. Fields are compared cell by cell, in dumps of nearly the same time, while the meshes
-lie within a tenth of a cell of each other. What the small difference of the times makes by itself is estimated from the change
-since the dump before, and told.
+lie within a tenth of a cell of each other. The effect of the small difference of the times alone is estimated from the change
+since the dump before, and reported.
 
 A difference that grows by chance grows like exp(t / T): T, the growth time, is the time in which it becomes e times as large.
 It is fitted to the largest difference so far, from a thousandth of the stated size up to that size. Source of the measure:
@@ -32,10 +32,10 @@ from hydro2d.results.reading import Results, ResultsError
 from hydro2d.study import differences
 from hydro2d.study.table import to_csv
 
-#: columns of the history that are compared: of a projectile; those of every body are added where there is none
+#: columns of the history that are compared: of a projectile; without one, those of every body
 COLUMNS = ("penetration_depth_m", "rod_length_m", "rod_tail_velocity_m_s")
 OF_BODY = ("velocity_m_s", "kinetic_energy_J")
-#: fields that are compared where the dumps have them
+#: fields that are compared if the dumps have them
 FIELDS = ("velocity", "pressure", "density", "plastic_strain")
 #: largest distance of two meshes, in cells; largest difference of the times of two dumps, relative to their interval
 APART, SAME_TIME = 0.1, 0.05
@@ -64,7 +64,7 @@ class Curve:
     name : of the column or field;  kind : "history" or "field";  scale : its largest magnitude, SI
     time : s, shape (n,);  difference : relative to the scale, shape (n,)
     places : for a field, the cell with the largest difference at each time
-    by_time : what the difference of the times of the dumps alone makes at most, relative to the scale
+    by_time : largest effect of the difference of the times of the dumps alone, relative to the scale
     """
 
     name: str
@@ -81,7 +81,7 @@ class Curve:
         return int(beyond[0]) if len(beyond) else None
 
     def growth(self, size: float) -> Growth | None:
-        """The growth from a thousandth of a size up to it; None if the difference does not grow so, or is one of the times."""
+        """The growth from a thousandth of a size up to it; None if the difference does not grow so, or comes from the times."""
         largest = np.maximum.accumulate(self.difference)
         kept = (largest >= max(FROM * size, self.by_time)) & (largest <= size)
         if kept.sum() < FEWEST or math.log(largest[kept][-1] / largest[kept][0]) < GROWTH:
@@ -106,7 +106,7 @@ class Growth(NamedTuple):
 
 @dataclass(frozen=True)
 class Divergence:
-    """Two runs, the keys in which their decks differ, and the curves of all quantities; notes : what was not compared."""
+    """Two runs, the keys in which their decks differ, and the curves of all quantities; notes : on quantities not compared."""
 
     runs: tuple[Results, Results]
     keys: dict[str, tuple[str, str]]
@@ -187,7 +187,7 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
 
 
 def _missing(run: Results, fields: Sequence[str]) -> list[str]:
-    """Which of these fields the dumps of a run do not have."""
+    """Those of these fields that the dumps of a run do not have."""
     if not fields or not run.dumps:
         return []
     dump = vtk.read_grid(run.dumps[-1][1])
@@ -220,7 +220,7 @@ def _histories(one: Results, other: Results) -> Iterator[Curve]:
 
 
 def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[Curve], list[str]]:
-    """The curves of the fields, and what was not compared."""
+    """The curves of the fields, and notes on what was not compared."""
     second = list(other.dumps)
     rows: dict[str, list[tuple[float, float, Place, float]]] = {}
     scales: dict[str, float] = {}
@@ -244,7 +244,7 @@ def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[C
 
 
 def _pairs(first: Sequence[tuple[float, Path]], second: Sequence[tuple[float, Path]]) -> Iterator[tuple[float, Path, Path]]:
-    """Time and file of every dump of the first run that has one of nearly the same time in the second, and that one's file."""
+    """Time and file of every dump of the first run with one of nearly the same time in the second, and that one's file."""
     interval = min((later - time for (time, _), (later, _) in pairwise(first)), default=0.0)
     for time, file in first:
         when, near = min(second, key=lambda entry: abs(entry[0] - time), default=(math.inf, file))
@@ -321,7 +321,7 @@ def figure(divergence: Divergence, size: float):
 
 
 def _draw(axes, curve: Curve, size: float, colour: str, label: str) -> None:
-    """One curve and, dashed, the growth that was fitted to it."""
+    """One curve and, dashed, its fitted growth."""
     grown = curve.growth(size)
     said = label if grown is None else f"{label}: e times in {grown.time * 1e6:.3g} us"
     kept = curve.difference > 0.0

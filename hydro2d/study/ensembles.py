@@ -1,4 +1,4 @@
-"""The results of ensembles: for each case the median and the spread of its members, and how often each regime came."""
+"""The results of ensembles: for each case the median and the spread of its members, and the frequency of each regime."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Ensemble:
 
     @property
     def ended(self) -> tuple[Record, ...]:
-        """The members whose results are final; if there is none, those that were cut at the end time of the deck."""
+        """The members whose results are final; if there are none, those cut off at the end time of the deck."""
         final = tuple(each for each in self.members if not each.unfinished)
         return final or tuple(each for each in self.members if each.cut)
 
     @property
     def cut(self) -> bool:
-        """Whether its numbers are those at the end time of the deck, while the projectile still moved."""
+        """Whether its numbers are those at the end time of the deck, with the projectile still moving."""
         return any(each.cut for each in self.ended)
 
     def spread(self, name: str) -> Spread | None:
@@ -65,7 +65,7 @@ class Ensemble:
 
 
 def grouped(records: Sequence[Record], measurements: Mapping[str, Measurement] | None = None) -> list[Ensemble]:
-    """The ensembles of runs, in their order; a run that is no member is one by itself. ``measurements`` by case."""
+    """The ensembles of runs, in their order; a run outside ensembles is one by itself. ``measurements`` by case."""
     groups: dict[str, list[Record]] = {}
     for record in records:
         groups.setdefault(record.case.group, []).append(record)
@@ -79,7 +79,7 @@ def score(ensembles: Sequence[Ensemble]) -> outcomes.Score | None:
 
 
 def rows(study: Study, ensembles: Sequence[Ensemble], runs: Sequence[Row], choice: Choice | None = None) -> list[Row]:
-    """One row for each ensemble: what its members share, then medians, ends of the spreads, shares of the regimes.
+    """One row for each ensemble: the values that its members share, then medians, ends of the spreads, shares of the regimes.
 
     runs : the rows of the runs;  choice : drawn responses, whose columns are added
     """
@@ -126,7 +126,7 @@ def _share(name: str, share: Share | None) -> Row:
 def table(ensembles: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads and rows of text, one row for each ensemble; columns without an entry are left out.
 
-    drawn : further numbers of which medians and spreads are given
+    drawn : further numbers, with medians and spreads
     """
     others = [y for y in drawn if y.name not in (DEPTH, LENGTH_RATIO)]
     shown = [*map(response, (DEPTH, LENGTH_RATIO)), *others]

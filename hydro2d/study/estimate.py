@@ -24,7 +24,7 @@ def show(plan: Plan, workers: int) -> int:
 
 
 def show_search(plan: Plan, workers: int) -> int:
-    """The same for a search: the two ends of every combination, and the number of runs needed."""
+    """Prints the estimate of a search: the two ends of every combination, and the number of runs needed."""
     count = len(plan.search.labels)
     estimates = _table(plan, [case for number, case in enumerate(plan.cases) if number % count in (0, count - 1)])
     combinations, budget = len(plan.cases) // count, plan.search.budget

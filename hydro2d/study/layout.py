@@ -56,7 +56,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Ensemble:
-    """How the members of every case of a study are made: their number, what they differ in, and the seed."""
+    """How the members of every case of a study are made: their number, their changes, and the seed."""
 
     repeats: int
     by: tuple[str, ...]
@@ -76,7 +76,7 @@ class Case:
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
     summary : contents of summary.json; empty until the run has ended
     progress : contents of progress.json; empty while the case does not run
-    of, member, changed, ensemble : in an ensemble the case that it repeats, its number, what is changed, by name, and how its
+    of, member, changed, ensemble : in an ensemble the case that it repeats, its number, the changes by name, and how its
         members are made
     """
 
@@ -112,7 +112,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Interval:
-    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, what changes.
+    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, and outcome.
 
     depth : threshold of a depth, m;  budget : of a search for an outcome that is partly chance, else None
     """
@@ -147,7 +147,7 @@ class Study:
 
     @property
     def ensembles(self) -> tuple[Ensemble, ...]:
-        """How the members of ensembles are made, each way once; more than one only where several studies are combined."""
+        """How the members of ensembles are made, each way once; more than one only if several studies are combined."""
         return tuple(dict.fromkeys(case.ensemble for case in self.cases if case.ensemble))
 
     def case(self, number: int) -> Case:
@@ -156,7 +156,7 @@ class Study:
 
 
 def make(directory: Path) -> None:
-    """Makes the missing folders of a study. Raises OSError, StrangeFile if a file of the study is no file."""
+    """Makes the missing folders of a study. Raises OSError, StrangeFile if a file of the study is not a regular file."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     own_folder(directory / CASES)
@@ -333,7 +333,7 @@ def state(place: Path, deck_sha256: str | None) -> dict:
 
     deck_sha256 : hash of the resolved deck that it should have; None: any
 
-    Nothing else says what a case is: a run that has ended counts, whatever failed before or as its worker died.
+    Nothing else decides the state of a case: a run that has ended counts, even after failures or the death of its worker.
     """
     try:
         return _read_state(place, deck_sha256)

@@ -11,12 +11,12 @@ from hydro2d.study.responses import DEPTH, Response, Variable
 from hydro2d.study.series import Series
 from hydro2d.terminal import shown
 
-#: sizes of marks and of dots in pixels; how far the dots are seen through
+#: sizes of marks and of dots in pixels; opacity of the dots
 SIZE, DOT, FAINT = 9, 7, 0.4
 
 
 def verbatim(text: object) -> str:
-    """A name from a file as Plotly shows it letter by letter: none of it is markup."""
+    """A name from a file, escaped so that Plotly shows it literally."""
     return html.escape(shown(text), quote=False)
 
 
@@ -47,7 +47,7 @@ def points(figure, records: Sequence[Record], x: Variable, y: Response, how, nam
 
 
 def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
-    """The ensembles of a series: members as dots, and before them the median with a bar from 10 to 90 %.
+    """The ensembles of a series: members as dots, and in front of them the median with a bar from 10 to 90 %.
 
     Returns whether there are unfinished members, which are open dots.
     """
@@ -78,7 +78,7 @@ def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
 
 
 def _place(each: Ensemble, x: Variable) -> float | str | None:
-    """Where an ensemble stands on the x axis: at the place of its members, or in the middle of them if they differ."""
+    """Place of an ensemble on the x axis: that of its members, or their middle if they differ."""
     places = [place for record in each.members if (place := x.value(record)) is not None]
     if not places or isinstance(places[0], str):
         return places[0] if places else None

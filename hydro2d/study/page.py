@@ -1,4 +1,4 @@
-"""The page of a report: one self-contained HTML file, from the templates beside this module."""
+"""The page of a report: one self-contained HTML file, from the templates in this folder."""
 
 from __future__ import annotations
 
@@ -75,9 +75,9 @@ def download(text: str, kind: str) -> str:
 
 
 def _transitions(contents: Contents) -> dict:
-    """The brackets of a search, one row for each combination of the axes; what is open; the criteria.
+    """The brackets of a search, one row for each combination of the axes; open questions; the criteria.
 
-    What a picture says of the estimate from a budget is not among the notes.
+    Notes on an estimate from a budget that a picture already states are left out.
     """
     combinations, chance = contents.transitions, contents.study.search.budget is not None
     names = list(dict.fromkeys(bracket.name for each in combinations for bracket in each.brackets))
@@ -95,7 +95,7 @@ def _transitions(contents: Contents) -> dict:
 
 
 def _ensembles(contents: Contents, choice: Choice) -> dict:
-    """Medians, spreads and shares of regimes, one row for each case; the score; what the members differ in; the file."""
+    """Medians, spreads and shares of regimes, one row for each case; the score; the changes between members; the file."""
     groups = contents.ensembles
     heads, rows = ensembles.table(groups, choice.y)
     scored = ensembles.score(groups)
@@ -107,7 +107,7 @@ def _ensembles(contents: Contents, choice: Choice) -> dict:
 
 
 def _made(groups: Sequence[ensembles.Ensemble]) -> str:
-    """How many members the cases have, and what these differ in."""
+    """The number of members of the cases, and their changes."""
     said = []
     for made, number in Counter(each.members[0].case.ensemble for each in groups).items():
         cases, apiece = ("1 case", "") if number == 1 else (f"{number} cases", " each")

@@ -17,7 +17,7 @@ from hydro2d.study.responses import CASE, DEPTH, RESIDUAL, Choice, Response, Var
 
 #: fraction by which lines of models extend beyond the velocities of runs and experiments
 BEYOND = 0.05
-#: largest number of impact velocities whose histories stand beside those of a model
+#: largest number of impact velocities whose histories are shown with those of a model
 MOST_MOTIONS = 4
 #: largest number of runs in the text for readers who cannot see a figure
 MOST_WORDS = 12
@@ -79,9 +79,9 @@ def _drawn(each: Record, choice: Choice, y: Response) -> bool:
 
 
 def panels(contents: Contents, choice: Choice) -> list[Panel]:
-    """The runs of each figure: of one projectile and target, or of several where their series tell these apart.
+    """The runs of each figure: of one projectile and target, or of several if their series distinguish them.
 
-    All runs are in one figure where there is no projectile, or where x varies projectile or target.
+    All runs are in one figure if there is no projectile, or if x varies projectile or target.
     """
     groups, axes = contents.groups, contents.study.axes
     by_setup = choice.x.impact or any(len({choice.x.value(each) for each in members}) > 1 for members in groups.values())
@@ -156,9 +156,9 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
 
 
 def _rows(contents: Contents, choice: Choice, panel: Panel) -> Variable | None:
-    """What the rows of a strip of final depths are: the combinations of the axes, if the runs have one velocity.
+    """The rows of a strip of final depths: the combinations of the axes, if the runs have one velocity.
 
-    None where a figure against the only axis, or against the cases, is such a strip already.
+    None if a figure against the only axis, or against the cases, is such a strip already.
     """
     combinations = responses.combinations(contents.study, panel.members)
     depth = responses.response(DEPTH)
@@ -215,7 +215,7 @@ def _one_velocity(panel: Panel) -> bool:
 
 
 def _models(x: Variable, y: Response, panel: Panel):
-    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them.
+    """Depths and residual velocities by analytic models, if x is the impact velocity, and notes on them.
 
     In a strip of cases at one velocity, depths at that velocity.
     """
@@ -246,7 +246,7 @@ def _models(x: Variable, y: Response, panel: Panel):
 
 
 def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, dict[str, Motion]]]:
-    """When the rod touches the target, s, and its motion by each analytic model, by impact velocity; none of many."""
+    """Time in s at which the rod touches the target, and its motion by each model, by impact velocity; empty if many."""
     first, by_speed = _modelled(panel), {}
     speeds = {each.velocity: each for each in reversed(drawn) if each.velocity is not None and responses.DEPTH in each.history}
     if first is None or panel.setup is None or len(speeds) > MOST_MOTIONS:

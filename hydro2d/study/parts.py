@@ -1,4 +1,4 @@
-"""A study of parts: studies that are run in turn, each in a directory of its own, with one summary of what all of them take."""
+"""A study of parts: studies that are run in turn, each in a directory of its own, with one summary of their cost."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
     """The parts of a study, with all decks resolved.
 
     overrides : of all decks, over those of [set];  size : replaces members and cells of all parts
-    only : patterns of the names of parts;  again : whether cases are chosen that are up to date
+    only : patterns of the names of parts;  again : whether to choose cases that are up to date
 
     Raises StudyError.
     """
@@ -87,7 +87,7 @@ def _names(definition: Definition) -> list[str]:
 
 
 def show(parts: Sequence[Chosen], workers: int) -> int:
-    """Prints what each part and all together take. Returns 0, or 2 if a case is invalid."""
+    """Prints the cost of each part and of all together. Returns 0, or 2 if a case is invalid."""
     rows, wrong, hours, size, left = [], [], 0.0, 0.0, 0
     for each in parts:
         runs, fresh, stale = each.states
@@ -111,7 +111,7 @@ def show(parts: Sequence[Chosen], workers: int) -> int:
 
 
 def _cost(each: Chosen) -> tuple[float, float, list[str]]:
-    """Mean seconds on one thread and bytes of a run, and the mistakes of cases: the first member of each case is looked at."""
+    """Mean seconds on one thread and bytes of a run, and the mistakes of cases, from the first member of each case."""
     selected = each.plan.cases if each.plan.search else each.choice.selected
     first = {case.of or case.name: case for case in reversed(selected)}
     checks, wrong = [], []
@@ -131,7 +131,7 @@ def _checked(case: Planned) -> check.Check:
 
 
 def mixed(parts: Sequence[Chosen]) -> Iterator[str]:
-    """What must be said of kept rows that are not all of this method."""
+    """Notes on kept rows that are not all of this method."""
     for path in dict.fromkeys(each.plan.keep for each in parts if each.plan.keep):
         if sentence := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
             yield f"{path.name}: {sentence}"

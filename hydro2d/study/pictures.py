@@ -19,7 +19,7 @@ from hydro2d.study.layout import INVALID, WAITING
 from hydro2d.study.record import Record
 from hydro2d.study.regimes import Transitions
 
-#: names of pictures and films, to remove those of earlier reports and versions
+#: patterns of the names of pictures and films, to remove those of earlier reports and versions
 NAMES = re.compile(r"(rods|transition|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
 #: largest number of pages of rods; the caption says how many runs are left out
 MOST_PAGES = 8
@@ -30,7 +30,7 @@ KINDS = {".png": "image/png", ".gif": "image/gif", ".mp4": "video/mp4"}
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture or a film: its file, its heading, its caption, and a text for readers who cannot see it."""
+    """A picture or a film: file, heading, caption, and a text for readers who cannot see it."""
 
     file: Path
     heading: str

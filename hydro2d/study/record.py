@@ -31,7 +31,7 @@ DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
 #: stop reasons of runs that were cut short; fraction of the impact velocity above which a projectile still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
-#: speed from which it is told in whole m/s
+#: speed above which it is given in whole m/s
 WHOLE_SPEED = 10.0
 
 
@@ -89,7 +89,7 @@ class Place(NamedTuple):
 
 @dataclass
 class Record:
-    """One case as read; ``problems`` lists what could not be. Outlines are radius and depth below the surface, (n, 2) in m.
+    """One case as read; ``problems`` lists unreadable parts. Outlines are radius and depth below the surface, (n, 2) in m.
 
     text, deck : the resolved deck as its file has it, and as tables, SI
     setup, velocity : setup and impact velocity in m/s; None without a projectile and a target
@@ -97,7 +97,7 @@ class Record:
     shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
     history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
     start, rod : outlines of the projectile at the start and at the end
-    unread : which models of the deck were not run, in words
+    unread : models of the deck that were not run, in words
     """
 
     case: Case
@@ -135,7 +135,7 @@ class Record:
 
     @property
     def unfinished(self) -> str:
-        """Why the results are not final: the run has not ended, or was cut short while the projectile moved; else empty."""
+        """Why the results are not final: the run has not ended, or was cut short with the projectile moving; else empty."""
         if not self.done:
             return self.case.status
         if not self.case.summary:
@@ -147,7 +147,7 @@ class Record:
 
     @property
     def cut(self) -> bool:
-        """Whether the run ended by its end time or number of cycles while the core of the projectile still moved."""
+        """Whether the run ended by its end time or number of cycles with the core of the projectile still moving."""
         ended = self.done and self.case.summary.get("stop_reason") in CUT
         return ended and self.velocity is not None and self._speed > MOVING * self.velocity
 
@@ -234,7 +234,7 @@ def is_number(value) -> bool:
 
 
 def read(case: Case, trust: bool = False) -> Record:
-    """Reads a case; what cannot be read is left out and listed in its problems. Raises StrangeFile.
+    """Reads a case; unreadable parts are left out and listed in its problems. Raises StrangeFile.
 
     trust : whether the code of models from outside that its deck carries may be run
     """

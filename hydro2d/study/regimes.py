@@ -1,4 +1,4 @@
-"""The results of a search: transitions by regime and by depth, beside experiments, the CTH study and analytic models."""
+"""The results of a search: transitions by regime and by depth, with experiments, the CTH study and analytic models."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FILE = "transition.json"
 
 @dataclass(frozen=True)
 class Scheme:
-    """What a search distinguishes: regimes in the order of velocity, and names of transitions by the regime they lead to."""
+    """Outcomes of a search: regimes in the order of velocity, and names of transitions by the regime they lead to."""
 
     order: tuple[str, ...]
     names: Mapping[str, str]
@@ -40,7 +40,7 @@ SCHEMES = {
     "deeper": Scheme((SHALLOW, DEEP), {DEEP: "depth reached"}),
     "shallower": Scheme((DEEP, SHALLOW), {SHALLOW: "depth no longer reached"}),
 }
-#: searches whose transitions the analytic models and the experiments have as well
+#: searches with transitions that analytic models and experiments also have
 OF_ROD = ("regime", "erosion", "length")
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
 DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
@@ -49,7 +49,7 @@ _BY_DEPTH = {
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
 }
 _OF_DEPTH = {DEEP: "the largest depth of the run is at least `depth` of the study", SHALLOW: "it is less"}
-#: what the terms of a search mean
+#: meanings of the terms of a search
 CRITERIA = {
     "regime": RULE | _BY_DEPTH,
     "length": {
@@ -127,10 +127,10 @@ def _at_least(run: Run) -> str:
 
 
 def judge(record: Record, of: str = "regime", depth: float | None = None) -> Run:
-    """The outcome of a case: its regime at the end, or what `of` of a study file names; depth : threshold in m.
+    """The outcome of a case: its regime at the end, or the outcome that `of` of a study file names; depth : threshold in m.
 
     None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
-    without this regime, such a rod is recognised by the mass that it has lost.
+    without this regime, such a rod is recognised by its loss of mass.
     """
     case = record.case
     velocity = record.velocity if record.velocity is not None else velocities.speed(case.values[velocities.AXIS])
@@ -157,7 +157,7 @@ def judge(record: Record, of: str = "regime", depth: float | None = None) -> Run
 
 
 def _by_threshold(record: Record, velocity: float, depth: float) -> Run:
-    """Whether a case reached a depth in m; not known for a rod that left the mesh, or the target, before it."""
+    """Whether a case reached a depth in m; unknown for a rod that left the mesh, or the target, before it."""
     if record.depth is None:
         return Run(record, velocity, None, "it has no depth")
     if record.depth < depth and record.at_least:
@@ -171,7 +171,7 @@ class Transitions:
 
     values : labels of the axes except the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
     settled : by name of a bracket of regimes, whether no further run could narrow it
-    notes : what is open and why, what is out of order, which runs did not end at rest
+    notes : open questions with reasons, regimes out of order, runs that did not end at rest
     comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
     estimate : of a search with a budget, whose bracket is the interval of v50
     """
@@ -300,7 +300,7 @@ def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple
 
 
 def _fall(known: Sequence[Run]) -> list[Bracket]:
-    """Where the depth falls with the velocity: from the deepest run to the next faster one."""
+    """The velocities between which the depth falls: from the deepest run to the next faster one."""
     deep = [run for run in known if run.record.depth is not None]
     if not deep:
         return []
@@ -314,15 +314,15 @@ def _fall(known: Sequence[Run]) -> list[Bracket]:
 def by_depth(depths: Mapping[float, float], limit: float) -> Mapping[float, str]:
     """Whether rods went deeper than the hydrodynamic limit, ``DEEPER`` or ``NOT_DEEPER``, by velocity.
 
-    Slow rods, which stop before they reach it, are left out; so are all if none is deeper, for whether those were too slow or
-    were used up is not told by their depth.
+    Slow rods, which stop before they reach it, are left out; so are all if none is deeper, since the
+    depth does not show whether they were too slow or used up.
     """
     first = min((speed for speed, depth in depths.items() if depth > limit), default=math.inf)
     return {speed: DEEPER if depth > limit else NOT_DEEPER for speed, depth in depths.items() if speed >= first}
 
 
 def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
-    """Where the depth is no longer above the hydrodynamic limit, if a run is deeper; and what is out of order."""
+    """Velocities from which the depth is no longer above the hydrodynamic limit, if a run is deeper; and notes on order."""
     deep = [run for run in known if run.record.depth is not None and run.record.shot]
     if not deep:
         return [], []
@@ -336,7 +336,7 @@ def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
 
 
 def _disordered(outcomes: Mapping[float, str], order: Sequence[str]) -> list[str]:
-    """What is out of order, in words."""
+    """Notes on regimes out of order."""
     return [f"out of order: {outcomes[slow]} at {slow:g} m/s, {outcomes[fast]} at {fast:g} m/s; the slowest change is given"
             for slow, fast in bisection.disordered(outcomes, order)]  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Recht-Ipson and Lambert-Jonas beside the residual velocities of a series of runs."""
+"""Recht-Ipson and Lambert-Jonas models for the residual velocities of a series of runs."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ class Shots:
 
 
 def shots(records: Sequence[Record]) -> Shots:
-    """Of the runs that have ended, sorted by the impact velocity."""
+    """The runs that have ended, sorted by impact velocity."""
     pairs = [(record.velocity, raw(record, RESIDUAL)) for record in records if not record.unfinished]
     known = sorted((v, max(left, 0.0)) for v, left in pairs if v is not None and left is not None)
     return Shots(tuple(v for v, _ in known), tuple(left for _, left in known))
 
 
 def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Curve], list[str]]:
-    """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is not drawn."""
+    """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is missing."""
     ended, velocity = shots(records), np.linspace(low, high, POINTS)
     drawn, notes, fit = [], [], None
     try:

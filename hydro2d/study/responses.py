@@ -1,4 +1,4 @@
-"""The axes of a report's figures: responses of the runs, and what was varied, by name and in the reader's units."""
+"""The axes of a report's figures: responses of the runs, and varied quantities, by name and in the reader's units."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Choice:
-    """What is drawn: responses ``y`` against ``x``, a series for each combination of ``by``; None: of all else that varies."""
+    """Choice of figures: responses ``y`` over ``x``, a series for each combination of ``by``, None: of all else that varies."""
 
     x: Variable
     y: tuple[Response, ...]
@@ -80,7 +80,7 @@ class Choice:
 
 def choose(study: Study, records: Sequence[Record], x: str | None = None, y: Sequence[str] = (),
            by: Sequence[str] = ()) -> Choice:  # fmt: skip
-    """Finds what the names refer to, with sensible defaults. Raises StudyError for an unknown name."""
+    """Resolves the names, with sensible defaults. Raises StudyError for an unknown name."""
     names = y or _usual_responses(records)
     known = numbers(records)
     for name in y:
@@ -146,7 +146,7 @@ def is_velocity(axis: Axis) -> bool:
 def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
     """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes the case.
 
-    At one velocity the cases side by side are a strip of results, where all marks would stand above one another.
+    At one velocity the cases are drawn side by side, since all marks would otherwise lie above one another.
     """
     speeds = {record.velocity for record in records} - {None}
     axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1]

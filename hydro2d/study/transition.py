@@ -66,7 +66,7 @@ class Bisection(Searching):
         )
 
     def _next(self, cases: Sequence[Case], under_way: Collection[str]) -> str | None:
-        """That of the combination with the fewest cases under way."""
+        """The next case of the combination with the fewest cases under way."""
         by_name = {case.name: case for case in cases}
         for group in sorted(self.groups, key=lambda group: sum(case.name in under_way for case in group)):
             busy = {position for position, case in enumerate(group) if case.name in under_way}
@@ -105,7 +105,7 @@ class Bisection(Searching):
 
 
 def choice_of(plan: Plan, again: bool = False) -> Shots | Bisection:
-    """The search of a plan; again : it is made anew even if all its rows are kept."""
+    """The search of a plan; again : it is repeated even if all its rows are kept."""
     return Shots(plan, again) if plan.search.budget else Bisection(plan, again)
 
 

@@ -1,4 +1,4 @@
-"""The result of a search with a budget: v50 and width of a transition whose outcome is partly chance, and how sure they are."""
+"""The result of a search with a budget: v50 and width of a transition whose outcome is partly chance, and uncertainties."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MILITARY_CRITERION = {
 
 
 class Shot(NamedTuple):
-    """A run of a search: its case, its velocity in m/s, its outcome (None: it has none), whether it is done."""
+    """A run of a search: its case, its velocity in m/s, its outcome (None if it has none), whether it is done."""
 
     case: str
     velocity: float
@@ -40,12 +40,12 @@ class Shot(NamedTuple):
 
 @dataclass(frozen=True)
 class Estimate:
-    """What the shots of one combination of the axes tell of one transition.
+    """Result of the shots of one combination of the axes for one transition.
 
     name : of the transition;  outcomes : of slow and of fast shots;  shots : in the order of the search
     budget : number of runs allowed;  spent : whether no further run is to be made
-    fit : None where the shots do not tell
-    military : V50 of MIL-STD-662F in m/s, with the number of shots; None where no shots qualify; for a ballistic limit only
+    fit : None if the shots do not determine it
+    military : V50 of MIL-STD-662F in m/s, with the number of shots; None if no shots qualify; for a ballistic limit only
     """
 
     name: str
@@ -72,7 +72,7 @@ class Estimate:
 
     @property
     def notes(self) -> list[str]:
-        """v50, its interval, the width, and what the budget bought, in words."""
+        """v50, its interval, the width, and the runs made of the budget, in words."""
         known, (slow, fast) = self.known, self.outcomes
         number = sum(shot.outcome == fast for shot in known)
         done = sum(shot.done for shot in self.shots)
@@ -80,7 +80,7 @@ class Estimate:
                  + (f", {done - len(known)} without an outcome" if done > len(known) else "")]  # fmt: skip
         if self.ballistic:
             notes.append("V50 of MIL-STD-662F: " + (f"{self.military[0]:.1f} m/s from {self.military[1]} shots" if self.military
-                         else "none, for no shots lie as close together as it asks"))  # fmt: skip
+                         else "none, since no shots lie as close together as it requires"))  # fmt: skip
         return notes if self.spent else [*notes, "the budget is not spent; --resume continues"]
 
     @property
@@ -145,8 +145,8 @@ def estimate(search: Interval | Velocities, scheme, shots: Sequence[Shot]) -> Es
 def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float, int] | None:
     """V50 by MIL-STD-662F in m/s and the number of shots in it; None if no shots lie close enough together.
 
-    It is the mean of the highest velocities that were held and of as many of the lowest that perforated; the largest number of
-    shots whose velocities differ by no more than MILITARY allows is taken.
+    It is the mean of the highest velocities that were stopped and of as many of the lowest that perforated, for the largest
+    number of shots whose velocities differ by no more than MILITARY allows.
     """
     v, y = np.asarray(speeds, float), np.asarray(perforated, bool)
     stopped, through = np.sort(v[~y])[::-1], np.sort(v[y])
@@ -158,7 +158,7 @@ def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float
 
 
 def rows(values: dict[str, str], estimate: Estimate, draws: Sequence[dict]) -> list[dict]:
-    """Rows of the CSV: one for each shot of a combination, with what it differs in from the others."""
+    """Rows of the CSV: one for each shot of a combination, with its changes."""
     return [
         {**values, "transition": estimate.name, "shot": number, "case": shot.case, "velocity_m_s": shot.velocity,
          "outcome": shot.outcome, **draw,
