@@ -37,7 +37,7 @@ class Flow(Section):
     pattern: Literal["spherical", "cylindrical"] = Field(description="directed away from a point or from a line")
     speed: Speed = Field(description="speed at `radius`, outward positive", examples=["-200 m/s"])
     centre: Length = Field(0.0, description="axial position of the centre of a spherical flow", examples=["1 cm"])
-    radius: PositiveLength = Field(1.0, description="distance at which `speed` holds", examples=["5 mm"])
+    radius: PositiveLength = Field(1.0, description="distance at which the speed is `speed`", examples=["5 mm"])
     exponent: Number = Field(
         0.0, description="decay with distance; 2 (spherical) or 1 (cylindrical) conserves volume", examples=[2.0]
     )

@@ -2,7 +2,7 @@
 
 ``load`` and ``loads`` read a deck with its includes and overrides. Every mistake raises a DeckError that names the file, the
 line, the key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor``, ``surface`` and
-``impact_velocity`` derive further values from a deck. ``warnings`` lists what is allowed but unwise.
+``impact_velocity`` derive further values from a deck. ``warnings`` lists allowed but unwise choices.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Deck(sections.Deck):
     ``deck.body[0].velocity``.
     """
 
-    #: what the deck was made of, before its defaults were written out
+    #: the tables of the deck before its defaults were written out
     _tables: dict[str, Any] = PrivateAttr(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
@@ -93,7 +93,7 @@ class Deck(sections.Deck):
             A TOML file, or the path of a deck that hydro2d ships, such as ``problems/perforation/sphere.toml``.
         overrides : dict or list of str
             Values by dotted key that replace those of the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A
-            list holds ``"key=value"``, as for the option ``--set`` of the command line. A number of a quantity with a unit must
+            list has ``"key=value"``, as for the option ``--set`` of the command line. A number of a quantity with a unit must
             be text that names it, unless the deck or the overrides have ``numbers = "SI"``.
 
         Raises

@@ -105,7 +105,7 @@ class Mesh(Section):
     cells_across: CellsAcross | None = Field(
         None, description="with reach, instead of r and z: cells across the radius of a rod or a sphere, or across the smaller "
         "of thickness and width of another body; square cells of this size cover that body, all that moves and the way ahead, "
-        "and cells beyond them grow by a tenth from one to the next", examples=[8.5],
+        "and each cell beyond them is a tenth larger than the one before", examples=[8.5],
     )
     reach: Reach | None = Field(
         None, description="how far the mesh goes ahead of that body and beside it: a length, or a number of its radii; none "

@@ -28,7 +28,7 @@ from hydro2d.sources.registry import AnySource
 
 
 class Numerics(Section):
-    """How the equations are solved."""
+    """Choices and coefficients of the method."""
 
     advection: Literal["ke", "momentum", "both"] = Field(
         "both", description="what the remap of velocities conserves: kinetic energy, momentum, or both (lost kinetic "
@@ -56,7 +56,7 @@ class Numerics(Section):
     )
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical", examples=["1e-13 s"])
     viscosity_along: Literal["mesh", "compression"] = Field(
-        "mesh", description="what the artificial viscosity resists: compression along r and along z, each by itself, or along "
+        "mesh", description="the artificial viscosity resists compression along r and along z, each by itself, or along "
         "the direction in which a cell is compressed most, which keeps strong shocks round"
     )
     viscosity_linear: Annotated[float, within(0.0, 2.0, "more viscosity only shortens the time step")] = Field(
@@ -133,7 +133,7 @@ class Sliding(Section):
 
     method: Literal["none", "slip-layer", "contact"] = Field(
         "none",
-        description="none: tied contact, all bodies share one velocity field; slip-layer: soft material beside the hard "
+        description="none: tied contact, all bodies share one velocity field; slip-layer: soft material next to the hard "
         "bodies loses its shear stress; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
@@ -166,7 +166,7 @@ class Sliding(Section):
 
 
 class Failure(Section):
-    """Which failure models of the materials are used, and how void opens."""
+    """The failure models of the materials in use, and the opening of void."""
 
     tensile: Literal["material", "none"] = Field(
         "material", description="tensile failure at the fracture pressure of each material, or none"
@@ -190,7 +190,7 @@ class Failure(Section):
 
 
 class Stop(Section):
-    """When the run ends: at the first of these conditions. The speed of a body is checked every 10 cycles.
+    """The end of the run: at the first of these conditions. The speed of a body is checked every 10 cycles.
 
     If the speed of the projectile, its rebound or perforation is watched, the run also ends when it has left the mesh. If
     a body is slower than `speed_below` at the start, its speed counts only once it has been faster.
@@ -230,7 +230,7 @@ def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
 
 
 class Output(Section):
-    """What is written, where, and how often."""
+    """The files written, their place and intervals."""
 
     directory: Annotated[str, AfterValidator(_directory)] | None = Field(
         None, description="run directory; default: runs/<name of the deck>", examples=["runs/shot_4344"]

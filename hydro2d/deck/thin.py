@@ -27,7 +27,7 @@ CELLS_ACROSS, CELLS_OF_A_GAP = 4, 1
 CELLS_ACROSS_WALL = 3
 #: fraction of a length that is round-off
 ROUNDING = 1e-9
-#: a gap that narrows to less than this fraction of its width is a wedge beside a point of contact
+#: a gap that narrows to less than this fraction of its width is a wedge next to a point of contact
 WEDGE = 1e-3
 #: where lines are laid between two levels, as fractions of the way, and the shares of it that they stand for
 PLACES = {1e-6: 0.25, 0.5: 0.5, 1.0 - 1e-6: 0.25}
@@ -96,7 +96,7 @@ def _window(flights: Flights, axis: str) -> tuple[float, float]:
 
 
 def _levels(shape: Outline, axis: str) -> list[float]:
-    """Where an outline begins, ends or turns along an axis."""
+    """Coordinates at which an outline begins, ends or turns along an axis."""
     if axis == "z":
         turns = {z for slab in shape.slabs for z in (slab.low, slab.high)}
     else:

@@ -105,7 +105,7 @@ def _yielding_rods(deck: Deck) -> Iterator[str]:
 
 
 def _gases(deck: Deck) -> Iterator[str]:
-    """Gases beside solids: bodies that are light, or have no cohesion where others have some."""
+    """Gases together with solids: bodies that are light, or have no cohesion where others have some."""
     materials = {entry.name: deck.materials[entry.material] for entry in deck.body}
     densest = max((material.reference_density for material in materials.values()), default=0.0)
     ideal = [name for name, material in materials.items() if material.eos.name == "ideal-gas"]

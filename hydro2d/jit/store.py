@@ -32,7 +32,7 @@ MOST_NAME = 120
 
 
 class DamagedFile(Exception):
-    """A file of compiled code that is not what was written."""
+    """A file of compiled code that differs from the one written."""
 
 
 class Kept(caching._Cache):

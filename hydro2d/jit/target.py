@@ -37,7 +37,7 @@ class Target(NamedTuple):
         return [feature for feature in self.features if not here.get(feature)]
 
 
-#: the processor at hand: what is compiled for by default
+#: the processor at hand, the default target
 NATIVE = "native"
 #: named targets by the kind of machine (`platform.machine`). x86 processors have had x86-64-v3 since 2013 (Intel) and
 #: 2015 (AMD); NEON belongs to every aarch64

@@ -126,7 +126,7 @@ def offered() -> list[tuple[str, str, str]]:
 
 
 def is_known(text: str, part: str) -> bool:
-    """Whether this process has run this text as a model, because the user asked for it."""
+    """Whether this process has run this text as a model, because the user requested it."""
     return (text, part) in _offered
 
 

@@ -21,11 +21,11 @@ class MaterialTable:
     """The numbers of the materials for kernels, one row per slot m (a body, with all bodies that join it).
 
     ``eos_par`` is float64[m, k] as long as the longest row of the run, at least eos.ROW, ``strength_par`` float64[m,
-    strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
+    strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` has the internal
     variables of every strength model and then those of its equation of state, ``initial`` their values in virgin material,
     ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
     tension, inf for none, ``fracture_stress`` a largest principal stress, inf for none, and ``cracking`` the tension at which
-    cracks open, if the damage model opens them, else 0; ``melting`` holds the melting lines that the deck uses,
+    cracks open, if the damage model opens them, else 0; ``melting`` contains the melting lines that the deck uses,
     float64[m, strength.melting.ROW], NONE for none.
     """
 

@@ -45,7 +45,7 @@ class BoundaryConditions:
     def least_crossing(self, widths, start: float, end: float) -> tuple[float, str]:
         """The least time in which material moving with an edge crosses a width, s, and the name of that edge.
 
-        widths : float[4], of the cells beside the edges, m;  start, end : interval in which the velocity of an edge counts, s
+        widths : float[4], of the cells next to the edges, m;  start, end : interval in which the velocity of an edge counts, s
 
         inf if no edge moves.
         """

@@ -103,14 +103,14 @@ BODY = tuple(field for field in FIELDS if field.centring == "body" and field.rem
 #: the row of State.q in which the internal variables of a body begin: of its strength model, then of its equation of state
 INTERNAL = len(BODY)
 
-#: columns of `remap_rules`: 1 for what is carried per mass, 0 per volume; the bounds; the sign in a mirror
+#: columns of `remap_rules`: 1 for fields carried per mass, 0 per volume; the bounds; the sign in a mirror
 PER_MASS, LEAST, MOST, PARITY = range(4)
 
 
 def remap_rules(internal: Sequence[Sequence[Field]]) -> np.ndarray:
     """How every row of State.q of every body is remapped and mirrored, float64[m, k, 4] with the columns PER_MASS to PARITY.
 
-    ``internal`` holds the internal variables of every body; a body that has fewer than another has empty rows at the end.
+    ``internal`` contains the internal variables of every body; a body that has fewer than another has empty rows at the end.
     """
     rows = INTERNAL + max((len(own) for own in internal), default=0)
     rules = np.zeros((len(internal), rows, 4))
@@ -158,8 +158,8 @@ WORK = (
     Work("flux_volume", "m J I", "volume of a body that goes through a face"),
     Work("flux_place", "2 m J I", "place of a body in the strip that a face sweeps, if it does not fill it"),
     Work("flux_mass", "b J I", "mass of a group that goes through a face"),
-    Work("flux", "k m 6B I", "what a body carries through the faces of a few rows"),
-    Work("dual", "6 2B I", "what a group's momentum carries through the dual faces of a few rows"),
+    Work("flux", "k m 6B I", "quantities that a body carries through the faces of a few rows"),
+    Work("dual", "6 2B I", "quantities carried by a group's momentum through the dual faces of a few rows"),
     Work("edge_flux", "2 2 m L", "mass and energy of a body through either edge of a sweep"),
     Work("edge_dual", "b 2 5 L", "mass, momentum and kinetic energy of a group through either edge of a sweep"),
     Work("outflow", "2 2 1+m", "through either edge of a sweep, out and in: energy, and mass of every body"),

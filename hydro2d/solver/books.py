@@ -61,7 +61,7 @@ class Books:
                 self.audit.add("inflow", mass=back[1:].copy(), energy=float(back[0]))
 
     def momentum(self, di: int) -> None:
-        """Enters what the advection of momentum discarded and the tidying removed."""
+        """Enters amounts discarded by the advection of momentum and removed by the tidying."""
         s, (j0, j1, _, _) = self._state, self._cycle.box
         before, after, p_gained, k_cut, _ = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)

@@ -96,7 +96,7 @@ class NoContact:
         """Finds where the groups meet; parts : int64[n + 1], rows;  given : Given."""
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
-        """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""
+        """Enters into the audit the transfers of contact between groups and walls in the rows j0 to j1 of the step."""
 
 
 class Contact(NoContact):
@@ -116,7 +116,7 @@ class Contact(NoContact):
         given.run(lagrangian_step.find_contact)
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
-        """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""
+        """Enters into the audit the transfers of contact between groups and walls in the rows j0 to j1 of the step."""
         pushed, *heats, walls = self.state.transfer[:, j0:j1 + 1].sum(axis=1)
         audit.add("walls", momentum=float(walls))
         audit.transfer("contact", momentum=float(pushed), energy=float(heats[0]))

@@ -36,7 +36,7 @@ class Crater:
     from 5 % of the volume of the largest piece within the target's original extent. Smaller pieces and the rest of the
     target are debris, which is part of the hole, as the rod is. The wall of a row is its first
     run of such cells from the axis, up to a cell that is full. The hole's radius in the row is that of a circle, or in
-    planar geometry the width, with the row's area from the axis to there, less what the target fills of the wall's own
+    planar geometry the width, with the row's area from the axis to there, less the target's share of the wall's own
     cells and of those next to them: exact for any straight wall, and smooth in time.
 
     A plate that the rod has dished has a hole only where material is missing, not where its face has left its plane. Its
@@ -73,7 +73,7 @@ class Crater:
         return float(self._depth(self.sim.grid.z_edges[0 if self.direction > 0 else -1]))
 
     def _walls(self) -> tuple[np.ndarray, np.ndarray]:
-        """Which cells [j, i] belong to the target's pieces, and the target's share of these and of the cells next to them."""
+        """The cells [j, i] of the target's pieces (bool), and the target's share of these and of the cells next to them."""
         from scipy import ndimage
 
         grid = self.sim.grid
@@ -89,7 +89,7 @@ class Crater:
         return wall, np.where(ndimage.binary_dilation(wall), fraction, 0.0)
 
     def pieces(self) -> np.ndarray:
-        """Which cells [j, i] belong to the target's pieces or lie next to one, as those that their surfaces cut do."""
+        """The cells [j, i] in the target's pieces or next to one (bool), as those that their surfaces cut do."""
         return self._walls()[1] > 0.0
 
     def beyond(self) -> np.ndarray:

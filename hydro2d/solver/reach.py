@@ -164,7 +164,7 @@ def _edges(deck):
 
 
 def closing_speed(deck, grid) -> float:
-    """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that hold or push, m/s.
+    """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that constrain or push, m/s.
 
     An edge meets bodies that move along its normal, and has no friction: in a tube or along the axis, bodies may fly along z
     at any speed. Bodies that move as a whole meet nothing.

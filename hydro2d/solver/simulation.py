@@ -61,7 +61,7 @@ class Simulation:
         Those that [derived] of the deck defines.
     lengths : dict of float by name
         Extent of every body along the axis at the start, m; None for one that filled no cell by half.
-    grid, state, table, audit : the mesh, the fields, the materials, what is conserved
+    grid, state, table, audit : the mesh, the fields, the materials, the conserved quantities
     stations : the tracers and gauges
     penetrator : measures the projectile; None for a deck without projectile and target
     craters : measure the hole in each target, in the order in which the projectile meets them; empty without both

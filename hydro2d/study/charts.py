@@ -1,4 +1,4 @@
-"""The drawn figures of a report, by Plotly: responses against what was varied, and histories.
+"""The drawn figures of a report, by Plotly: responses against varied quantities, and histories.
 
 Text, grid and experiments have stand-in colours, which the page's style replaces by those of the light or the dark scheme;
 saved pictures keep the stand-ins, which are those of paper.
@@ -87,7 +87,7 @@ def _finished(figure, rows: int = 1, labels: int = 0, panel: float = PANEL):
 def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
              shots: Sequence[Measurement], curves: Sequence[theory.Curve],
              left: Sequence[residual.Curve]):  # fmt: skip
-    """A response against what was varied: ended runs have filled marks, unfinished runs open ones, bounds triangles.
+    """A response against a varied quantity: ended runs have filled marks, unfinished runs open ones, bounds triangles.
 
     setup : of a panel of one projectile and target, whose rear a line shows in a panel of depths
     measured : experiments by case, drawn if x is not the velocity;  shots : all experiments of the setup, drawn if it is

@@ -74,7 +74,7 @@ def grouped(records: Sequence[Record], measurements: Mapping[str, Measurement] |
 
 
 def score(ensembles: Sequence[Ensemble]) -> outcomes.Score | None:
-    """How probable the outcomes of the experiments are; None if no ensemble has one."""
+    """The probability of the outcomes of the experiments; None if no ensemble has one."""
     return outcomes.score([each.outcome[1] for each in ensembles if each.outcome])
 
 

@@ -253,7 +253,7 @@ def _interval(stored: dict) -> Interval:
 def gather(directories: Sequence[Path | str]) -> Study:
     """Combines the runs of several directories, without axes, with the differing parts of their paths as names.
 
-    The members of the ensembles of a study directory stay members. Raises StudyError if one of them holds no run.
+    The members of the ensembles of a study directory stay members. Raises StudyError if one of them contains no run.
     """
     by_place: dict[Path, Case] = {}
     for directory in map(Path, directories):
