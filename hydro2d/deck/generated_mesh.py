@@ -17,7 +17,7 @@ from hydro2d.errors import unknown
 
 #: ratio of the size of a cell to that of the one before, beyond the fine cells
 GROWTH = 1.1
-#: fine cells next to the bodies, ahead of the one that the mesh follows, behind; then the growing cells behind. All as multiples
+#: fine cells next to the bodies, ahead of the one that the mesh follows, behind; then growing cells behind. All as multiples
 #: of the length that `cells_across` divides
 BESIDE, AHEAD, BEHIND, TRAIL = 1.5, 5.0, 0.5, 3.0
 #: more cells along a direction than fit on any machine
