@@ -42,7 +42,7 @@ class Section(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
-        """The keys that do not have their defaults: what a reader wants to see of a section."""
+        """The keys whose values differ from their defaults."""
         fields = type(self).model_fields
         for name, value in super().__repr_args__():
             if name not in fields or fields[name].is_required() or value != fields[name].default:
@@ -53,7 +53,7 @@ class Section(BaseModel):
 
 
 def one_of(kinds: Mapping[str, type[Section]], key: str) -> Any:
-    """The type of a table that is one of several kinds of sections, which the word of a key tells apart."""
+    """The type of a table that is one of several kinds of sections; the word under ``key`` selects the kind."""
     union, annotated = functools.reduce(operator.or_, kinds.values()), cast(Any, Annotated)
     return annotated[union, Field(discriminator=key)] if len(kinds) > 1 else union  # pydantic discriminates from two on
 
@@ -82,7 +82,7 @@ def _to_si(value, unit: str) -> float:
 
 @dataclass(frozen=True)
 class Quantity(GroupedMetadata):
-    """Marks a float as a number in ``unit``, given in SI or as a string with a unit, and held in SI: Annotated[float, ...]."""
+    """Marks a float as a number in ``unit``, given in SI or as a string with a unit, and kept in SI: Annotated[float, ...]."""
 
     unit: str
     check: Callable[[float], float] | None = None

@@ -37,14 +37,14 @@ class Flow(Section):
     pattern: Literal["spherical", "cylindrical"] = Field(description="directed away from a point or from a line")
     speed: Speed = Field(description="speed at `radius`, outward positive", examples=["-200 m/s"])
     centre: Length = Field(0.0, description="axial position of the centre of a spherical flow", examples=["1 cm"])
-    radius: PositiveLength = Field(1.0, description="distance at which `speed` holds", examples=["5 mm"])
+    radius: PositiveLength = Field(1.0, description="distance at which the speed is `speed`", examples=["5 mm"])
     exponent: Number = Field(
         0.0, description="decay with distance; 2 (spherical) or 1 (cylindrical) conserves volume", examples=[2.0]
     )
 
 
 class Body(Section):
-    """The keys that all bodies have. Where bodies overlap, the first of them in the deck is there."""
+    """Keys common to all bodies. Where bodies overlap, the first of them in the deck takes the space."""
 
     name: Name = Field(description="name of the body in fields, tables and other sections", examples=["rod"])
     material: str = Field(description="a material of the library or of [materials]; NAME:VARIANT is a variant of it",
@@ -56,13 +56,13 @@ class Body(Section):
         examples=[{"pattern": "spherical", "speed": "-200 m/s"}],
     )
     density: PositiveDensity | None = Field(
-        None, description="initial density; default: the material's, or what `temperature` leaves", examples=["17.6 g/cm^3"]
+        None, description="initial density; default: the material's, or set by `temperature`", examples=["17.6 g/cm^3"]
     )
     energy: SpecificEnergy | None = Field(None, description="initial specific internal energy", examples=["10 kJ/kg"])
     pressure: Pressure | None = Field(None, description="initial pressure, instead of `energy`", examples=["1 GPa"])
     temperature: Temperature | None = Field(
-        None, description="initial temperature, instead of `energy`; without `density` the material has the density of that "
-        "temperature at `pressure`, or at no pressure (a gas: its own density)", examples=["300 K"],
+        None, description="initial temperature, instead of `energy`; without `density`, the density follows from this "
+        "temperature and `pressure`, or zero pressure (a gas: its own density)", examples=["300 K"],
     )
 
     @model_validator(mode="after")

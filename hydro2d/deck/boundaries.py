@@ -1,4 +1,4 @@
-"""The section `[boundaries]` of a deck: what stands at each edge of the mesh, with the keys of the kinds of edges."""
+"""The section `[boundaries]` of a deck: the condition at each edge of the mesh, with the keys of each kind of edge."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class _Edges(Section):
 
 
 def _edge_keys() -> dict[str, tuple[Any, Any]]:
-    """The keys that kinds of edges bring, of every edge that can be of the kind: type and field."""
+    """Type and field of the keys that each kind of edge brings, for every edge that can be of that kind."""
     types = {("m/s", False): Speed, ("m/s", True): SpeedOverTime}
     return {
         f"{edge}_{key.name}": (types[key.unit, key.over_time] | None, Field(

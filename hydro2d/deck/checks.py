@@ -42,11 +42,11 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
     for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
                            ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge]),
                            ("source", [[entry.name] for entry in deck.source])):
-        taken: set[str] = set()
+        used: set[str] = set()
         for number, own in enumerate(names_of):
-            if twice := taken.intersection(own):
+            if twice := used.intersection(own):
                 yield (kind, number, "name"), f'the name "{min(twice)}" is already used by an earlier {kind}'
-            taken.update(own)
+            used.update(own)
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
     yield from _bad_edges(deck)
@@ -251,7 +251,7 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
 
 
 def bars_to_follow(deck: Deck, name: str) -> list[str]:
-    """Why the mesh of a valid deck, which stands still, could not follow this body; empty where it could."""
+    """Why the fixed mesh of a valid deck could not follow this body; empty if it could."""
     following = deck.model_copy(update={"mesh": deck.mesh.model_copy(update={"follow": name})})
     return [problem for _, problem in _bad_mesh(following)]
 
@@ -266,9 +266,9 @@ def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
 
 
 def axial_length(deck: Deck, entry) -> float | None:
-    """Length along the axis, m, of a rod or a solid ball on it that lies in the mesh whole and by itself; None for all others.
+    """Length along the axis, m, of a rod or solid ball that lies on it alone and wholly in the mesh; None for all others.
 
-    It does not lie by itself where another body is joined to it, or an earlier one has some of its place on the axis.
+    A body is not alone if another is joined to it, or if an earlier one overlaps it on the axis.
     """
     ball = entry.shape == "sphere" and entry.centre[0] == 0.0 and entry.inner_radius is None
     joined = entry.join or any(other.join == entry.name for other in deck.body)
@@ -276,12 +276,12 @@ def axial_length(deck: Deck, entry) -> float | None:
         return None
     (low, high), z = extent(entry, deck, "z"), axis_edges(deck, "z")
     before = [chord for other in deck.body[: deck.body.index(entry)] for chord in outline(other, 0.0).chords("z", BESIDE_AXIS)]
-    apart = all(min(end, high) - max(start, low) <= BESIDE_AXIS for start, end in before)
-    return high - low if apart and z[0] <= low and high <= z[-1] else None
+    alone = all(min(end, high) - max(start, low) <= BESIDE_AXIS for start, end in before)
+    return high - low if alone and z[0] <= low and high <= z[-1] else None
 
 
 def heading(rod, target=None) -> int:
-    """1 for a penetrator that flies towards +z, -1 for one that flies towards -z, as its target sees it if that is given."""
+    """1 for a penetrator that flies towards +z, -1 for -z; relative to its target if one is given."""
     own = rod.velocity[1] - (target.velocity[1] if target is not None else 0.0)
     return rod.direction if rod.shape == "rod" else (-1 if own < 0.0 else 1)
 

@@ -1,4 +1,4 @@
-"""Tables over time in a deck: [[time, value], ...], straight between the rows."""
+"""Tables over time in a deck: [[time, value], ...], linear between the rows."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydro2d import units
 
 Rows = tuple[tuple[float, float], ...]
 
-#: rows that a table has at least and at most
+#: least and largest number of rows of a table
 FEWEST, MOST = 2, 100_000
 
 
@@ -54,7 +54,7 @@ PowerOverTime = Annotated[Rows, BeforeValidator(partial(_rows, unit="W/kg")), Wi
 
 
 def at(rows: Rows, time: float) -> float:
-    """The value at a time, s; before the first row the first value, after the last row the last one."""
+    """The value at a time, s; the first value before the first row, the last one after the last row."""
     times, values = np.array(rows).T
     return float(np.interp(time, times, values))
 

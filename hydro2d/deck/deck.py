@@ -2,7 +2,7 @@
 
 ``load`` and ``loads`` read a deck with its includes and overrides. Every mistake raises a DeckError that names the file, the
 line, the key and what is allowed. ``edges``, ``slots``, ``body_groups``, ``sliding_widths``, ``yield_factor``, ``surface`` and
-``impact_velocity`` derive further values from a deck. ``warnings`` lists what is allowed but unwise.
+``impact_velocity`` derive further values from a deck. ``warnings`` lists allowed but unwise choices.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Deck(sections.Deck):
     ``deck.body[0].velocity``.
     """
 
-    #: what the deck was made of, before its defaults were written out
+    #: the tables of the deck before its defaults were written out
     _tables: dict[str, Any] = PrivateAttr(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
@@ -93,7 +93,7 @@ class Deck(sections.Deck):
             A TOML file, or the path of a deck that hydro2d ships, such as ``problems/perforation/sphere.toml``.
         overrides : dict or list of str
             Values by dotted key that replace those of the deck: ``{"body.rod.velocity": "1200 m/s", "stop.time": 50e-6}``. A
-            list holds ``"key=value"``, as for the option ``--set`` of the command line. A number of a quantity with a unit must
+            list has ``"key=value"``, as for the option ``--set`` of the command line. A number of a quantity with a unit must
             be text that names it, unless the deck or the overrides have ``numbers = "SI"``.
 
         Raises
@@ -155,7 +155,7 @@ def load(path: str | Path, overrides: Overrides = (), *, trust: bool = True) -> 
         ``key=value`` with dotted keys, applied to the deck in order: ``body.rod.velocity=1200 m/s``; or values by such keys.
         ``key=``, or the value None, removes a key, which then has its default.
     trust : bool
-        Whether the code of models that the deck carries or names may be run; a deck that is only read needs it in few cases.
+        Whether the code of models that the deck carries or names may be run; a deck that is only read seldom needs it.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def load(path: str | Path, overrides: Overrides = (), *, trust: bool = True) -> 
 
 
 def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".", *, trust: bool = True) -> Deck:
-    """Reads a deck from a string, whose includes and models are in ``folder``; ``trust`` and DeckError as of ``load``."""
+    """Reads a deck from a string; its includes and models are in ``folder``. ``trust`` and DeckError as for ``load``."""
     sources = Sources()
     data = toml.assemble(text, f"{name}.toml", Path(folder), sources)
     return _resolve(data, name, overrides, sources, trust)
@@ -186,7 +186,7 @@ def of_tables(tables: Mapping[str, Any], overrides: Overrides = (), name: str = 
 
 
 def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
-    """The deck with overrides, whose numbers are in SI units if the deck or one of them says so."""
+    """The deck with overrides applied; their numbers are in SI units if the deck or one of them says so."""
     if isinstance(overrides, str):
         raise DeckError(f'overrides must be a list of "key=value" or a dict of values by key, not the text "{overrides}"')
     if isinstance(overrides, Mapping):
@@ -218,10 +218,10 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
         deck = Deck.model_validate(data, context=_RESOLVING)
         deck._tables = data
     except ValidationError as error:
-        found = keys.causes(error.errors())
-        problems = [str(complaint(*keys.explained(entry, data))) for entry in found[:MOST_LINES]]
+        mistakes = keys.causes(error.errors())
+        problems = [str(complaint(*keys.explained(entry, data))) for entry in mistakes[:MOST_LINES]]
         problems += [str(complaint(path, message)) for path, message in islice(_unknown_materials(data), MOST_LINES)]
-        problems += [f"{len(found) - MOST_LINES} further mistakes"] if len(found) > MOST_LINES else []
+        problems += [f"{len(mistakes) - MOST_LINES} further mistakes"] if len(mistakes) > MOST_LINES else []
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
     try:
         deck = with_segments(deck)
@@ -317,7 +317,7 @@ def _with_defaults(deck: Deck) -> Deck:
 
 
 def _is_the_shot(deck: Deck) -> bool:
-    """Whether the experiment of the deck has the velocity and the target of the deck."""
+    """Whether the experiment of the deck matches its velocity and its target."""
     shot = deck.experiment
     if shot is None or deck.penetration is None:
         return True
@@ -327,13 +327,13 @@ def _is_the_shot(deck: Deck) -> bool:
 
 
 def impact_velocity(deck: Deck) -> float:
-    """The speed along z at which the rod meets its target in whatever frame, m/s; the deck must have both."""
+    """Axial speed of the rod relative to its target, m/s; the deck must have both."""
     rod, target = (body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
     return abs(rod.velocity[1] - target.velocity[1])
 
 
 def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
-    """Names of the plates and boxes ahead of a rod on its axis, in the order in which it reaches them; else the first one."""
+    """Names of the plates and boxes ahead of a rod on its axis, in the order it reaches them; if none, the first one."""
     here = sum(extent(rod, deck, "z"))
     across = [entry for entry in plates if extent(entry, deck, "r")[0] <= deck.mesh.r_start]
     ahead = [entry for entry in across if heading(rod, entry) * (sum(extent(entry, deck, "z")) - here) > 0.0]

@@ -1,4 +1,4 @@
-"""Derived quantities of a deck: its formulas, with the names and units that they can have."""
+"""Derived quantities of a deck: its formulas, with the names and units that they can use."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LONGEST = 60
 
 
 def known(deck: Deck) -> dict[str, str]:
-    """The names that formulas of a deck can have, with their units."""
+    """The names that formulas of a deck can use, with their units."""
     bodies = [entry.name for entry in deck.body if entry.join is None]
     stations = [f"tracer_{entry.name}" for entry in deck.tracer]
     stations += [f"gauge_{name}" for entry in deck.gauge for name, _ in entry.places()]
@@ -24,52 +24,52 @@ def known(deck: Deck) -> dict[str, str]:
 
 
 def expressions(deck: Deck) -> dict[str, Expression]:
-    """The formulas of a deck that was checked, by the names of what they define."""
+    """The formulas of a checked deck, by the names of the quantities that they define."""
     names = known(deck) if deck.derived else {}
     return {name: parse(text, names) for name, text in deck.derived.items()}
 
 
 def problems(deck: Deck) -> Iterator[tuple[tuple, str]]:
-    """Key and message of every formula that is wrong: its syntax, its names, its units, and the name of what it defines."""
+    """Key and message of every formula that is wrong: its syntax, its names, its units, and the name that it defines."""
     names = known(deck) if deck.derived else {}
-    taken: set[str] = set()
+    used: set[str] = set()
     for name, text in deck.derived.items():
         path = ("derived", name)
-        if problem := _bad_name(name, names, taken):
+        if problem := _bad_name(name, names, used):
             yield path, problem
             continue
-        taken.add(in_file(name))
+        used.add(in_file(name))
         try:
-            found = parse(text, names)
+            formula = parse(text, names)
         except ExpressionError as error:
             yield path, str(error)
             continue
-        if problem := _bad_unit(name, found):
+        if problem := _bad_unit(name, formula):
             yield path, problem
 
 
-def _bad_name(name: str, names: dict[str, str], taken: set[str]) -> str:
+def _bad_name(name: str, names: dict[str, str], used: set[str]) -> str:
     if not name.strip() or not name.isprintable() or len(name) > LONGEST:
         return f"a name has 1 to {LONGEST} printable characters"
     if name[0] in "./" or name.startswith(("crater", "debris")) or name in ("cycle", "regime", *measured.PLACES):
-        return "is no name for a quantity of the deck's own; give it another"
-    if name.startswith(("sink_", "mass_change_", "tracer_", "gauge_", "body_")) or {name, in_file(name)} & {*names, *taken}:
+        return "is not allowed as the name of a derived quantity; give it another"
+    if name.startswith(("sink_", "mass_change_", "tracer_", "gauge_", "body_")) or {name, in_file(name)} & {*names, *used}:
         return "is the name of another quantity; give it another"
     return ""
 
 
-def _bad_unit(name: str, found: Expression) -> str:
-    """What is wrong with a name whose ending tells another unit than the formula has."""
+def _bad_unit(name: str, formula: Expression) -> str:
+    """The mistake of a name whose ending states another unit than that of the formula; empty if there is none."""
     named = unit(name)
-    if named == "rad" and found.dimension == PURE:
+    if named == "rad" and formula.dimension == PURE:
         return ""
-    said = in_words(found.dimension)
+    said = in_words(formula.dimension)
     ending = next((ending for ending, each in measured.UNITS.items() if each == said), "")
     if said == named:
         return ""
     if said != "1" and not ending:
-        return f'"{found.text}" is in {said}, a unit that no quantity of a run has'
+        return f'"{formula.text}" is in {said}, a unit that no quantity of a run has'
     if said == "1":
-        return f'"{found.text}" is a plain number, and the ending of the name says {named}; give it another name'
+        return f'"{formula.text}" is a plain number, and the ending of the name says {named}; give it another name'
     how = f'call it "{name}{ending}"' if named == "1" else f"the ending of the name says {named}"
-    return f'"{found.text}" is in {said}; {how}, since files and figures read the unit from the end of a name'
+    return f'"{formula.text}" is in {said}; {how}, since files and figures read the unit from the end of a name'

@@ -1,8 +1,8 @@
 """Expressions of a deck: "depth / length0" as a formula of named numbers, whose units are checked before a run begins.
 
-An expression has numbers, names, + - * / **, brackets and the functions of `FUNCTIONS`. In single quotes stand quantities
-with a unit, '8 mm', and names with other characters than letters, digits and underscores. Nothing is run: Python's parser
-gives the tree, and every kind of node that is not in this file is refused.
+An expression has numbers, names, + - * / **, brackets and the functions of `FUNCTIONS`. Single quotes enclose quantities
+with a unit, '8 mm', and names with other characters than letters, digits and underscores. Nothing is executed: Python's
+parser gives the tree, and every kind of node that is not in this file is refused.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ DIMENSIONS = {
     "Pa s": _dimension(-1, 1, -1), "kg/m3": _dimension(-3, 1), "m3/J": _dimension(1, -1, 2),
 }  # fmt: skip
 
-#: the same by units as `units` reads them
+#: these dimensions by units as `units` reads them
 SPELLED = {re.sub(r"(?<=[a-z])(?=[23])", "^", name).replace(" ", "*"): dimension for name, dimension in DIMENSIONS.items()}
 
 OPERATORS: dict[type, Callable[[float, float], float]] = {
     ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b, ast.Div: lambda a, b: a / b,
     ast.Pow: lambda a, b: math.pow(a, b),
 }  # fmt: skip
-#: functions; those of SAME take and give one unit, sqrt gives its root, the others take and give plain numbers
+#: functions; those of SAME keep the unit of their arguments, sqrt gives its root, the others take and give plain numbers
 FUNCTIONS: dict[str, Callable[..., float]] = {
     "abs": abs, "min": min, "max": max, "sqrt": math.sqrt, "exp": math.exp, "log": math.log, "log10": math.log10,
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "atan": math.atan,
@@ -61,7 +61,7 @@ class ExpressionError(ValueError):
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked expression. text : as written;  names : that it needs;  dimension : of its value"""
+    """A checked expression. text : as written;  names : those it uses;  dimension : of its value"""
 
     text: str
     names: frozenset[str]
@@ -69,20 +69,20 @@ class Expression:
     _value: Value
 
     def evaluate(self, numbers: Mapping[str, float | None]) -> float | None:
-        """Its value in SI; None where a number is not known, or the result is none, as 1/0."""
+        """Its value in SI; None if a number is unknown or the result is undefined, as 1/0."""
         if any(numbers.get(name) is None for name in self.names):
             return None
         try:
-            found = self._value(numbers)
+            value = self._value(numbers)
         except (ArithmeticError, ValueError):
             return None
-        return found if math.isfinite(found) else None
+        return value if math.isfinite(value) else None
 
 
 def parse(text: str, known: Mapping[str, str]) -> Expression:
     """Checks an expression.
 
-    known : the names that it may have, with the unit of each, one of DIMENSIONS
+    known : the names that it may use, with the unit of each, one of DIMENSIONS
 
     Raises ExpressionError.
     """
@@ -106,7 +106,7 @@ def in_words(dimension: Dimension) -> str:
 
 
 class _Parser:
-    """Walks the tree; gives the dimension of each part and what computes it."""
+    """Walks the tree; gives the dimension of each part and the function that computes it."""
 
     def __init__(self, text: str, known: Mapping[str, str]):
         self.text, self.known = text, known
@@ -117,7 +117,7 @@ class _Parser:
 
     def of(self, node: ast.AST, depth: int) -> tuple[Dimension, Value]:
         if depth > DEEPEST:
-            raise ExpressionError(f'"{self.text[:20]} ..." has more than {DEEPEST} brackets within one another')
+            raise ExpressionError(f'"{self.text[:20]} ..." has brackets nested more than {DEEPEST} deep')
         if isinstance(node, ast.Constant):
             return self._constant(node)
         if isinstance(node, ast.Name):
@@ -138,10 +138,10 @@ class _Parser:
             try:
                 number = float(node.value)
             except OverflowError:
-                raise ExpressionError(f'"{self._part(node)}" is no number of this world') from None
+                raise ExpressionError(f'"{self._part(node)}" is too large') from None
             return PURE, lambda numbers: number
         if not isinstance(node.value, str):
-            raise ExpressionError(f'"{self._part(node)}" is no number')
+            raise ExpressionError(f'"{self._part(node)}" is not a number')
         if node.value in self.known or not node.value[:1].isdigit():
             return self._name(node.value)
         try:
@@ -183,24 +183,24 @@ class _Parser:
         if left == PURE:
             return PURE
         if any(isinstance(each, (ast.Name, ast.Call)) for each in ast.walk(node.right)):
-            raise ExpressionError(f'"{self._part(node)}": what has a unit takes a number as its exponent')
+            raise ExpressionError(f'"{self._part(node)}": the exponent of a quantity with a unit must be a number')
         try:
             power = Fraction(exponent({})).limit_denominator(60)
         except (ArithmeticError, ValueError):
-            raise ExpressionError(f'"{self._part(node)}": the exponent is no number') from None
+            raise ExpressionError(f'"{self._part(node)}": the exponent is not a number') from None
         return tuple(each * power for each in left)
 
     def _call(self, node: ast.Call, depth: int) -> tuple[Dimension, Value]:
         name = node.func.id if isinstance(node.func, ast.Name) else ""
         if name not in FUNCTIONS or node.keywords:
             raise ExpressionError(f'"{self._part(node)}": {unknown("function", name or self._part(node.func), FUNCTIONS)}')
-        found = [self.of(argument, depth + 1) for argument in node.args]
+        arguments = [self.of(argument, depth + 1) for argument in node.args]
         several = name in ("min", "max")
-        if len(found) < 2 if several else len(found) != 1:
+        if len(arguments) < 2 if several else len(arguments) != 1:
             raise ExpressionError(f'"{self._part(node)}": {name} takes {"two or more numbers" if several else "one number"}')
-        function, values = FUNCTIONS[name], [value for _, value in found]
-        first = found[0][0]
-        for dimension, _ in found[1:]:
+        function, values = FUNCTIONS[name], [value for _, value in arguments]
+        first = arguments[0][0]
+        for dimension, _ in arguments[1:]:
             self._same(node, first, dimension)
         if name not in (*SAME, "sqrt") and first != PURE:
             raise ExpressionError(f'"{self._part(node)}": {name} takes a plain number, not one in {in_words(first)}')

@@ -1,4 +1,4 @@
-"""Cells that lie across a piece of a line at the start, and on the way on which its own velocity takes it through the mesh."""
+"""Cells across a piece of a line, at the start and as its own velocity carries it through the mesh."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ROUNDING = 1e-9
 
 
 class Count(NamedTuple):
-    """A number of cells, and words that say where it holds: none for the start."""
+    """A number of cells, and words that say where it applies: none for the start."""
 
     cells: float
     where: str = ""
@@ -42,16 +42,16 @@ class Flights:
     edges: dict[str, np.ndarray]
 
     def counts(self, axis: str, low: float, high: float, velocity: Velocity, least: int) -> list[Count]:
-        """The cells from low to high (m) at the start, and the fewest that they are later, where fewer than ``least``.
+        """The number of cells from low to high (m) at the start, and the fewest later, each only if below ``least``.
 
-        velocity : (radial, axial) in m/s, with which the piece flies until a body of the same velocity meets another one
+        velocity : (radial, axial) in m/s, of the piece until a body of this velocity meets another one
         """
         start, later = self.begin(axis, low, high, velocity), self._fewest(axis, low, high, velocity)
         few = [count for count in (start, later) if count.cells < least - ROUNDING]
         return few if later.told != start.told else few[:1]
 
     def begin(self, axis: str, low: float, high: float, velocity: Velocity) -> Count:
-        """The cells from low to high at the start; ahead of a body that the mesh follows, where this one reaches them."""
+        """The cells from low to high at the start; ahead of a body that the mesh follows, where that body reaches them."""
         edges, where = self.edges[axis], ""
         if axis == "z" and (direction := travel(self.deck)):
             leader = body(self.deck, self.deck.mesh.follow)
@@ -63,7 +63,7 @@ class Flights:
         return Count(math.inf if cells == 0.0 or (low <= edges[0] and high >= edges[-1]) else cells, where)
 
     def _fewest(self, axis: str, low: float, high: float, velocity: Velocity) -> Count:
-        """The fewest cells from low to high on the way, as long as all of the piece is on the mesh."""
+        """The fewest cells from low to high on the way, while the whole piece is on the mesh."""
         edges, speed = self.edges[axis], velocity[AXES.index(axis)]
         through = speed - (body(self.deck, self.deck.mesh.follow).velocity[1] if axis == "z" and travel(self.deck) else 0.0)
         if speed == 0.0 or through == 0.0 or low < edges[0] or high > edges[-1] or self.begin(axis, low, high, velocity).where:
@@ -78,7 +78,7 @@ class Flights:
         return Count(cells[n], f" at {axis} = {place * 1e3:.4g} mm, which it reaches after {times[n] * 1e6:.3g} us")
 
     def _ends(self, velocity: Velocity) -> Iterator[float]:
-        """Times at which flights with this velocity end, s: those of the run, and of encounters of bodies that have it."""
+        """Times at which flights with this velocity end, s: the end of the run, and encounters of bodies that have it."""
         deck = self.deck
         yield math.inf if deck.stop.time is None else deck.stop.time
         leader = None if deck.mesh.follow is None else body(deck, deck.mesh.follow).velocity

@@ -1,7 +1,7 @@
-"""The segments of a mesh that a deck describes in two words: cells across a body, and how far the mesh reaches.
+"""The segments of a mesh that a deck describes by two keys: cells across a body, and how far the mesh reaches.
 
-Fine square cells cover the body, what moves with it and the way ahead of it; from there cells grow by a tenth from one to the
-next. The deck then has these segments, as if its author had written them.
+Fine square cells cover the body, everything that moves with it and its path ahead; beyond them each cell is a tenth larger
+than the one before. The deck then has these segments, as if its author had written them.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from hydro2d.errors import unknown
 
 #: ratio of the size of a cell to that of the one before, beyond the fine cells
 GROWTH = 1.1
-#: fine cells beside the bodies, ahead of one that the mesh follows, and behind; then the growing cells behind. All as multiples
+#: fine cells next to the bodies, ahead of the one that the mesh follows, behind; then growing cells behind. All as multiples
 #: of the length that `cells_across` divides
 BESIDE, AHEAD, BEHIND, TRAIL = 1.5, 5.0, 0.5, 3.0
-#: more cells along a direction than any machine holds
+#: more cells along a direction than fit on any machine
 MOST = 1_000_000
-#: a length that is this fraction of a cell longer than a whole number of cells is that number
+#: a length counts as a whole number of cells if it is longer by no more than this fraction of a cell
 ROUNDING = 1e-6
 
 
@@ -92,7 +92,7 @@ def _width(entry, deck: Deck) -> float:
 
 
 def _reach(entry, deck: Deck) -> float:
-    """How far the mesh reaches, m."""
+    """The reach of the mesh, m."""
     count = radii(deck.mesh.reach)
     if count is None:
         return float(deck.mesh.reach)

@@ -11,19 +11,19 @@ from hydro2d.deck.sections import Deck
 from hydro2d.errors import entry_index, in_words, spelled, unknown
 from hydro2d.sources.registry import KINDS
 
-#: the key by which a table that may be one of several is told apart, and the sections that its words stand for
+#: the key that selects the kind of a table that may be one of several, and the sections that its words stand for
 TAGS = {"shape": SHAPES, "kind": KINDS}
 #: these words
 _TAGGED = {word: section for sections in TAGS.values() for word, section in sections.items()}
 
-#: keys of decks of older versions, and what they are called now
+#: keys of decks of older versions, and their present names
 RENAMED = {"numerics.trace": "numerics.cutoff", "failure.loose": "failure.strength_cutoff"}
 
 
-def causes(found: list[dict]) -> list[dict]:
+def causes(errors: list[dict]) -> list[dict]:
     """Pydantic's errors, without "too few entries" for a list whose entries themselves are wrong."""
-    places = [entry["loc"] for entry in found]
-    return [entry for entry in found if entry["type"] != "too_short"
+    places = [entry["loc"] for entry in errors]
+    return [entry for entry in errors if entry["type"] != "too_short"
             or not any(place[: len(entry["loc"])] == entry["loc"] and place != entry["loc"] for place in places)]
 
 
@@ -64,7 +64,7 @@ def _key_path(loc: tuple, data: Any) -> tuple:
 
 
 def renewed(data: dict) -> dict:
-    """The tables of the deck of a run, which an older version may have written, with the keys of today; numbers are in SI."""
+    """The tables of the deck of a run, which an older version may have written, with present keys; numbers are in SI."""
     data.setdefault("numbers", toml.SI)
     for old, new in RENAMED.items():
         (section, key), (place, name) = old.split("."), new.split(".")
@@ -74,7 +74,7 @@ def renewed(data: dict) -> dict:
 
 
 def _no_such_key(path: tuple, allowed: list[str]) -> str:
-    """What is said of a key that no deck has: its name of today, if it had another, else what is allowed in its place."""
+    """The message for an unknown key: its present name if it was renamed, else the keys that are allowed."""
     now = RENAMED.get(spelled(path))
     return f"is now called {now}" if now else unknown("key", str(path[-1]), allowed)
 
@@ -93,7 +93,7 @@ def _allowed_keys(path: tuple, data: dict) -> list[str]:
 
 
 def key_problem(data: dict, key: str) -> str | None:
-    """What is wrong with the key of an override for a deck of these merged tables; None if the deck has such a key."""
+    """The mistake in the key of an override for a deck of these merged tables; None if the deck has such a key."""
     path, place = (), data
     for part in toml.key_parts(key):
         if isinstance(place, list):
@@ -121,5 +121,5 @@ def _first_section(annotation: Any) -> Any:
     if isinstance(annotation, type) and issubclass(annotation, Section):
         return annotation
     inner = [_first_section(part) for part in getattr(annotation, "__args__", ())]
-    found = [section for section in inner if section is not None]
-    return found[0] if len(found) == 1 else None
+    sections = [section for section in inner if section is not None]
+    return sections[0] if len(sections) == 1 else None

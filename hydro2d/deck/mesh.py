@@ -11,7 +11,7 @@ from hydro2d.deck.mesh_sections import Segment
 from hydro2d.deck.sections import Deck
 from hydro2d.units import written
 
-#: fraction of a cell by which a segment may miss a whole number of cells; beyond the second value there is a notice
+#: fraction of a cell by which a segment may miss a whole number of cells; beyond the second value a notice is given
 _FIT, _TOLD = 1e-4, 1e-6
 _LIMIT = 1_000_000
 #: the smallest cell, as a fraction of its distance from the origin, whose edges still differ by many roundings
@@ -55,7 +55,7 @@ def axis_edges(deck: Deck, axis: str) -> np.ndarray:
 
 
 def cells_between(edges: np.ndarray, low: float, high: float) -> float:
-    """Number of cells from low to high, of what lies on the mesh; a cell that is cut counts by its share. edges : (n + 1,)"""
+    """Number of cells from low to high within the mesh; a cell that is cut counts by its share. edges : (n + 1,)"""
     return float(np.diff(np.interp((low, high), edges, np.arange(len(edges))))[0])
 
 
@@ -109,15 +109,15 @@ def _segment(deck: Deck, segment: Segment, start: float, previous: float | None,
 
 
 def _misfit(start: float, length: float, size: float, entry: dict) -> str:
-    """Cells that do not divide a segment, in the units of the deck, and the nearest ends and numbers of cells that do."""
-    def told(value: float, key: str, digits: int = 9) -> str:
+    """The message on cells that do not divide a segment, in the units of the deck, with the nearest ends and counts that do."""
+    def shown(value: float, key: str, digits: int = 9) -> str:
         unit, factor = written(entry.get(key, entry.get("to")), "m")
         return f"{value / factor:.{digits}g} {unit}"
 
     counts = sorted({max(1, math.floor(length / size)), math.ceil(length / size)})
-    ends = " or ".join(told(start + count * size, "to") for count in counts)
-    instead = " or ".join(f"{count} (of {told(length / count, 'size', 4)})" for count in counts)
-    return f"cells of {told(size, 'size')} do not divide {told(length, 'to')}; to = {ends} would fit, or cells = {instead}"
+    ends = " or ".join(shown(start + count * size, "to") for count in counts)
+    instead = " or ".join(f"{count} (of {shown(length / count, 'size', 4)})" for count in counts)
+    return f"cells of {shown(size, 'size')} do not divide {shown(length, 'to')}; to = {ends} would fit, or cells = {instead}"
 
 
 def _size(deck: Deck, segment: Segment) -> float | None:
@@ -136,7 +136,7 @@ def _graded(segment: Segment, start: float, length: float | None, first: float |
         first = previous * (segment.ratio or 1.0)
     if segment.cells is not None:
         if segment.cells * abs(math.log(segment.ratio)) > _GROWTH:
-            raise ValueError(f"{segment.cells} cells with a ratio of {segment.ratio:g} end at nothing or beyond all bounds")
+            raise ValueError(f"{segment.cells} cells with a ratio of {segment.ratio:g} shrink to nothing or grow without bound")
         sizes = first * segment.ratio ** np.arange(segment.cells)
         return _checked(start, start + np.cumsum(sizes))
     if first > length:

@@ -16,7 +16,7 @@ _SEGMENTS = (
 
 
 _UNEVEN = "neighbouring cells that differ by more cannot transmit a wave"
-CellsAcross = Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more fit on no machine")]
+CellsAcross = Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more do not fit on any machine")]
 
 
 def radii(reach: float | str) -> float | None:
@@ -84,7 +84,7 @@ def as_text(segment: dict[str, Any]) -> dict[str, Any]:
     return {key: units.exact(value, "m") if key in LENGTHS else value for key, value in segment.items()}
 
 
-#: keys of a mesh that is described in words
+#: keys of a generated mesh
 GENERATED = ("cells_across", "reach", "across")
 
 
@@ -105,19 +105,19 @@ class Mesh(Section):
     cells_across: CellsAcross | None = Field(
         None, description="with reach, instead of r and z: cells across the radius of a rod or a sphere, or across the smaller "
         "of thickness and width of another body; square cells of this size cover that body, all that moves and the way ahead, "
-        "and cells beyond them grow by a tenth from one to the next", examples=[8.5],
+        "and each cell beyond them is a tenth larger than the one before", examples=[8.5],
     )
     reach: Reach | None = Field(
         None, description="how far the mesh goes ahead of that body and beside it: a length, or a number of its radii; none "
         "cancels this and cells_across of an included deck", examples=["30 radii"],
     )
     across: str | None = Field(
-        None, description="the body that cells_across and reach mean; default: the one that the mesh follows, else the rod of "
-        "[penetration], else the first that moves", examples=["rod"],
+        None, description="the body that cells_across and reach refer to; default: the one that the mesh follows, else the rod "
+        "of [penetration], else the first that moves", examples=["rod"],
     )
     follow: str | None = Field(
-        None, description="a body with which the whole mesh travels along z; what the deck places ahead enters when the mesh "
-        "reaches it; default and none: the mesh does not move",
+        None, description="a body with which the whole mesh travels along z; bodies further ahead enter when the mesh "
+        "reaches them; default and none: the mesh does not move",
         examples=["rod"],
     )
 

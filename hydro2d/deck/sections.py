@@ -28,11 +28,11 @@ from hydro2d.sources.registry import AnySource
 
 
 class Numerics(Section):
-    """How the equations are solved."""
+    """Choices and coefficients of the method."""
 
     advection: Literal["ke", "momentum", "both"] = Field(
-        "both", description="what the remap of velocities conserves: kinetic energy, momentum, or momentum and, as heat, the "
-        "energy; ke is clipped in strong shocks, and momentum discards kinetic energy there"
+        "both", description="what the remap of velocities conserves: kinetic energy, momentum, or both (lost kinetic "
+        "energy becomes heat); ke is clipped in strong shocks, and momentum discards kinetic energy there"
     )
     ke_bound: Annotated[float, within(1.0, 1e12, "below 1 a node could not keep the velocity of its own momentum")] = Field(
         1.05, description="upper bound of |u| / |momentum/mass| in the ke remap", examples=[1.1]
@@ -41,7 +41,7 @@ class Numerics(Section):
         0.7, description="ratio of the time step to the time in which the fastest wave crosses a cell", examples=[0.4]
     )
     shock_courant: Annotated[float, within(1e-3, 1.0, "above 1 no step is stable")] = Field(
-        0.5, description="the same in a shock, where the artificial viscosity acts; courant if that is less", examples=[0.4]
+        0.5, description="this ratio in a shock, where the artificial viscosity acts; courant if that is less", examples=[0.4]
     )
     advective_courant: PositiveNumber = Field(
         0.4, le=0.5, description="largest fraction of a cell that material crosses in one step", examples=[0.3]
@@ -56,7 +56,7 @@ class Numerics(Section):
     )
     dt_min: Time = Field(1e-14, description="a time step below this ends the run as unphysical", examples=["1e-13 s"])
     viscosity_along: Literal["mesh", "compression"] = Field(
-        "mesh", description="what the artificial viscosity resists: compression along r and along z, each by itself, or along "
+        "mesh", description="the artificial viscosity resists compression along r and along z, each by itself, or along "
         "the direction in which a cell is compressed most, which keeps strong shocks round"
     )
     viscosity_linear: Annotated[float, within(0.0, 2.0, "more viscosity only shortens the time step")] = Field(
@@ -68,7 +68,7 @@ class Numerics(Section):
     hourglass: Annotated[float, within(0.0, 0.5, "a stronger filter is unstable")] = Field(
         0.05, description="coefficient of the hourglass filter", examples=[0.1]
     )
-    steepness: Annotated[float, within(1.0, 2.0, "a steeper slope makes new extremes, a flatter one is of first order")] = (
+    steepness: Annotated[float, within(1.0, 2.0, "a steeper slope makes new extrema, a flatter one is first-order")] = (
         Field(2.0, description="largest slope of what the remap carries, in units of the smaller difference to a neighbour; 1 "
               "keeps strong shocks round, 2 keeps waves sharp", examples=[1.0])
     )
@@ -91,7 +91,7 @@ class Numerics(Section):
     )
     clip_limit: Fraction = Field(
         0.02, description="fraction of the energy that a clip (sub-cutoff volume fractions, the bound of ke, the speed limit) "
-        "may remove before the run ends as unphysical; whatever this value, a summary is trustworthy only up to 0.02",
+        "may remove before the run ends as unphysical; with any value, a summary is trustworthy only up to 0.02",
         examples=[0.05],
     )
     active_region: bool = Field(True, description="skip cells that no signal has reached")
@@ -133,7 +133,7 @@ class Sliding(Section):
 
     method: Literal["none", "slip-layer", "contact"] = Field(
         "none",
-        description="none: tied contact, all bodies share one velocity field; slip-layer: soft material beside the hard "
+        description="none: tied contact, all bodies share one velocity field; slip-layer: soft material next to the hard "
         "bodies loses its shear stress; contact: the hard bodies have velocities of their own",
     )
     hard: tuple[str, ...] = Field(
@@ -166,15 +166,15 @@ class Sliding(Section):
 
 
 class Failure(Section):
-    """Which failure models of the materials are used, and how void opens."""
+    """The failure models of the materials in use, and the opening of void."""
 
     tensile: Literal["material", "none"] = Field(
         "material", description="tensile failure at the fracture pressure of each material, or none"
     )
     damage: Literal["material", "none"] = Field("none", description="the damage model of each material, or none")
     melting: Literal["material", "none"] = Field(
-        "none", description="no strength from the melting line of each material on, whatever its strength model, or by the "
-        "strength model alone"
+        "none", description="no strength from the melting line of each material on, with any strength model; or as the "
+        "strength model alone says"
     )
     tension: Literal["mean", "min"] = Field(
         "mean", description="fracture pressure of a mixed cell: mean by volume fraction, or the smallest"
@@ -190,10 +190,10 @@ class Failure(Section):
 
 
 class Stop(Section):
-    """When the run ends: at the first of these conditions. The speed of a body is checked every 10 cycles.
+    """The end of the run: at the first of these conditions. The speed of a body is checked every 10 cycles.
 
-    If the speed of the projectile, its rebound or perforation is watched, the run also ends when it has left the mesh. A body
-    that is slower than `speed_below` at the start is waited for until it has been faster.
+    If the speed of the projectile, its rebound or perforation is watched, the run also ends when it has left the mesh. If
+    a body is slower than `speed_below` at the start, its speed counts only once it has been faster.
     """
 
     time: PositiveTime | None = Field(None, description="end time", examples=["400 us"])
@@ -230,7 +230,7 @@ def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
 
 
 class Output(Section):
-    """What is written, where, and how often."""
+    """The files written, their place and intervals."""
 
     directory: Annotated[str, AfterValidator(_directory)] | None = Field(
         None, description="run directory; default: runs/<name of the deck>", examples=["runs/shot_4344"]
@@ -297,18 +297,18 @@ class Gauge(Section):
 
 
 class Experiment(Section):
-    """What was measured, shown beside the run; the run does not use it.
+    """Measured results, shown next to those of the run; the run does not use them.
 
     If an override or an including deck changes the impact velocity (by more than 1 %) or the target, so that the deck is no
     longer this shot, the resolved deck has no experiment.
     """
 
     velocity: PositiveSpeed | None = Field(
-        None, description="impact velocity of the shot; default: that of the projectile relative to its target, whatever it is",
+        None, description="impact velocity of the shot; default: that of the projectile relative to its target",
         examples=["1086 m/s"],
     )
     target: str | None = Field(
-        None, description="material of the target in the shot; default: that of the target, whatever it is", examples=["Al5083"]
+        None, description="material of the target in the shot; default: that of the target", examples=["Al5083"]
     )
     penetration: PositiveLength | None = Field(None, description="depth below the original surface", examples=["44.8 cm"])
     qualifier: Literal["measured", "estimated", "at least"] = Field("measured", description="how the depth is known")
@@ -365,7 +365,7 @@ class Deck(Section):
     )
     mesh: Mesh
     boundaries: Boundaries = Boundaries()
-    body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; where they overlap, the first of them is there")
+    body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; where they overlap, the first of them takes the space")
     materials: dict[str, Any] = Field({}, description="materials of this deck, each either complete or `based_on` another")
     numerics: Numerics = Numerics()
     sliding: Sliding = Sliding()

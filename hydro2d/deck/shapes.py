@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-#: lines along r on which the volume that two bodies share is found
+#: lines along r by which the volume that two bodies share is computed
 LINES = 500
 
 
@@ -195,7 +195,7 @@ def shared_volume(one: Outline, other: Outline, r: tuple[float, float], z: tuple
 
 
 def _across(low: float, high: float, planar: bool) -> float:
-    """Area of the ring between two radii, m^2, or planar their distance, m; 0 where there is none."""
+    """Area of the ring between two radii, m^2, or planar their distance, m; 0 if low exceeds high."""
     if not low < high:
         return 0.0
     return high - low if planar else math.pi * (high**2 - low**2)

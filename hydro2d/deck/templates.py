@@ -10,7 +10,7 @@ FOLDER = "templates"
 
 
 def kinds() -> dict[str, str]:
-    """The kinds of shots by name, in the order of the alphabet, and what each is, in one line: the first of its file."""
+    """The kinds of shots by name, in alphabetical order, with a one-line description: the first line of its file."""
     files = sorted((problems_folder() / FOLDER).glob("*.toml"))
     return {file.stem: file.read_text(encoding="utf-8").split("\n", 1)[0].removeprefix("# ") for file in files}
 

@@ -1,9 +1,9 @@
-"""What is too thin for the mesh: bodies, coats and layers of a few cells, and gaps of less than one.
+"""Parts too thin for the mesh: bodies, coats and layers of a few cells, and gaps of less than one.
 
-They move at their own speed (explanation/interfaces, thin bodies), but a wave needs a few cells, and what is beside a gap
-within one cell may close it. Lines along r and z are laid through all bodies, between the places where their outlines turn. A
-point of a body is as thick as the shorter of the two pieces of lines through it that lie in the body. The body is as thick as
-its thickest points are, a tenth of it left out: the tip of a cone makes no body thin, and corners make no coat thick.
+They move at their own speed (explanation/interfaces, thin bodies), but a wave needs a few cells, and the material beside a
+gap within one cell may close it. Lines along r and z are laid through all bodies, between the places where their outlines
+turn. A point of a body is as thick as the shorter of the two pieces of lines through it that lie in the body. The body is as
+thick as its thickest points, a tenth of it left out: a cone's tip does not make it thin, nor do corners make a coat thick.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ CELLS_ACROSS, CELLS_OF_A_GAP = 4, 1
 CELLS_ACROSS_WALL = 3
 #: fraction of a length that is round-off
 ROUNDING = 1e-9
-#: a gap that narrows to less than this fraction of its width is a wedge beside a point of contact
+#: a gap that narrows to less than this fraction of its width is a wedge next to a point of contact
 WEDGE = 1e-3
 #: where lines are laid between two levels, as fractions of the way, and the shares of it that they stand for
 PLACES = {1e-6: 0.25, 0.5: 0.5, 1.0 - 1e-6: 0.25}
-#: the part of a body that may be thicker than the body is said to be: corners of coats are
+#: the part of a body that may be thicker than the reported thickness, as the corners of coats are
 THICKER = 0.1
 #: most levels that one outline adds; polygons with more corners have smooth curves
 MOST_LEVELS = 40
@@ -73,21 +73,21 @@ class Point(NamedTuple):
 
 
 def thin_things(deck: Deck) -> Iterator[str]:
-    """One sentence for each body and each gap that is thin at the start or where it flies by its own velocity."""
+    """One sentence for each body and each gap that is thin at the start or during flight at its own velocity."""
     flights = Flights(deck, {axis: axis_edges(deck, axis) for axis in AXES})
     lines = {axis: list(_lines(flights, axis)) for axis in AXES}
     yield from _thin_bodies(flights, lines)
     yield from _thin_gaps(flights, lines)
 
 
-def _told(counts: list[Count], what: str) -> str:
-    """Numbers of cells and where they hold, with what they are after the first."""
+def _cells_in_words(counts: list[Count], what: str) -> str:
+    """Numbers of cells and where they apply; ``what`` they count follows the first."""
     first, *later = counts
     return " and ".join([f"{first.told} cells {what}{first.where}", *(f"{count.told}{count.where}" for count in later)])
 
 
 def _window(flights: Flights, axis: str) -> tuple[float, float]:
-    """The part of an axis on which bodies count: the mesh, and all that lies ahead of one that travels."""
+    """The part of an axis on which bodies count: the mesh, and everything ahead of a mesh that travels."""
     deck, (low, *_, high) = flights.deck, flights.edges[axis].tolist()
     if axis == "z" and (direction := travel(deck)):
         ends = list(chain.from_iterable(extent(entry, deck, "z") for entry in deck.body))
@@ -96,12 +96,12 @@ def _window(flights: Flights, axis: str) -> tuple[float, float]:
 
 
 def _levels(shape: Outline, axis: str) -> list[float]:
-    """Where an outline begins, ends or turns along an axis."""
+    """Coordinates at which an outline begins, ends or turns along an axis."""
     if axis == "z":
-        found = {z for slab in shape.slabs for z in (slab.low, slab.high)}
+        turns = {z for slab in shape.slabs for z in (slab.low, slab.high)}
     else:
-        found = {curve.r(z) for slab in shape.slabs for z in (slab.low, slab.high) for curve in (slab.inner, slab.outer)}
-    levels = sorted(found)
+        turns = {curve.r(z) for slab in shape.slabs for z in (slab.low, slab.high) for curve in (slab.inner, slab.outer)}
+    levels = sorted(turns)
     return [*levels[:: math.ceil(len(levels) / MOST_LEVELS)], levels[-1]]
 
 
@@ -119,14 +119,14 @@ def _lines(flights: Flights, axis: str) -> Iterator[Line]:
 
 
 def _visible(chords: list[tuple[str, list[tuple[float, float]]]], window: tuple[float, float]) -> list[Piece]:
-    """The pieces of a line. Where bodies overlap, the first of them is there; pieces of one body that touch are one."""
-    free, found = [window], []
+    """The pieces of a line. Where bodies overlap, the first takes the space; pieces of one body that touch are one."""
+    free, visible = [window], []
     for name, own in chords:
         for low, high in own:
-            found += [Piece(max(low, a), min(high, b), name) for a, b in free if max(low, a) < min(high, b)]
+            visible += [Piece(max(low, a), min(high, b), name) for a, b in free if max(low, a) < min(high, b)]
             free = [rest for a, b in free for rest in ((a, min(b, low)), (max(a, high), b)) if rest[0] < rest[1]]
     joined: list[Piece] = []
-    for piece in sorted(found):
+    for piece in sorted(visible):
         if joined and joined[-1].name == piece.name and _touch(joined[-1], piece):
             piece = Piece(joined.pop().low, piece.high, piece.name)
         joined.append(piece)
@@ -151,17 +151,17 @@ def _thin_bodies(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str
             if axis == thickest.thin:
                 low, high = thickest.piece.low, thickest.piece.high
             if counts := flights.counts(axis, low, high, entry.velocity, least):
-                said.append(_told(counts, f"across it along {axis}"))
+                said.append(_cells_in_words(counts, f"across it along {axis}"))
         if said:
             yield f'body "{entry.name}": {", ".join(said)}; stresses and waves in it need at least {least}'
 
 
 def _points(flights: Flights, lines: dict[str, list[Line]]) -> dict[str, list[Point]]:
-    """What lies across each body at the points where lines cross."""
+    """The thickness of each body at the points where lines cross."""
     cells = {(axis, piece): flights.begin(axis, piece.low, piece.high, body(flights.deck, piece.name).velocity).cells
              for axis in AXES for line in lines[axis] for piece in line.pieces}
     places = [line.at for line in lines["z"]]
-    found: dict[str, list[Point]] = {}
+    points: dict[str, list[Point]] = {}
     for line in lines["r"]:
         for piece in line.pieces:
             for upright in lines["z"][bisect_right(places, piece.low) : bisect_left(places, piece.high)]:
@@ -169,12 +169,12 @@ def _points(flights: Flights, lines: dict[str, list[Line]]) -> dict[str, list[Po
                 if crossing is not None and crossing.name == piece.name:
                     ways = [Point(cells[axis, way], line.width * upright.width, axis, way)
                             for axis, way in zip(AXES, (piece, crossing), strict=True)]
-                    found.setdefault(piece.name, []).append(min(ways, key=lambda way: way.cells))
-    return found
+                    points.setdefault(piece.name, []).append(min(ways, key=lambda way: way.cells))
+    return points
 
 
 def _thickest(points: list[Point]) -> Point:
-    """The point than which only a small part of the body is thicker."""
+    """The thickest point of a body once THICKER of its area is left out."""
     left = THICKER * sum(point.area for point in points)
     for point in sorted(points, key=lambda point: -point.cells):
         left -= point.area
@@ -184,8 +184,8 @@ def _thickest(points: list[Point]) -> Point:
 
 
 def _thin_gaps(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str]:
-    """Gaps between two bodies, or within one, that do not close by the velocities of these; the narrowest of each pair."""
-    found: dict[tuple[str, str], tuple[float, str]] = {}
+    """Gaps between two bodies, or within one, that their velocities do not close; the narrowest of each pair."""
+    narrowest: dict[tuple[str, str], tuple[float, str]] = {}
     for axis, along in zip(AXES, (0, 1), strict=True):
         bored = axis == "r" and flights.deck.mesh.geometry == "cylindrical" and flights.edges["r"][0] == 0.0
         for (before, after), bands in _gaps(lines[axis], bored).items():
@@ -197,10 +197,11 @@ def _thin_gaps(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str]:
             flight = (0.0, 0.0) if velocity != other or low == flights.edges[axis][0] else velocity
             if counts := flights.counts(axis, low, high, flight, CELLS_OF_A_GAP):
                 where = f'in "{before}"' if before == after else f'between "{before}" and "{after}"'
-                told = f"gap of {_told(counts, f'along {axis} {where}')}; what is beside a gap thinner than a cell may close it"
+                sentence = (f"gap of {_cells_in_words(counts, f'along {axis} {where}')}; "
+                            "material beside a gap thinner than a cell may close it")
                 pair = (min(before, after), max(before, after))
-                found[pair] = min(found.get(pair, (math.inf, "")), (min(count.cells for count in counts), told))
-    yield from (told for _, told in found.values())
+                narrowest[pair] = min(narrowest.get(pair, (math.inf, "")), (min(count.cells for count in counts), sentence))
+    yield from (sentence for _, sentence in narrowest.values())
 
 
 def _gaps(lines: list[Line], bored: bool) -> dict[tuple[str, str], dict[int, list[tuple[float, float]]]]:
@@ -208,17 +209,17 @@ def _gaps(lines: list[Line], bored: bool) -> dict[tuple[str, str], dict[int, lis
 
     bored : whether what lies between 0 and the first piece is a hole in its body
     """
-    found: dict[tuple[str, str], dict[int, list[tuple[float, float]]]] = {}
+    gaps: dict[tuple[str, str], dict[int, list[tuple[float, float]]]] = {}
     for line in lines:
         first = [Piece(0.0, 0.0, line.pieces[0].name)] if bored and line.pieces else []
         for before, after in pairwise([*first, *line.pieces]):
             if not _touch(before, after):
-                found.setdefault((before.name, after.name), {}).setdefault(line.band, []).append((before.high, after.low))
-    return found
+                gaps.setdefault((before.name, after.name), {}).setdefault(line.band, []).append((before.high, after.low))
+    return gaps
 
 
 def _narrow(bands: dict[int, list[tuple[float, float]]]) -> Iterator[tuple[float, float]]:
-    """The widest place of the gap in each band that the gap crosses, but of no wedge, nor of the bands next to one."""
+    """The widest place of the gap in each band that it crosses, without wedges and the bands next to them."""
 
     def width(gap: tuple[float, float]) -> float:
         return gap[1] - gap[0]

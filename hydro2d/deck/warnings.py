@@ -1,4 +1,4 @@
-"""Warnings about a deck: what is allowed but seldom intended, one sentence each."""
+"""Warnings about a deck: choices that are allowed but seldom intended, one sentence each."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from hydro2d.sources.detonation import EXPLOSIVES
 
 #: a body whose density is below this share of the densest one's is a gas
 GAS = 0.01
-#: share of the earlier of two bodies, and of what is left of it, by which they overlap where it is told
+#: least share of the earlier of two bodies that overlaps, and that does not, for a warning
 LEAST_SHARED = 1e-3
 #: a rod needs at least this many cells across its radius to behave like one
 CELLS_ACROSS_RADIUS = 5
 
 
 def warnings(deck: Deck) -> list[str]:
-    """What is allowed but unwise, one sentence each, as `hydro2d check` and the start of a run show it."""
+    """Allowed but unwise choices, one sentence each, as `hydro2d check` and the start of a run show it."""
     return [*misfits(deck), *_coarse_rods(deck), *thin_things(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
             *_overlaps(deck), *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
 
@@ -60,14 +60,14 @@ def _leaving(deck: Deck) -> Iterator[str]:
 
 
 def _overlaps(deck: Deck) -> Iterator[str]:
-    """Bodies that lie partly in an earlier one, which has the place. One that an earlier one lies in altogether is meant."""
-    placed = [(entry, found, found.extent("r"), found.extent("z"))
-              for entry, found in ((entry, outline(entry, deck.mesh.r_start)) for entry in deck.body)]
+    """Bodies that partly overlap an earlier one, which takes the space. Wholly overlapping an earlier one is intended."""
+    placed = [(entry, shape, shape.extent("r"), shape.extent("z"))
+              for entry, shape in ((entry, outline(entry, deck.mesh.r_start)) for entry in deck.body)]
     r, z = ((float(edges[0]), float(edges[-1])) for edges in (axis_edges(deck, "r"), axis_edges(deck, "z")))
     planar = deck.mesh.geometry == "planar"
     for (other, first, *reach), (entry, second, *its) in combinations(placed, 2):
-        apart = any(max(a[0], b[0]) >= min(a[1], b[1]) for a, b in zip(reach, its, strict=True))
-        if apart or (entry.join or entry.name) == (other.join or other.name):
+        disjoint = any(max(a[0], b[0]) >= min(a[1], b[1]) for a, b in zip(reach, its, strict=True))
+        if disjoint or (entry.join or entry.name) == (other.join or other.name):
             continue
         both, whole = shared_volume(first, second, r, z, planar)
         if LEAST_SHARED * whole < both < (1.0 - LEAST_SHARED) * whole:
@@ -89,11 +89,11 @@ def _short_mesh(deck: Deck) -> Iterator[str]:
         ahead = room(deck, axis_edges(deck, "z"))[0]
         radii = ahead / extent(body(deck, deck.mesh.follow), deck, "r")[1]
         if radii < AHEAD and not _whole_when_hit(deck, ahead):
-            yield f'mesh.follow: the mesh ends {radii:.3g} radii ahead of "{deck.mesh.follow}"; below {AHEAD} its edge is felt'
+            yield f'mesh.follow: the mesh ends {radii:.3g} radii ahead of "{deck.mesh.follow}"; below {AHEAD} its edge matters'
 
 
 def _whole_when_hit(deck: Deck, ahead: float) -> bool:
-    """Whether all of every target lies in the mesh when the body that this follows, ahead m behind its edge, reaches it."""
+    """Whether every target is wholly in the mesh when the body that this follows, ahead m behind its edge, reaches it."""
     named = deck.penetration.targets if deck.penetration else ()
     extents = [extent(body(deck, name), deck, "z") for name in named]
     return bool(extents) and all(high - low < ahead for low, high in extents)
@@ -105,15 +105,15 @@ def _yielding_rods(deck: Deck) -> Iterator[str]:
 
 
 def _gases(deck: Deck) -> Iterator[str]:
-    """Gases beside solids: bodies that are light, or have no cohesion where others have some."""
+    """Gases together with solids: bodies that are light, or have no cohesion where others have some."""
     materials = {entry.name: deck.materials[entry.material] for entry in deck.body}
     densest = max((material.reference_density for material in materials.values()), default=0.0)
     ideal = [name for name, material in materials.items() if material.eos.name == "ideal-gas"]
-    told = ("a gas beside bodies in contact may explode" if deck.sliding.method == "contact" else
-            "a gas beside a solid gets too hot where it is crushed, which ends the run as unphysical")
+    consequence = ("a gas beside bodies in contact may explode" if deck.sliding.method == "contact" else
+                   "a gas beside a solid gets too hot where it is crushed, which ends the run as unphysical")
     for name, material in materials.items():
         if material.reference_density < GAS * densest or (name in ideal and len(ideal) < len(materials)):
-            yield f'body "{name}": {told}; leave the space empty'
+            yield f'body "{name}": {consequence}; leave the space empty'
 
 
 def _duds(deck: Deck) -> Iterator[str]:
@@ -122,14 +122,14 @@ def _duds(deck: Deck) -> Iterator[str]:
     for entry in deck.body:
         name = deck.materials[entry.material].eos.name
         if name in EXPLOSIVES and entry.join is None and entry.name not in lit:
-            yield f'body "{entry.name}": an explosive without a source of kind "detonation"; no time lights it'
+            yield f'body "{entry.name}": an explosive without a source of kind "detonation"; nothing lights it'
     if lit and deck.numerics.advection != "both":
         yield (f'numerics.advection is "{deck.numerics.advection}", which discards kinetic energy at the detonation: pressures '
                'behind it are too low; choose "both"')
 
 
 def _bears_any_tension(material: Material) -> bool:
-    """Whether a material without strength is held together by nothing but its equation of state: a liquid, not a gas."""
+    """Whether a material without strength bears any tension by its equation of state alone: a liquid, not a gas."""
     return material.fracture_pressure is None and material.eos.name not in ("ideal-gas", *EXPLOSIVES)
 
 
@@ -140,13 +140,13 @@ def _melts_by_itself(material: Material) -> bool:
 
 
 def _answer(name: str, material: Material, *keys: str) -> str:
-    """The variants of a body's material that have what it lacks, and how to write the first; empty where none has."""
-    found = material.variants_with(*keys)
-    if not found:
+    """The variants of a body's material that have what it lacks, and how to write the first; empty if none has it."""
+    variants = material.variants_with(*keys)
+    if not variants:
         return ""
-    names = " and ".join(f'"{variant}"' for variant in found)
-    words = f"variants {names} have one" if found[1:] else f"variant {names} has one"
-    return f'; {words}: material = "{name}:{found[0]}"'
+    names = " and ".join(f'"{variant}"' for variant in variants)
+    words = f"variants {names} have one" if variants[1:] else f"variant {names} has one"
+    return f'; {words}: material = "{name}:{variants[0]}"'
 
 
 def _no_failure(deck: Deck) -> Iterator[str]:

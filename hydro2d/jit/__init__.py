@@ -1,19 +1,19 @@
-"""Every numba option of the code, in one place, and the functions that compiled code computes with.
+"""All numba options of the code, and the decorators and functions for compiled code.
 
 ``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
-``@late``    a scalar function that calls what is chosen when kernels are loaded
-``@apart``   a function that kernels call for what is rare
+``@late``    a scalar function that calls functions chosen when kernels are loaded
+``@apart``   a function that kernels call for rare cases
 ``@rowwise`` one row of one phase, a piece of kernels
 ``@kernel``  loops over the rows of one part of the mesh
-``@cell_rows``, ``@vertex_rows``  what a kernel does in one row of cells or vertices, the same in all rows of its part
+``@cell_rows``, ``@vertex_rows``  the work of a kernel in one row of cells or vertices, applied to all rows of its part
 ``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
 ``@serial``  loops over a short list, one thread
 
 A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
 
-What numba is told is in `options`, the processor that code is made for in `target`, where compiled code is kept in `cache` and
-how in `store`, the decorators are in `calls`, arguments by name in `by_name`, exp, log and x^y for several cells at
-once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and what is known of the calls of kernels in
+numba's options are in `options`, the processor that code is compiled for in `target`, the place of compiled code in `cache`
+and its format in `store`, the decorators in `calls`, arguments by name in `by_name`, exp, log and x^y for several cells at
+once in `elementary`, phases in `phases`, the names of their arrays in `handle`, and the record of kernel calls in
 `recording`. Other files import from here.
 """
 

@@ -1,7 +1,7 @@
-"""A barrier for the threads of one parallel loop: what lets one loop run a whole phase of the step.
+"""A barrier for the threads of one parallel loop, so that one loop can run a whole phase of the step.
 
-Starting a parallel loop costs two or three microseconds, a barrier a tenth of one. It is only for loops of which every turn has
-a thread of its own, all at the same time (`calls.parts_at_once` sees to that).
+Starting a parallel loop costs two or three microseconds, a barrier a tenth of one. It works only for loops in which every turn
+has a thread of its own, all at the same time (`calls.parts_at_once` ensures this).
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ import llvmlite.ir as ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 
-#: words of a gate, and where its two numbers are: they are in different lines of the cache
+#: words of a gate, and the places of its two numbers, which lie in different cache lines
 WORDS, ARRIVED, OPENED = 32, 0, 16
-#: a thread that has looked this often lets others run before it looks again
+#: after this many looks a thread lets others run before it looks again
 PATIENCE = 20000
-#: whether the processor has an instruction for loops that wait
+#: whether the processor has an instruction for waiting loops
 PAUSES = platform.machine() in ("x86_64", "AMD64")
 
 
 @intrinsic
 def meet(context, gate, number, rounds):
-    """Waits until `number` threads have called it with the same gate, int64[WORDS]; whether they have.
+    """Waits until `number` threads have called it with the same gate, int64[WORDS]. Returns whether they have.
 
-    rounds : how often it lets others run before it gives up; 0: it never does
+    rounds : how often it lets others run before it gives up; 0: it never gives up
     """
 
     def code(context, builder, signature, arguments):

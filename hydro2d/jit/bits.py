@@ -1,4 +1,4 @@
-"""The bits of a float64 as an int64, and back: what `elementary` takes exponents apart with.
+"""The bits of a float64 as an int64, and back, for `elementary` to separate exponents.
 
 Like `barrier`, it writes LLVM's own instructions. Python cannot call the two functions; compiled code can.
 """

@@ -1,15 +1,15 @@
 """Functions that take arrays and numbers by their names: written with a handle ``w``, compiled with a parameter for each name.
 
 A function whose last parameter is ``w`` uses ``w.u[b, j, i]`` and ``w.dt``, and calls others like it as ``other(j, i, w)``.
-What is compiled is the same function with a parameter for every name that it uses, or that one of those which it calls does::
+The compiled function has a parameter for every name that it, or a function it calls, uses::
 
     @kernel                                     @kernel
     def slow_down(part, w):                     def slow_down(part, w__dt, w__parts, w__u):
         for j in range(rows(part, w)):              for j in range(rows(part, w__parts)):
             w.u[0, j, 0] -= w.dt                        w__u[0, j, 0] -= w__dt
 
-So nobody writes a name to pass it on, and the names are arguments all the same, of which the compiler is told that their memory
-does not overlap. From Python such a function is called with anything that has the names as attributes.
+So no name is written only to pass it on, yet the names are arguments, and the compiler can assume that their memory does not
+overlap. From Python such a function is called with any object that has the names as attributes.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ from types import CodeType, FunctionType
 from hydro2d.jit.handle import declared
 from hydro2d.parsing import parsed
 
-#: the parameter that stands for all names, and how the parameters begin that it becomes
+#: the parameter that stands for all names, and the prefix of the parameters that replace it
 HANDLE, PREFIX = "w", "w__"
-#: the rows of a part that `in_rows` goes through: of cells, and of vertices, of which the last part has one more
+#: the rows of a part that `in_rows` goes through: of cells, and of vertices (one more in the last part)
 CELLS = "range(w.parts[part], w.parts[part + 1])"
 VERTICES = "range(w.parts[part], w.parts[part + 1] + (1 if part == w.parts.shape[0] - 2 else 0))"
 
 
 def takes(function) -> tuple[str, ...]:
-    """What a compiled function is given, in order: its own parameters, then the names that it uses of a handle."""
+    """Parameters of a compiled function, in order: its own, then the names that it uses from a handle."""
     return (*own_parameters(function), *(function.named if takes_handle(function) else ()))
 
 
@@ -41,7 +41,7 @@ def takes_handle(function) -> bool:
 
 
 def own_parameters(function) -> tuple[str, ...]:
-    """The parameters of a function but for the handle."""
+    """The parameters of a function without the handle."""
     written = tuple(inspect.signature(source(function)).parameters)
     return written[:-1] if takes_handle(function) else written
 
@@ -52,7 +52,7 @@ def source(function):
 
 
 def values(function, arguments: tuple) -> tuple:
-    """What compiled code is given for the arguments of a call: in place of the handle the values of its names."""
+    """The arguments of a call as compiled code takes them: with the values of its names in place of the handle."""
     if not takes_handle(function):
         return arguments
     *own, handle = arguments
@@ -62,7 +62,7 @@ def values(function, arguments: tuple) -> tuple:
 def in_rows(function, rows: str) -> FunctionType:
     """A function of one row, ``function(j, w)``, for all rows of a part: ``function(part, w)``.
 
-    rows : `CELLS` or `VERTICES`. A function that has to know the part has it as a parameter.
+    rows : `CELLS` or `VERTICES`. A function that needs to know the part has it as a parameter.
 
     Raises ValueError for a function that takes no handle, whose first parameter is not ``j``, or that returns.
     """
@@ -85,13 +85,13 @@ def in_rows(function, rows: str) -> FunctionType:
 
 
 def flat(function) -> FunctionType:
-    """The function that is compiled: with a parameter for every name that it uses, if its last one is a handle; else as it is.
+    """The function that is compiled: with a parameter for every name that it uses if its last one is a handle, else unchanged.
 
-    Its attribute ``named`` has these names, ``source`` is what is given.
+    Its attribute ``named`` has these names; ``source`` is the given function.
 
-    Raises ValueError for names that are not declared or are assigned, for a handle that is used otherwise than by its names or
-    as the last argument of a function that takes one, for such a function that is not defined yet, and for variables
-    that begin like the parameters.
+    Raises ValueError for names that are not declared or are assigned, for a handle used other than by its names or as the
+    last argument of a function that takes one, for such a function that is not defined yet, and for variables that begin
+    with PREFIX.
     """
     if [*inspect.signature(function).parameters][-1:] != [HANDLE]:
         return function
@@ -107,7 +107,7 @@ def flat(function) -> FunctionType:
 
 
 class _Rewriting(ast.NodeTransformer):
-    """Puts parameters in the place of names."""
+    """Replaces names by parameters."""
 
     def __init__(self, function):
         self._function, self._known, self.names = function, declared(), set()
@@ -152,7 +152,7 @@ def _mistake(function, node: ast.AST, what: str) -> ValueError:
 
 @functools.lru_cache(maxsize=2)
 def _last_lines(text: str) -> dict[tuple[str, int], int]:
-    """The last line of every function of a text, by its name and its first line, which is that of its decorator."""
+    """The last line of every function of a text, by its name and its first line, that of its decorator."""
     return {(node.name, min([node.lineno, *(mark.lineno for mark in node.decorator_list)])): node.end_lineno
             for node in parsed(text).body if isinstance(node, ast.FunctionDef)}
 
@@ -160,7 +160,7 @@ def _last_lines(text: str) -> dict[tuple[str, int], int]:
 def _definition(function) -> ast.FunctionDef:
     """The syntax tree of a function, or what `in_rows` has made of it.
 
-    Raises ValueError for one that is not in the text of a file by itself, but within another function or made at run time.
+    Raises ValueError for a function that is not at the top level of a file: nested in another, or made at run time.
     """
     if hasattr(function, "tree"):
         return function.tree
@@ -174,8 +174,8 @@ def _definition(function) -> ast.FunctionDef:
 
 
 def _made(function, tree: ast.FunctionDef) -> FunctionType:
-    """The function of a changed syntax tree: in its file, its lines and its module, with the name that it has there."""
-    for number, mark in enumerate(tree.decorator_list):  # not called, but the first line of the function is theirs
+    """The function of a changed syntax tree, with the file, lines, module and name of the original."""
+    for number, mark in enumerate(tree.decorator_list):  # not called, but they set the first line of the function
         tree.decorator_list[number] = ast.copy_location(ast.Name("mark", ast.Load()), mark)
     module = compile(ast.Module([tree], []), function.__code__.co_filename, "exec", dont_inherit=True)
     code = next(each for each in module.co_consts if isinstance(each, CodeType) and each.co_name == function.__name__)

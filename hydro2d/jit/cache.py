@@ -1,9 +1,9 @@
-"""Where compiled code is kept: in a folder that is named by a hash of all that it depends on.
+"""The place of compiled code: a folder named by a hash of everything that the code depends on.
 
-numba's own cache notices an edit of the file that holds a function, not of the files that this one calls. What is compiled of
-a file is therefore kept in a folder with a hash of this package, of the file, of all of hydro2d that it imports, itself or
-through others, of the models from outside that it can see, and of the compiler, its options and the processor that it compiles
-for: it is never stale, and an edit compiles anew what can see it and nothing else. How it is kept there is in `store`.
+numba's own cache notices an edit of the file that holds a function, but not of the files that this one calls. The compiled
+code of a file is therefore kept in a folder with a hash of this package, of the file, of everything in hydro2d that it
+imports, directly or through others, of the models from outside that it can see, and of the compiler, its options and the
+processor that it compiles for. So it is never stale, and an edit recompiles only code that can see it. `store` has the format.
 """
 
 from __future__ import annotations
@@ -32,27 +32,27 @@ from hydro2d.terminal import say
 #: this package, and the folder that holds hydro2d, eos and strength
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-#: compiled code that the package brings, in a wheel that was made so, and the file that says what it is for
+#: compiled code that the package brings, if its wheel has some, and the file that says what it is for
 SHIPPED, ABOUT = ROOT / "hydro2d" / "_compiled", "about.json"
-#: folders of which the texts that are written at run time may see all
+#: folders whose files the texts written at run time may all see
 COMPILED = ("hydro2d/physics", "hydro2d/kernels", "eos", "strength")
-#: files of this package that change no code: they say where it is kept
+#: files of this package that do not change code, only where it is kept
 NO_CODE = ("cache.py", "store.py", "target.py")
 
 
 @functools.cache
 def _source_files() -> frozenset[Path]:
-    """Every file of the compiled folders, with all that these import."""
+    """Every file of the compiled folders, and all files that these import."""
     return frozenset().union(*(seen_by(file) for folder in COMPILED for file in (ROOT / folder).glob("**/*.py")))
 
 
 @functools.cache
 def root() -> str:
-    """The folder under which all that is compiled is kept: HYDRO2D_CACHE_DIR, in the user's cache, or a `_private` one.
+    """The folder for all compiled code: HYDRO2D_CACHE_DIR, in the user's cache, or a `_private` one.
 
-    What is in it is executed, so it must be nobody else's to write to. An empty variable counts as not set. A relative
+    Its contents are executed, so nobody else may be able to write to it. An empty variable counts as not set. A relative
     HYDRO2D_CACHE_DIR is the user's own choice of a place below the current directory; a relative XDG_CACHE_HOME counts as not
-    set, as its specification asks: it would be a folder of whatever directory a command happens to run in.
+    set, as its specification asks: it would be a folder of any directory in which a command happens to run.
     """
     if chosen := os.environ.get("HYDRO2D_CACHE_DIR"):
         return os.path.abspath(chosen)
@@ -65,7 +65,7 @@ def root() -> str:
 
 
 def _private(folder: str) -> str:
-    """The folder, made if need be, if it is the user's own alone; else a new one for this process and what it starts."""
+    """The folder, made if need be, if it is the user's alone; else a new one for this process and its children."""
     with suppress(FileExistsError):
         os.mkdir(folder, 0o700)
     found = os.lstat(folder)
@@ -87,7 +87,7 @@ def say_once(text: str) -> None:
 
 @contextmanager
 def kept_if_possible() -> Iterator[None]:
-    """Says once that what the block writes cannot be kept, if that is so: the disk may be full, or nobody may write there."""
+    """Says once if the files that the block writes cannot be kept: the disk may be full, or writing is not allowed."""
     try:
         yield
     except OSError as error:
@@ -96,7 +96,7 @@ def kept_if_possible() -> Iterator[None]:
 
 
 def folder_for(files: Iterable[Path], models: Iterable[str] = ()) -> str:
-    """The folder for what depends on these files and models from outside: named by a hash of their text."""
+    """The folder for code that depends on these files and models from outside: named by a hash of their text."""
     digest = hashlib.sha256(repr(sorted(target.description().items())).encode())
     for name, file in sorted((_relative(file), file) for file in files):
         digest.update(name.encode())
@@ -107,7 +107,7 @@ def folder_for(files: Iterable[Path], models: Iterable[str] = ()) -> str:
 
 
 def _relative(file: Path) -> str:
-    """The path of a file of ours from the folder that holds hydro2d: it is the same wherever that is. The name of another."""
+    """The path of a file of hydro2d from the folder that holds it, the same on every machine; of another file, its name."""
     return file.relative_to(ROOT).as_posix() if ROOT in file.parents else file.name
 
 
@@ -124,9 +124,9 @@ def _imported(file: Path) -> frozenset[Path]:
 
 
 def _files_of(name: str) -> list[Path]:
-    """The file of a module of hydro2d, eos or strength and those of the packages around it; none for what is no such module.
+    """The file of a module of hydro2d, eos or strength and those of the packages around it; none for other modules.
 
-    The package hydro2d itself, which hands out the rest on demand, is left out.
+    The package hydro2d itself, which imports the rest on demand, is left out.
     """
     parts = name.split(".")
     if parts[0] not in ("hydro2d", "eos", "strength"):
@@ -137,9 +137,9 @@ def _files_of(name: str) -> list[Path]:
 
 @functools.cache
 def seen_by(file: Path) -> frozenset[Path]:
-    """A file, those of this package, and every other file of ours that it imports, itself or through others.
+    """A file, those of this package, and every other file of hydro2d that it imports, directly or through others.
 
-    Models are chosen by lists of names: who sees the `dispatch` of `eos` or `strength` sees all of the folder.
+    Models are chosen by lists of names: a file that sees the `dispatch` of `eos` or `strength` sees all of the folder.
     """
     found, waiting = {each for each in HERE.glob("*.py") if each.name not in NO_CODE}, [file]
     while waiting:
@@ -155,7 +155,7 @@ def seen_by(file: Path) -> frozenset[Path]:
 
 @functools.cache
 def folder_of(file: str) -> str:
-    """The folder for what is compiled of a file: for a text that was made at run time, the one that its path names, if any."""
+    """The folder for the compiled code of a file; for a text made at run time the one that its path names, if any."""
     path = Path(file).resolve()
     if generated(file) is not None and path.parent.parent == Path(root()).resolve():
         return str(path.parent)
@@ -165,30 +165,30 @@ def folder_of(file: str) -> str:
 
 
 def folder_seeing(files: frozenset[Path]) -> str:
-    """The folder for what depends on these files and on the models from outside that they can see."""
+    """The folder for code that depends on these files and on the models from outside that they can see."""
     return folder_for(files, [model for package, models in _added.items() if ROOT / package / "dispatch.py" in files
                               for model in models])
 
 
 @functools.cache
 def all_folder() -> str:
-    """The folder for what depends on all sources and all models from outside."""
+    """The folder for code that depends on all sources and all models from outside."""
     return folder_for(_source_files(), [model for models in _added.values() for model in models])
 
 
 def places(folder: str) -> tuple[Path, Path]:
-    """Where what belongs into a folder of the cache is looked for: in the package first, then in the cache."""
+    """The folders to search for the contents of a folder of the cache: in the package first, then in the cache."""
     return SHIPPED / os.path.basename(folder), Path(folder)
 
 
 def about() -> dict[str, str]:
-    """What compiled code depends on, with the sources that all processes have (those without models from outside)."""
+    """Everything that compiled code depends on, with the sources of all processes (those without models from outside)."""
     return {**target.description(), "sources": os.path.basename(folder_for(_source_files()))}
 
 
 @functools.cache
 def say_if_shipped_in_vain() -> None:
-    """Says why the compiled code of the package is of no use here, if there is some and it is not."""
+    """Says why the compiled code of the package cannot be used here, if there is some."""
     if not (SHIPPED / ABOUT).exists():
         return
     try:
@@ -215,9 +215,9 @@ _added: dict[str, set[str]] = {"eos": set(), "strength": set()}
 
 
 def add_model(package: str, name: str) -> bool:
-    """Adds a model from outside to what the `dispatch` of a package sees; False where that is loaded without it already.
+    """Adds a model from outside for the `dispatch` of a package; False if that has already been loaded without it.
 
-    name : of the model's module, as `module_of` makes it: it has a hash of the text
+    name : of the model's module, as `module_of` makes it, with a hash of the text
     """
     if name in _added[package]:
         return True
@@ -239,9 +239,9 @@ def generated(file: str) -> str | None:
 
 
 def module_of(stem: str, text: str, folder: str = "") -> ModuleType:
-    """The module of a Python text, whose name is the stem and a hash of the text. No file is written: none can be spoiled.
+    """The module of a Python text; its name is the stem and a hash of the text. No file is written that could be damaged.
 
-    folder : of the path that tracebacks name, at which there is no file
+    folder : of the path that tracebacks name; no file exists there
     """
     name = f"{stem}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     module = ModuleType(name)

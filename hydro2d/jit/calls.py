@@ -26,9 +26,9 @@ def _compile(function, kept: bool = True, **options):
 
 
 class Inner:
-    """A function that compiled code calls: part of the machine code of its callers, without any of its own.
+    """A function that compiled code calls: part of the machine code of its callers, with none of its own.
 
-    Python may call it as well; then it is compiled a second time, by itself, and kept in the cache.
+    Python may call it as well; it is then compiled separately and kept in the cache.
     """
 
     def __init__(self, function, kept: bool = True, **options):
@@ -42,7 +42,7 @@ class Inner:
 
     @functools.cached_property
     def whole(self):
-        """What Python calls."""
+        """The function that Python calls."""
         function = self.__wrapped__
         twin = FunctionType(function.__code__, function.__globals__, function.__name__, function.__defaults__)
         twin.__module__, twin.__qualname__, twin.__doc__ = function.__module__, function.__qualname__, function.__doc__
@@ -68,16 +68,16 @@ def point(function):
 
 
 def late(function):
-    """`point` for a function that calls what is chosen only when kernels are loaded: by itself it is not kept in the cache.
+    """`point` for a function that calls functions chosen only when kernels are loaded; it is not kept in the cache by itself.
 
-    The folder of the cache is named when a function is defined, before models from outside are added. Kernels that such a
-    function is part of are kept as others are.
+    The folder of the cache is named when a function is defined, before models from outside are added. Kernels that
+    contain such a function are kept as usual.
     """
     return Inner(function, forceinline=True, kept=False)
 
 
 def apart(function):
-    """Compiles a function that is called, not inlined: what runs rarely need not be compiled again at every place."""
+    """Compiles a function that is called, not inlined: rarely used code need not be compiled again at every call."""
     return Inner(function)
 
 
@@ -89,8 +89,8 @@ def modules(package: str, *names: str) -> tuple[ModuleType, ...]:
 def by_id(models: tuple[ModuleType, ...], function: str, arguments: str, meaning: str, otherwise: str = 'float("nan")'):
     """A ``@point`` function ``function(model, arguments)`` that calls the function of this name of the model with that ID.
 
-    A chain of comparisons, written to a file in the cache folder: numba caches neither functions that are put together at run
-    time nor those that are handed other functions. Models without the function, and unknown ids, give ``otherwise``.
+    A chain of comparisons, written to a file in the cache folder, because numba caches neither functions assembled at run
+    time nor those that take other functions. Models without the function, and unknown ids, give ``otherwise``.
     """
     models, lines = _chain(models, function, f"@point\ndef {function}(model, {arguments}):", "point", meaning)
     for k, model in enumerate(models):
@@ -103,7 +103,7 @@ def rows_by_id(models: tuple[ModuleType, ...], function: str, name: str, argumen
                meaning: str):
     """A ``@rowwise`` function ``name(model, arguments)`` that evaluates a function of the model with that ID in many cells.
 
-    The chain of comparisons stands outside of the loop over the cells, which the compiler can therefore vectorise.
+    The chain of comparisons is outside the loop over the cells, so the compiler can vectorise the loop.
 
     cells : the loop, such as "x in range(number)";  values : the arguments of the model's function in a cell;  into : the
     place for its value. Unknown ids give NaN.
@@ -133,7 +133,7 @@ def _chain(models: tuple[ModuleType, ...], function: str, head: str, mark: str, 
 
 
 def returns(function, arguments: str) -> tuple[str, ...]:
-    """Compiles a ``@point`` function of a model; the types of the values that it returns, such as ("float64",)."""
+    """Compiles a ``@point`` function of a model and gives the types of the values that it returns, such as ("float64",)."""
     arrays = ("par", "internal")
     types = tuple(numba.float64[::1] if name in arrays else numba.float64 for name in arguments.split(", "))
     function.compile(types)
@@ -145,30 +145,30 @@ def returns(function, arguments: str) -> tuple[str, ...]:
 
 @functools.partial(Inner, forceinline=True, fastmath={"reassoc"})
 def plus(total, term):
-    """total + term, the terms of a loop in any order: what lets the compiler sum in lanes. It hides no NaN."""
+    """total + term, with the terms of a loop in any order, so that the compiler can sum in lanes. It hides no NaN."""
     return total + term
 
 
 def kernel(function):
-    """Compiles loops over the rows of one part of the mesh: what phases call, each thread with a part of its own.
+    """Compiles loops over the rows of one part of the mesh, for phases to call, each thread with a part of its own.
 
-    The compiler takes for granted that no two of its arrays overlap, as a test asserts of every call.
+    The compiler assumes that no two of its arrays overlap; a test checks this for every call.
     """
     return called(Inner(function, noalias=True))
 
 
 def cell_rows(function):
-    """`kernel` for a function of one row of cells, ``function(j, w)``, which it calls for every row of its part."""
+    """`kernel` for a function of one row of cells, ``function(j, w)``, called for every row of its part."""
     return kernel(by_name.in_rows(function, by_name.CELLS))
 
 
 def vertex_rows(function):
-    """The same for rows of vertices, of which the last part has one more."""
+    """`cell_rows` for rows of vertices, of which the last part has one more."""
     return kernel(by_name.in_rows(function, by_name.VERTICES))
 
 
 def threaded(function):
-    """Compiles loops over the mesh that no phase of the step contains, whose outermost ``prange`` runs over rows."""
+    """Compiles loops over the mesh that are not in a phase of the step; their outermost ``prange`` runs over rows."""
     return called(_compile(function, parallel=True))
 
 
@@ -179,7 +179,7 @@ def serial(function):
 
 @point
 def wait(gate, parts):
-    """Where the threads of a phase, one for each part, wait for one another.
+    """Makes the threads of a phase, one for each part, wait for one another.
 
     gate : int64[GATE], the same for all;  parts : int64[number of parts + 1]
     """
@@ -207,7 +207,7 @@ def max_threads() -> int:
 def run_parts(number, function, address):
     """Calls compiled code, at an address, once for each part of the mesh, all at the same time: a phase of the step.
 
-    The one parallel loop of all phases.
+    All phases use this one parallel loop.
     """
     for part in numba.prange(number):
         call_at(function, numba.int64(part), address)
@@ -228,10 +228,9 @@ def _threads_meet(number: int) -> bool:
 
 
 def parts_at_once() -> int:
-    """How many parts a `phase` can have: as many as there are threads; one while each kernel is timed.
+    """The number of parts that a `phase` can have: that of threads, or one while each kernel is timed.
 
-    One as well where threads that wait for one another are not given to a loop: OpenMP may have been told so
-    (OMP_THREAD_LIMIT).
+    One as well if a loop is not given all its threads at the same time, as a limit of OpenMP (OMP_THREAD_LIMIT) may cause.
     """
     number = 1 if recording.sees_each_kernel() else threads()
     return number if number == 1 or _threads_meet(number) else 1

@@ -1,8 +1,8 @@
 """exp, log and x^y that the compiler can evaluate for several cells at once, with the same bits as for one.
 
-Library functions are called cell by cell, and their last bits depend on the library. These are products and sums without
-branches or tables, in an order that the compiler does not change, so a loop around them is vectorised and the bits are those of
-every machine with IEEE arithmetic. A NaN stays a NaN.
+Library functions are called cell by cell, and their last bits depend on the library. These functions are products and sums
+without branches or tables, in an order that the compiler does not change, so a loop around them is vectorised and the bits are
+the same on every machine with IEEE arithmetic. A NaN stays a NaN.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ _ROUND_BITS = 0x4338000000000000
 #: 2^52, and its bits
 _LARGE, _LARGE_BITS = 4503599627370496.0, 0x4330000000000000
 _BIAS, _FRACTION, _EXPONENT = 1023, 0x000FFFFFFFFFFFFF, 0x7FF
-#: bits of sqrt(1/2) rounded down to 32 bits, and what lifts it to those of 1
+#: bits of sqrt(1/2) rounded down to 32 bits, and the difference from those of 1
 _ROOT_BITS = 0x3FE6A09E00000000
 _LIFT = 0x3FF0000000000000 - _ROOT_BITS
 
-#: ln 2 in two parts, of which the first has 33 bits: its products with exponents are exact
+#: ln 2 in two parts; the first has 33 bits, so that its products with exponents are exact
 _LN2_HIGH = float.fromhex("0x1.62e42feep-1")
 _LN2_LOW = 1.9082149292705877e-10
 _INVERSE_LN2 = 1.0 / math.log(2.0)
 
-#: beyond them exp is 0 and infinite; the first is just above the logarithm of the least normal number
+#: exp is 0 below the first and infinite above the second; the first is just above the logarithm of the least normal number
 _LOWEST, _HIGHEST = -708.0, 709.782712893384
-#: least number of which log is taken
+#: least argument for which log is computed
 _LEAST = 2.2250738585072014e-308
 
 #: 1/n!
@@ -66,7 +66,7 @@ def log(x):
     """ln x, wrong by at most 2^-52 of it: minus infinity at 0 and for subnormal numbers, NaN below.
 
     x = 2^k (1 + f) with sqrt(1/2) <= 1 + f < sqrt(2), and ln(1 + f) = 2 artanh(f/(2 + f)), whose series runs to the 21st
-    power. f - f^2/2 is taken out of it, since f is exact.
+    power. f - f^2/2 is separated from it, since f is exact.
     """
     lifted = bits_of(x) + _LIFT
     k = from_bits(((lifted >> 52) & _EXPONENT) | _LARGE_BITS) - (_LARGE + _BIAS)

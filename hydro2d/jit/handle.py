@@ -1,8 +1,8 @@
-"""A handle: one word in place of a hundred arguments, through which compiled code finds arrays and numbers by their names.
+"""A handle: one word in place of a hundred arguments, by which compiled code finds arrays and numbers by name.
 
 The word is the address of a table with eight words for each name: the address and the shape of an array, or a number. In
-compiled code the names are attributes of the handle, ``w.u[b, j, i]`` and ``w.dt``, with types that `declare` states once and
-for all; in Python a `Handle` keeps the values and fills the table.
+compiled code the names are attributes of the handle, ``w.u[b, j, i]`` and ``w.dt``, with types that `declare` fixes; in
+Python a `Handle` keeps the values and fills the table.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from numba.np import arrayobj
 #: words of a row of the table: the address of an array and its shape, or a number
 WORDS = 8
 
-#: what may be given as a number of each kind
+#: types accepted as a number of each kind
 NUMBERS: dict[type, tuple[type, ...]] = {float: (float, int, np.floating), int: (int, np.integer), bool: (bool, np.bool_)}
 
 #: row, kind and number of axes of every name
@@ -29,12 +29,12 @@ _rows: dict[str, tuple[int, type, int]] = {}
 
 
 def declare(names: dict[str, tuple[type, int]]) -> None:
-    """Names that handles have: what numbers a name stands for (float, int, bool, numpy.int8), and its number of axes.
+    """Declares names of handles: the kind of number that a name stands for (float, int, bool, numpy.int8), and its axes.
 
-    Compiled code holds the row of a name and its type: whoever declares names does so in a file that all compiled code
-    imports which uses them.
+    Compiled code contains the row of a name and its type, so names must be declared in a file that all compiled code using
+    them imports.
 
-    Raises ValueError for a name that has a meaning already.
+    Raises ValueError for a name that is declared already.
     """
     for name, (kind, axes) in names.items():
         if name in _rows:
@@ -69,7 +69,7 @@ class Handle:
         self.address: int = self._words.ctypes.data
 
     def give(self, **values) -> None:
-        """Values of names from now on.
+        """Sets the values of names.
 
         Raises KeyError for a name that is not declared, TypeError for a value of another type, axes or order in memory.
         """
@@ -92,7 +92,7 @@ class Handle:
             kept[name] = value
 
     def exchange(self, some: tuple[str, ...], others: tuple[str, ...]) -> None:
-        """Has every name stand for what its partner among the others stood for, which is of the same type, and the reverse."""
+        """Exchanges the values of every name and of its partner among the others, which is of the same type."""
         here, there = _places(some, others)
         self._words[here] = self._words[there]
         for name, partner in zip(some, others, strict=True):
@@ -138,7 +138,7 @@ class _HandleAttributes(AttributeTemplate):
 
 @lower_getattr_generic(_HandleType)
 def _look_up(context, builder, handle, value, name):
-    """Reads a row of the table. While compiled code runs nobody writes there, which the compiler is told."""
+    """Reads a row of the table, marked for the compiler as unchanging: it is not written while compiled code runs."""
     row, kind, axes = _rows[name]
     found, word = _type_of(kind, axes), ir.IntType(64)
     table = builder.inttoptr(value, word.as_pointer())

@@ -1,6 +1,6 @@
-"""What numba and LLVM are told, and what of numba's own insides is changed for it.
+"""Options of numba and LLVM, and the changes to numba's internals that they need.
 
-What numba does not promise to keep is named in tests/jit/test_jit.py.
+tests/jit/test_jit.py names the internals that numba does not promise to keep.
 """
 
 from __future__ import annotations
@@ -26,24 +26,24 @@ llvmlite.binding.set_option("hydro2d", "-vectorize-memory-check-threshold=1024")
 OPTIONS = {"error_model": "numpy", "fastmath": False, "nogil": True, "_nrt": False}
 
 
-# an option that numba has for its own functions only: no two arrays that a function is given overlap. Without it every vector
+# an option that numba has for its own functions only: no two arrays given to a function overlap. Without it every vector
 # loop is preceded by hundreds of comparisons of addresses, a tenth of the time of a cycle
 cpu.CPUTargetOptions.noalias = TargetOptions.Mapping("noalias")
 
 
 compiler_events = numba.core.event
-#: events of a compilation: LLVM optimises a function and all that became part of it; machine code is made
+#: events of a compilation: LLVM optimises a function with all that is inlined in it; machine code is made
 OPTIMISE, MACHINE_CODE = "hydro2d:optimise", "hydro2d:machine-code"
 
-#: the functions that do nothing but call kernels: a compiler has nothing to gain in them
+#: functions that only call kernels: optimising them gains nothing
 ONLY_CALLS: set = set()
-#: the functions that only compiled code calls, which have no machine code of their own
+#: functions that only compiled code calls; they have no machine code of their own
 INNER: set = set()
 
 
 def _compile_once() -> None:
-    """Keeps LLVM from optimising kernels again, several times over, in what only calls them, and from making machine code of
-    what is part of the code of others."""
+    """Keeps LLVM from optimising kernels again, several times over, in functions that only call them, and from making machine
+    code of functions that are part of others."""
     compiling: list = []
 
     class Compiling(compiler_events.Listener):
@@ -78,7 +78,7 @@ def _compile_once() -> None:
     def none_for_part_of_others(self, library, fndesc, env):
         if not (compiling and compiling[-1] in INNER):
             return executable(self, library, fndesc, env)
-        library._ensure_finalized()  # now, while it is known what it is
+        library._ensure_finalized()  # now, while `compiling` still names it
         return [].append  # stands for the function, which Python never calls; one of its own for each
 
     library._optimize_final_module = unless_it_only_calls

@@ -1,10 +1,10 @@
-"""Phases of the step as lists that one reads, and the compiled functions that are made from them.
+"""Phases of the step as readable lists, and the compiled functions made from them.
 
-A phase is a list of kernels, in order, with barriers between them (`WAIT`), what one part of the mesh runs alone (`alone`), and
-what runs only if a number is not zero (`when`, `unless`). Every kernel takes its arrays and numbers by their names, of a
-`Handle` (`by_name`); a kernel that is used in two places has parameters of its own for what differs, and is told by `given`
-which arrays they are there. From the list the text of a function is written, as `by_id` does, which calls the kernels; a thread
-for each part of the mesh runs it.
+A phase is a list of kernels, in order, with barriers between them (`WAIT`), kernels that one part of the mesh runs alone
+(`alone`), and steps that run only if a number is not zero, or is zero (`when`, `unless`). Every kernel takes its arrays and
+numbers by name from a `Handle` (`by_name`); a kernel that is used in two places has parameters of its own for the arrays that
+differ, which `given` names. From the list the text of a function that calls the kernels is written, as by `by_id`; a thread for
+each part of the mesh runs it.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ from hydro2d.jit.calls import _compile, run_parts
 from hydro2d.jit.handle import Handle, declared
 from hydro2d.jit.options import ONLY_CALLS
 
-#: a barrier: no part goes on before all have come here
+#: a barrier: no part continues before all have reached it
 WAIT = "wait"
-#: what compiled phases are called with: the number of the part, and the address of the handle's table
+#: arguments of compiled phases: the number of the part, and the address of the handle's table
 TYPES = (numba.int64, numba.int64)
 
 
 @dataclass(frozen=True)
 class Run:
-    """A kernel of a phase; for all parts, or for one alone; ``names`` are those of own parameters that are called otherwise."""
+    """A kernel of a phase, for all parts or one alone; ``names`` gives the handle's names of own parameters that differ."""
 
     kernel: object
     alone: bool = False
@@ -39,7 +39,7 @@ class Run:
 
     @property
     def takes(self) -> tuple[str, ...]:
-        """The names in the handle of what the kernel takes, in order; "part" is the number of the part."""
+        """The names in the handle of the kernel's arguments, in order; "part" is the number of the part."""
         other = dict(self.names)
         return tuple(other.get(name, name) for name in by_name.takes(self.kernel))
 
@@ -92,7 +92,7 @@ def _refuse(steps) -> None:
 
 
 def _refuse_kernel(step: Run, known: set[str]) -> None:
-    """Raises ValueError for a kernel that cannot run as it is meant to."""
+    """Raises ValueError for a kernel that cannot run as intended."""
     if not hasattr(step.kernel, "compiled"):
         raise ValueError(f"{step.kernel!r} is no kernel")
     name = step.kernel.__name__
@@ -115,7 +115,7 @@ class Phase:
     ----------
     name : str
     meaning : str
-    steps : kernels, `WAIT`, and what `alone`, `given`, `when` and `unless` give
+    steps : kernels, `WAIT`, and the results of `alone`, `given`, `when` and `unless`
 
     Raises ValueError for a list that makes no sense: names that are not declared, kernels that take no part and are not for one
     alone, or the other way round.
@@ -175,11 +175,11 @@ class Phase:
 
     @property
     def full_name(self) -> str:
-        """Its name among all that is compiled."""
+        """Its name among all compiled functions."""
         return f"hydro2d.{self.__name__}"
 
     def _found_address(self) -> int:
-        """Compiles the phase, or takes it from the cache; the address of its code."""
+        """Compiles the phase, or takes it from the cache, and gives the address of its code."""
         self.compiled.compile(TYPES)
         found = self.compiled.overloads[TYPES]
         return found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)

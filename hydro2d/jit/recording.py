@@ -1,4 +1,4 @@
-"""What is known of the calls of kernels: what they took, and what a cycle would call."""
+"""Records of kernel calls: how long they took, and which calls a cycle would make."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _profiling, _each_kernel = False, False
 
 
 def profiling(on: bool, each_kernel: bool = False) -> None:
-    """Switches the timing of phases on or off and forgets what was measured.
+    """Switches the timing of phases on or off and discards earlier measurements.
 
     each_kernel : phases run as Python, on one part of the mesh, so that the clock sees every kernel in them
     """
@@ -53,17 +53,17 @@ class Call:
             self.compiled.compile(self.types)
 
     def is_compiled(self) -> bool:
-        """Whether the kernel is compiled for these types: it is known to this process or in the cache."""
+        """Whether the kernel is compiled for these types, in this process or in the cache."""
         return self.types in self.compiled.overloads or is_cached(self.compiled, self.types)
 
 
-#: calls of kernels, while they are written down and not done
+#: calls of kernels while they are recorded instead of made
 _calls: list[Call] | None = None
 
 
 @contextmanager
 def recorded() -> Iterator[list[Call]]:
-    """Within the block kernels do nothing: their calls are written down."""
+    """Within the block kernels do nothing: their calls are recorded."""
     global _calls
     _calls = found = []
     try:
@@ -73,13 +73,13 @@ def recorded() -> Iterator[list[Call]]:
 
 
 def is_recording() -> bool:
-    """Whether calls of kernels are written down and not done."""
+    """Whether calls of kernels are recorded instead of made."""
     return _calls is not None
 
 
 @contextmanager
 def first_call(name: str) -> Iterator[None]:
-    """The first call of a kernel in this process, while no other process makes its own; whoever listens is told."""
+    """The first call of a kernel in this process, while no other process makes its own; triggers FIRST_CALL."""
     with (compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"),
           _no_garbage_looked_for()):
         yield
@@ -87,7 +87,7 @@ def first_call(name: str) -> Iterator[None]:
 
 @contextmanager
 def _no_garbage_looked_for() -> Iterator[None]:
-    """numba makes millions of objects that live as long as a compilation; Python looks through all of them again and again."""
+    """Switches off garbage collection, which would search the millions of objects of a compilation again and again."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -98,7 +98,7 @@ def _no_garbage_looked_for() -> Iterator[None]:
 
 
 def write_down(call: Call) -> None:
-    """Writes down a call that is not to be done: `is_recording`."""
+    """Records a call instead of making it: see `is_recording`."""
     _calls.append(call)
 
 
@@ -115,7 +115,7 @@ def clocked(name: str, function: Callable, *arguments):
 
 
 def called(compiled):
-    """What the rest of the code calls in a kernel's place: timed, written down, and the first time alone of all processes."""
+    """A function to call in a kernel's place: timed, recorded, and the first time in one process at a time."""
     function = compiled.__wrapped__
     name = f"{function.__module__}.{function.__name__}"
 
@@ -136,5 +136,5 @@ def called(compiled):
         return clocked(function.__name__, run, *arguments) if _profiling else run(*arguments)
 
     call.__signature__ = inspect.signature(by_name.source(function))
-    call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # which lets compiled functions call it
+    call.compiled, call._numba_type_ = compiled, compiled._numba_type_  # so that compiled functions can call it
     return call

@@ -1,11 +1,11 @@
-"""How compiled code is kept: in one file for each function and the types of its arguments.
+"""The format of compiled code on disk: one file for each function and the types of its arguments.
 
-A file is a line with the form and a checksum of its name and the rest, then the code as numba pickles it. What does not match
-its checksum is never unpickled: it is compiled anew, and a line says so. A place that cannot be written, or has no room left,
-costs time and nothing else, and is said once.
+A file is a line with the form and a checksum of its name and the rest, then the code as numba pickles it. Code that does not
+match its checksum is never unpickled: it is compiled anew, and a line says so. A place that cannot be written, or has no room
+left, only costs time, and a line says so once.
 
-numba's own cache keeps an index beside the code, in which two processes can give one name to two functions, has no checksums,
-and ends the run where a file is damaged. It also keeps a text of a third of a file's size, with the path of the source in it,
+numba's own cache keeps an index next to the code, in which two processes can give one name to two functions, has no checksums,
+and ends the run if a file is damaged. It also keeps a text of a third of a file's size, with the path of the source in it,
 that only reports of its compiler need.
 """
 
@@ -27,18 +27,18 @@ from hydro2d.strange import StrangeFile, own
 
 #: the first word of every file, and its ending
 FORM, ENDING = b"hydro2d-code-1", ".code"
-#: letters of a function's name that its file has
+#: letters of a function's name in that of its file
 MOST_NAME = 120
 
 
 class DamagedFile(Exception):
-    """A file of compiled code that is not what was written."""
+    """A file of compiled code that differs from the one written."""
 
 
 class Kept(caching._Cache):
     """The compiled code of one function, as numba's dispatcher asks for it.
 
-    folders : where it is looked for, in this order; what is compiled is kept in the last
+    folders : those searched, in this order; newly compiled code is kept in the last
     """
 
     def __init__(self, function, *folders: Path):
@@ -55,7 +55,7 @@ class Kept(caching._Cache):
         self._enabled = False
 
     def flush(self) -> None:
-        """Removes what is kept of the function."""
+        """Removes the kept code of the function."""
         for file in self._folders[-1].glob(f"{_name(self._function)}.*{ENDING}"):
             file.unlink(missing_ok=True)
 
@@ -74,7 +74,7 @@ class Kept(caching._Cache):
         return self._enabled and any(os.path.isfile(folder / name) for folder in self._folders)
 
     def load_overload(self, sig, target_context):
-        """The compiled function for these types, None where there is none that can be used."""
+        """The compiled function for these types, None if there is none that can be used."""
         target_context.refresh()
         if not self._enabled:
             return None
@@ -124,7 +124,7 @@ def _rebuilt(file: Path, target_context):
 
 
 def _checksum(file: Path, code: bytes) -> bytes:
-    """Of the code and the name of its file, which says what it is the code of."""
+    """A checksum of the code and the name of its file, which names the function and types."""
     return hashlib.sha256(file.name.encode() + b"\n" + code).hexdigest().encode()
 
 
@@ -137,6 +137,6 @@ def _name(function) -> str:
 
 @functools.cache
 def _text_hash(file: str) -> str:
-    """A hash of the text that a function is from."""
+    """A hash of the text that contains a function."""
     text = cache.generated(file)
     return hashlib.sha256(Path(file).read_bytes() if text is None else text.encode()).hexdigest()

@@ -1,8 +1,7 @@
-"""The processor that code is compiled for: the one at hand, or by HYDRO2D_TARGET a named one.
+"""The processor that code is compiled for: the one at hand, or one named by HYDRO2D_TARGET.
 
-All processors that have the features of a named target get the same code: it can be shipped, and gives the same bits on each of
-them. The code for the processor at hand is a few per cent faster, so it is what one gets without asking (docs/explanation/
-speed.md).
+All processors that have the features of a named target get the same code, which can be shipped and gives the same bits on each
+of them. The code for the processor at hand is a few per cent faster, so it is the default (docs/explanation/speed.md).
 """
 
 from __future__ import annotations
@@ -22,14 +21,14 @@ from hydro2d.terminal import say
 
 
 class Target(NamedTuple):
-    """A processor by LLVM's name, and the features beyond the oldest of its kind that code for it uses."""
+    """A processor by LLVM's name, and the features that its code uses beyond those of the oldest of its kind."""
 
     name: str
     features: tuple[str, ...] = ()
 
     @property
     def flags(self) -> str:
-        """The features as LLVM takes them."""
+        """The features in LLVM's notation."""
         return ",".join(f"+{feature}" for feature in self.features)
 
     def missing(self) -> list[str]:
@@ -38,9 +37,9 @@ class Target(NamedTuple):
         return [feature for feature in self.features if not here.get(feature)]
 
 
-#: the processor at hand: what is compiled for by default
+#: the processor at hand, the default target
 NATIVE = "native"
-#: named targets by the kind of machine (`platform.machine`). x86-64-v3 is what x86 processors have had since 2013 (Intel) and
+#: named targets by the kind of machine (`platform.machine`). x86 processors have had x86-64-v3 since 2013 (Intel) and
 #: 2015 (AMD); NEON belongs to every aarch64
 _X86 = Target("x86-64-v3", (
     "cx16", "sahf", "popcnt", "sse3", "sse4.1", "sse4.2", "ssse3",
@@ -78,10 +77,10 @@ def _chosen() -> Target | None:
 
 
 def _fix() -> tuple[str, str, str]:
-    """Tells numba what to compile for. Returns what it does compile for: system, processor and features.
+    """Sets numba's target. Returns the actual one: system, processor and features.
 
-    numba looks once, when its first function is declared. In a program that has declared one before, the target stays what it
-    was then, and that is said.
+    numba reads it once, when its first function is declared. In a program that has declared one before, the target stays as it
+    was then, and a line says so.
     """
     target, config = _chosen(), numba.config
     before = config.CPU_NAME, config.CPU_FEATURES
@@ -96,12 +95,12 @@ def _fix() -> tuple[str, str, str]:
     return found
 
 
-#: what code is compiled for, as LLVM names it
+#: the target of compiled code, as LLVM names it
 SYSTEM, PROCESSOR, FEATURES = _fix()
 
 
 def description() -> dict[str, str]:
-    """All that the code of a function depends on beside its sources, by what it is."""
+    """All that the code of a function depends on in addition to its sources, by name."""
     options = {f"numba.config.{option}": repr(getattr(numba.config, option, None)) for option in OPTIONS}
     options["numba.config.OPT.is_opt_max"] = repr(getattr(numba.config.OPT, "is_opt_max", False))  # "max" is a 3 as well
     return {"numba": numba.__version__, "llvmlite": llvmlite.__version__, "Python": sys.implementation.cache_tag,

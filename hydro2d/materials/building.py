@@ -18,7 +18,7 @@ from hydro2d.toml import PARTS
 TABLES = (*PARTS, "melting")
 _KEYS = (*TABLES, *FRACTURE, "title", "note", "source", "confidence", "variants", "variant", "based_on")
 ABOUT = ("source", "confidence", "note")
-#: keys of a part that choose the model, the one that it stands over, and its table; the names of files have become two of these
+#: keys of a part that choose the model, the one that it builds on, and its table; two of these come from the names of files
 CHOICE = ("model", "code", "code_from", "solid", "table_data", "table_from")
 
 #: makes the error for a key: from its path and a message
@@ -46,14 +46,14 @@ def build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
 
 def _tension(raw, key: str, fail: Fail) -> Number:
     """A tension at which the material fractures."""
-    found = _number(raw, "Pa", (key,), fail)
-    if found.value <= 0:
-        raise fail((key,), f"must be positive (a tension), is {found.value:g}")
-    return found
+    tension = _number(raw, "Pa", (key,), fail)
+    if tension.value <= 0:
+        raise fail((key,), f"must be positive (a tension), is {tension.value:g}")
+    return tension
 
 
 def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
-    """The module that a part's table chooses, and the name and text of its file where it is from outside."""
+    """The module that a part's table chooses, and the name and text of its file if it is from outside."""
     from hydro2d.materials import outside
 
     models = outside.KINDS[part].models
@@ -62,23 +62,23 @@ def _chosen(raw, part: str, fail: Fail) -> tuple[ModuleType, str, str]:
     name = raw["model"]
     try:
         if "code" in raw:
-            found = outside.from_text(str(raw["code"]), str(raw.get("code_from", name)), part)
+            model = outside.from_text(str(raw["code"]), str(raw.get("code_from", name)), part)
         elif name in models:
             return models[name], "", ""
         else:
-            found = outside.from_package(part, name)
+            model = outside.from_package(part, name)
     except outside.ModelError as error:
         raise fail((part,), str(error)) from None
-    if found is None:
+    if model is None:
         raise fail((part, "model"), unknown(f"{part} model", name, [*models, *outside.in_packages(part)]))
-    if found.name != name:
-        raise fail((part, "model"), f'is "{name}", but the model in {found.file} is "{found.name}"')
-    found.offer()
-    return found.module, found.file, found.text
+    if model.name != name:
+        raise fail((part, "model"), f'is "{name}", but the model in {model.file} is "{model.name}"')
+    model.offer()
+    return model.module, model.file, model.text
 
 
 def _table(module: ModuleType, raw: dict, part: str, fail: Fail) -> tuple[str, str]:
-    """Text and name of the table that a part's model is made from; empty for a model that has none."""
+    """Text and name of the table that a part's model is made from; empty for a model without a table."""
     from hydro2d.materials import sesame
 
     if not hasattr(module, "FROM_TABLE"):
@@ -97,10 +97,10 @@ def _table(module: ModuleType, raw: dict, part: str, fail: Fail) -> tuple[str, s
 
 
 def _below(module: ModuleType, raw: dict, part: str, fail: Fail) -> ModuleType | None:
-    """The equation of state of the solid that a part's model stands over; None where it stands over none."""
+    """The equation of state of the solid that a part's model builds on; None if it builds on none."""
     if not getattr(module, "OVER_SOLID", False):
         if "solid" in raw:
-            raise fail((part, "solid"), f"{module.NAME} stands over no other equation of state")
+            raise fail((part, "solid"), f"{module.NAME} does not build on another equation of state")
         return None
     if not isinstance(raw.get("solid"), str):
         raise fail((part,), f"{module.NAME} needs solid, the name of the equation of state of its solid")
@@ -114,7 +114,7 @@ def _below(module: ModuleType, raw: dict, part: str, fail: Fail) -> ModuleType |
 
 
 def _parameters(module: ModuleType, below: ModuleType | None) -> dict[str, Parameter]:
-    """The parameters of a model by name, with those of the solid that it stands over, where it does."""
+    """The parameters of a model by name, with those of the solid that it builds on, if there is one."""
     of_solid = [each for each in below.PARAMETERS if each.name not in module.GIVEN_TO_SOLID] if below else []
     return {parameter.name: parameter for parameter in (*of_solid, *module.PARAMETERS)}
 
@@ -143,14 +143,14 @@ def _melting(raw, eos: Model, fail: Fail) -> dict[str, Number]:
     if not isinstance(raw, dict):
         raise fail(("melting",), "must be a table")
     if eos.solid:
-        raise fail(("melting",), f"{eos.title} does not say the density of the solid, on which a melting line stands")
+        raise fail(("melting",), f"{eos.title} does not say the density of the solid, which a melting line needs")
     return _numbers(melting.NAME, {each.name: each for each in melting.PARAMETERS}, raw, "melting", eos.numbers, fail)
 
 
 def _numbers(
     name: str, parameters: Mapping[str, Parameter], raw: dict, part: str, eos: Mapping, fail: Fail
 ) -> dict[str, Number]:
-    """All parameters of what has this name: given by the table of a part, taken from the equation of state, or by default."""
+    """All parameters of a model or line of this name: from the table of a part, the equation of state, or by default."""
     numbers = {}
     for key in raw:
         if key not in (*parameters, *CHOICE):

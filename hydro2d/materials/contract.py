@@ -45,16 +45,16 @@ from hydro2d.parameters import NON_NEGATIVE, POSITIVE
 
 def row(case: Case) -> None:
     """row(values) returns as many numbers as the kernels read, and none of them is NaN"""
-    found = case.row
+    slots = case.row
     length, least = case.kind.length, "at least " if case.kind.part == "eos" else ""
-    kept = isinstance(found, np.ndarray) and found.ndim == 1 and found.dtype == np.float64
-    require(kept and (found.size == length or (least and found.size > length)),
-            f"row gives {getattr(found, 'dtype', type(found).__name__)} {getattr(found, 'shape', '')}, not float64 "
+    kept = isinstance(slots, np.ndarray) and slots.ndim == 1 and slots.dtype == np.float64
+    require(kept and (slots.size == length or (least and slots.size > length)),
+            f"row gives {getattr(slots, 'dtype', type(slots).__name__)} {getattr(slots, 'shape', '')}, not float64 "
             f"({least}{length},)")
-    require(not np.isnan(found).any(), f"row has NaN in slot {np.isnan(found).argmax()}")
+    require(not np.isnan(slots).any(), f"row has NaN in slot {np.isnan(slots).argmax()}")
     if case.kind.part == "eos":
         density = case.values["reference_density"]
-        require(found[RHO0] == density, f"slot RHO0 = {RHO0} of the row is {found[RHO0]:g}, not reference_density, {density:g}")
+        require(slots[RHO0] == density, f"slot RHO0 = {RHO0} of the row is {slots[RHO0]:g}, not reference_density, {density:g}")
 
 
 def wrong_parameters(case: Case) -> None:
@@ -94,7 +94,7 @@ CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
 
 
 def case_of_table(table: Table, rest: float, T: float) -> Case:
-    """The case of a table with a density at rest, kg/m^3, at a temperature, K: states between its points, as far as it goes."""
+    """The case of a table with a density at rest, kg/m^3, at a temperature, K: states between its points, within its range."""
     from eos import tabular
 
     low, high = max(table.density[0] / rest, 0.9), min(table.density[-1] / rest, 2.0)

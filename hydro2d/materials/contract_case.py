@@ -1,4 +1,4 @@
-"""A model with the numbers for its checks, and how a check says that a requirement is not met."""
+"""A model with the numbers for its checks, and the exception for a requirement that is not met."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Case:
     values : its parameters in SI, with every term in use
     densities : densities in the stated range of an equation of state, over the density at rest;  energies : in J/kg
     constant : parameters for which the flow stress is constant, or None
-    base : what `row` takes beside the parameters: the module of the solid that the model stands over, and the table
+    base : further arguments of `row`: the module of the solid that the model builds on, and the table
     """
 
     kind: Kind
@@ -60,15 +60,15 @@ class Case:
         return np.array([field.at_rest(self.row) for field in getattr(self.module, "INTERNAL", ())])
 
     def evaluate(self, rho: float, e: float, par: np.ndarray) -> tuple[float, float, float, float]:
-        """`evaluate` of an equation of state, of virgin material where it has internal variables."""
+        """`evaluate` of an equation of state, for virgin material if it has internal variables."""
         state = (rho, e, self.virgin, par) if hasattr(self.module, "INTERNAL") else (rho, e, par)
         return self.module.evaluate(*state)
 
     def states(self) -> Iterator[tuple[float, float]]:
-        """Densities (kg/m^3) and energies (J/kg) of the stated range, of a table those that it has."""
+        """Densities (kg/m^3) and energies (J/kg) of the stated range; for a table only those that it covers."""
         par = self.row
-        found = itertools.product((par[0] * ratio for ratio in self.densities), self.energies)
-        return (state for state in found if not (self.has_kinks and math.isnan(self.evaluate(*state, par)[0])))
+        states = itertools.product((par[0] * ratio for ratio in self.densities), self.energies)
+        return (state for state in states if not (self.has_kinks and math.isnan(self.evaluate(*state, par)[0])))
 
     @property
     def has_kinks(self) -> bool:
@@ -76,7 +76,7 @@ class Case:
         return any(isinstance(each, Table) for each in self.base)
 
     def given(self, *names: str) -> float | None:
-        """The first of these parameters that the model has, as it is given or by default."""
+        """The value, given or default, of the first of these parameters that the model has."""
         defaults = {parameter.name: parameter.default for parameter in self.parameters}
         return next((self.values.get(name, defaults[name]) for name in names if name in defaults), None)
 

@@ -40,7 +40,7 @@ def derivatives(case: Case) -> None:
 
 
 def _is_slope(value: float, below: float, above: float, one_sided: bool) -> bool:
-    """Whether a derivative is the mean of the slopes on both sides, or where it is one-sided either of them."""
+    """Whether a derivative is the mean of the slopes on both sides, or if it is one-sided either of them."""
     if one_sided:
         return near(value, below, 2e-4) or near(value, above, 2e-4)
     return near(value, 0.5 * (below + above), 1e-7)
@@ -66,9 +66,9 @@ def finite(case: Case) -> None:
     """every positive density gives finite numbers and no negative temperature; beyond a table all of them are NaN"""
     par = case.row
     for rho, e in itertools.product((1e-300, 1e-100, 1e-12, 1.0, 1e3, 1e5, 1e9), (-1e6, 0.0, 1e8)):
-        found = case.evaluate(rho, e, par)
-        kept = (np.isfinite(found).all() and found[3] >= 0.0) or (case.has_kinks and np.isnan(found).all())
-        require(kept, f"evaluate({rho:g}, {e:g}) is {tuple(map(float, found))}")
+        values = case.evaluate(rho, e, par)
+        kept = (np.isfinite(values).all() and values[3] >= 0.0) or (case.has_kinks and np.isnan(values).all())
+        require(kept, f"evaluate({rho:g}, {e:g}) is {tuple(map(float, values))}")
 
 
 def pressure_rises(case: Case) -> None:
@@ -76,13 +76,13 @@ def pressure_rises(case: Case) -> None:
     par = case.row
     rho = par[0] * np.linspace(0.3, 8.0, 20001)
     e = case.energies[-1] if case.has_kinks else 1e5
-    found = np.array([case.evaluate(x, e, par)[:2] for x in rho])
+    curve = np.array([case.evaluate(x, e, par)[:2] for x in rho])
     if case.has_kinks:
-        inside = ~np.isnan(found[:, 0])
+        inside = ~np.isnan(curve[:, 0])
         require(inside.sum() > 1000, f"the table has {inside.sum()} of {inside.size} densities at {e:g} J/kg")
-        rho, found = rho[inside], found[inside]
-    ends = np.array([found[:-1, 1], found[1:, 1]]) * np.diff(rho)
-    rise, expected = np.diff(found[:, 0]), ends.mean(axis=0)  # between those of both ends, where a slope jumps
+        rho, curve = rho[inside], curve[inside]
+    ends = np.array([curve[:-1, 1], curve[1:, 1]]) * np.diff(rho)
+    rise, expected = np.diff(curve[:, 0]), ends.mean(axis=0)  # between those of both ends, where a slope jumps
     wrong = ~(rise > 0.0) | (rise - ends.max(axis=0) > 5e-3 * abs(expected)) | (ends.min(axis=0) - rise > 5e-3 * abs(expected))
     k = int(wrong.argmax())
     require(not wrong.any(), f"from rho = {rho[k]:g} to {rho[k + 1]:g} kg/m^3 p rises by {rise[k]:g} Pa, and dp/drho says "
@@ -92,7 +92,7 @@ def pressure_rises(case: Case) -> None:
 def temperature(case: Case) -> str | None:
     """the temperature is consistent with the pressure, T ds = de - p drho/rho^2: d(1/T)/drho|e = -d(p/(rho^2 T))/de|rho"""
     if hasattr(case.module, "INTERNAL"):
-        return "what the internal variables store is not in the energy of the pressure"
+        return "the pressure's energy does not include that stored by the internal variables"
     par, checked, within = case.row, 0, getattr(case.module, "TEMPERATURE_WITHIN", 2e-3)
     for rho, e in case.states():
         p, _, dpde, T = case.evaluate(rho, e, par)
@@ -111,7 +111,7 @@ def temperature(case: Case) -> str | None:
 
 
 def memory(case: Case) -> str | None:
-    """internal variables stay as they are while nothing happens, and finite and within their bounds whatever happens"""
+    """internal variables stay as they are while nothing happens, and are always finite and within their bounds"""
     if not hasattr(case.module, "INTERNAL"):
         return "the model has no INTERNAL"
     from eos import dispatch
@@ -130,7 +130,7 @@ def memory(case: Case) -> str | None:
         kept = all(least <= value <= most for value, (least, most) in zip(internal, bounds, strict=True))
         require(kept, f"{at}, beyond {bounds}")
         require((through == internal).all(), f"{at}, and {through.tolist()} by its ID")
-        found = case.module.evaluate(rho, e, internal, par)
-        kept = np.isfinite(found).all() or (case.has_kinks and np.isnan(found).all())
-        require(kept, f"{at}, and evaluate is {tuple(map(float, found))}")
+        values = case.module.evaluate(rho, e, internal, par)
+        kept = np.isfinite(values).all() or (case.has_kinks and np.isnan(values).all())
+        require(kept, f"{at}, and evaluate is {tuple(map(float, values))}")
     return None

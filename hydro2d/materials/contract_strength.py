@@ -39,12 +39,12 @@ def moduli(case: Case) -> None:
     shear = np.full(p.size, -1.0)
     dispatch.modulus_row(case.module.ID, par, 1, p.size - 2, p, rho, T, shear)
     require(shear[0] == shear[-1] == -1.0, "cells beside the row were written to")
-    for found, state in zip(shear[1:-1], states().T, strict=True):
+    for modulus, state in zip(shear[1:-1], states().T, strict=True):
         expected = case.module.shear_modulus(*state, par)
         at = "p = {:g} Pa, rho = {:g} kg/m^3, T = {:g} K".format(*state)
         require(not case.module.CONSTANT_MODULUS or expected == par[SHEAR],
                 f"at {at} the modulus is {expected:g} Pa, not slot SHEAR of the row, {par[SHEAR]:g}")
-        require(found == expected, f"at {at} the modulus is {expected:g} Pa, and {found:g} in a row")
+        require(modulus == expected, f"at {at} the modulus is {expected:g} Pa, and {modulus:g} in a row")
 
 
 def virgin(case: Case) -> None:
@@ -59,8 +59,8 @@ def virgin(case: Case) -> None:
 
 def at_rest(case: Case) -> float:
     """The temperature at which a model has its own yield stress, K."""
-    found = case.given("modulus_temperature", "reference_temperature")
-    return found if isinstance(found, float) else 298.0
+    T = case.given("modulus_temperature", "reference_temperature")
+    return T if isinstance(T, float) else 298.0
 
 
 def monotone(case: Case) -> None:
@@ -91,8 +91,8 @@ def melt(case: Case) -> str | None:
     if "melt_temperature" not in case.values:
         return "EXAMPLE has no melt_temperature"
     for ep, T, p, rho in ((0.5, case.values["melt_temperature"], 0.0, 2700.0), (0.5, 5e4, 5e9, 3000.0)):
-        found = case.module.flow_stress(ep, 1e6, T, p, rho, case.row)
-        require(found == 0.0, f"the flow stress is {found:g} Pa at {T:g} K")
+        flow = case.module.flow_stress(ep, 1e6, T, p, rho, case.row)
+        require(flow == 0.0, f"the flow stress is {flow:g} Pa at {T:g} K")
     return None
 
 
@@ -102,8 +102,8 @@ def yield_floor(case: Case) -> str | None:
         return "the model has no yield_floor"
     par, least = case.row, case.module.yield_floor(case.row)
     for ep, rate, (p, rho, T) in itertools.product((0.0, 0.01, 1.0), (0.0, 1e5), states().T):
-        found = case.module.flow_stress(ep, rate, T, p, rho, par)
-        require(found >= least, f"the flow stress is {found:g} Pa at ep = {ep:g}, T = {T:g} K, the floor {least:g}")
+        flow = case.module.flow_stress(ep, rate, T, p, rho, par)
+        require(flow >= least, f"the flow stress is {flow:g} Pa at ep = {ep:g}, T = {T:g} K, the floor {least:g}")
     return None
 
 
@@ -116,13 +116,13 @@ def weakening(case: Case) -> str | None:
     par, shares = case.row, np.linspace(0.0, 1.0, 11)
     for rate, (p, rho, T) in itertools.product((0.0, 1e5), states().T):
         intact = case.module.flow_stress(0.1, rate, T, p, rho, par)
-        found = [case.module.weakened(intact, rate, p, damage, par) for damage in shares]
+        flow = [case.module.weakened(intact, rate, p, damage, par) for damage in shares]
         at = f"at rate {rate:g} 1/s and p = {p:g} Pa"
-        require(found[0] == intact, f"{at} the flow stress without damage is {found[0]:g} Pa, not {intact:g}")
-        in_order(-np.diff(found), shares, "damage", f"flow stress rises {at}")
-        require(found[-1] >= 0.0, f"{at} the flow stress of crushed material is {found[-1]:g} Pa")
+        require(flow[0] == intact, f"{at} the flow stress without damage is {flow[0]:g} Pa, not {intact:g}")
+        in_order(-np.diff(flow), shares, "damage", f"flow stress rises {at}")
+        require(flow[-1] >= 0.0, f"{at} the flow stress of crushed material is {flow[-1]:g} Pa")
         through = dispatch.weakened(case.module.ID, intact, rate, p, 0.5, par)
-        require(through == found[5], f"{at} the flow stress is {found[5]:g} Pa, and {through:g} by its ID")
+        require(through == flow[5], f"{at} the flow stress is {flow[5]:g} Pa, and {through:g} by its ID")
     return None
 
 

@@ -1,4 +1,4 @@
-"""Materials whose damage model opens cracks: what they need beside, and the equation of state that they then have."""
+"""Materials whose damage model opens cracks: their further requirements, and their equation of state."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def opens_cracks(damage: ModuleType) -> bool:
 
 
 def cracking_pressure(material: Material, tension: float) -> float:
-    """The tension at which its cracks open, Pa: the fracture pressure that a deck leaves it with, ``tension``.
+    """The tension at which its cracks open, Pa: the fracture pressure that the deck gives it, ``tension``.
 
     Raises DeckError without one, and for a strength model that the damage of cracks would weaken.
     """

@@ -9,7 +9,7 @@ import numpy as np
 from hydro2d.errors import DeckError
 from hydro2d.materials.material import Material
 
-#: temperature of a material whose equation of state has none to begin with, K; longest step in plastic strain
+#: temperature, K, of a material whose equation of state has no initial temperature; longest step in plastic strain
 ROOM, STEP = 298.0, 1e-3
 
 
@@ -27,8 +27,8 @@ def flow_stress(
     """Flow stress (Pa) and temperature (K) at plastic strains, both float64[n], at zero pressure and the density at rest.
 
     rate : plastic strain rate, 1/s
-    strains : plastic strains, which do not fall
-    isothermal : keeps the temperature; otherwise all plastic work heats, rho c dT = Y d(ep), as in the solver
+    strains : plastic strains, not decreasing
+    isothermal : at constant temperature; otherwise all plastic work heats, rho c dT = Y d(ep), as in the solver
 
     Raises DeckError for a material without strength, and for one without a specific heat unless isothermal.
     """
@@ -36,7 +36,7 @@ def flow_stress(
         raise DeckError(f"{material.name} has no strength")
     heat = material.eos.numbers.get("specific_heat")
     if not (isothermal or heat):
-        raise DeckError(f"{material.name} has no specific heat; its flow stress is known at one temperature alone")
+        raise DeckError(f"{material.name} has no specific heat; its flow stress is known at only one temperature")
     model, row, (p, rho, T) = at_rest(material)
     warming = 0.0 if isothermal else 1.0 / (rho * heat.value)
 
@@ -49,10 +49,10 @@ def flow_stress(
 def along(
     law: Callable[[float, float], float], T: float, warming: float, strains: Sequence[float], longest: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Flow stress (Pa) and temperature (K) at plastic strains that do not fall, both float64[n], by the midpoint rule.
+    """Flow stress (Pa) and temperature (K) at non-decreasing plastic strains, both float64[n], by the midpoint rule.
 
     law : flow stress at a plastic strain and a temperature
-    T : temperature at no strain
+    T : temperature at zero strain
     warming : temperature gained by a unit of plastic work, K m^3/J: 1/(rho c) if all of it heats, 0 at a constant temperature
     longest : longest step in plastic strain
     """

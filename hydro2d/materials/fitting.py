@@ -5,7 +5,7 @@ heats the model as it heats the specimen (rho c dT = w Y d(ep), w the share of t
 temperature of the test is that of the point.
 
 Every group of points (the hardnesses of a steel, the heats of an alloy) has constants of its own, except for those that all
-groups share: a thermal exponent, for instance, that only some groups were measured hot enough to determine.
+groups share: a thermal exponent, for instance, if only some groups were measured hot enough to determine it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hydro2d.materials.material import Material
 from hydro2d.parameters import NON_NEGATIVE
 from strength import STRENGTH_MODELS
 
-#: what a column of a file of points can be
+#: possible columns of a file of points
 COLUMNS = ("strain", "rate", "temperature", "group", "stress", "skip")
 #: columns of a file without a line that names them
 DEFAULT_COLUMNS = ("strain", "rate", "temperature", "stress")
@@ -32,7 +32,7 @@ DEFAULT_COLUMNS = ("strain", "rate", "temperature", "stress")
 HEAT_SHARE, STEP = 0.9, 0.01
 #: largest ratio of the singular values of the scaled Jacobian; beyond it the points do not determine a constant
 WORST_CONDITION = 1e8
-#: smallest share of its first value that a constant can fall to, and the share below which one that may be 0 is taken as 0
+#: smallest share of its first value that a constant can fall to; share below which one that may be 0 counts as 0
 LEAST, NOTHING = 1e-9, 1e-6
 
 
@@ -41,7 +41,7 @@ class Law:
     """A model that can be fitted.
 
     free : first values of the constants that a fit changes, those of ``stresses`` in units of the mean measured stress
-    needed : other constants without which the free ones mean nothing
+    needed : other constants that the free ones require
     """
 
     model: ModuleType
@@ -64,7 +64,7 @@ class Law:
         return any(parameter.name == name and parameter.sign == NON_NEGATIVE for parameter in self.model.PARAMETERS)
 
 
-#: first values of the free constants, which of them are stresses, and what must be known besides
+#: first values of the free constants, which of them are stresses, and further constants that must be known
 _LAWS = {
     "johnson-cook": (
         {"yield_stress": 0.8, "hardening": 0.6, "hardening_exponent": 0.3, "rate_coefficient": 0.01, "thermal_exponent": 0.8},
@@ -90,7 +90,7 @@ def law(name: str) -> Law:
 
 
 def from_material(law: Law, material: Material) -> dict[str, float]:
-    """The constants that a fit of this law does not change, as far as the material's own law or equation of state has them."""
+    """The constants that a fit of this law does not change, if the material's own law or equation of state has them."""
     names = [parameter.name for parameter in law.model.PARAMETERS if parameter.name not in law.free]
     own = {**material.eos.values, **material.strength.values}
     return {name: own[name] for name in names if name in own}
@@ -134,12 +134,12 @@ class Points:
 
 
 def read_points(path: Path, columns: Sequence[str] | None = None, unit: float = 1.0) -> Points:
-    """Points of a file with a number in each column, parted by spaces or commas; ``#`` begins a comment.
+    """Points of a file with a number in each column, separated by spaces or commas; ``#`` begins a comment.
 
-    columns : what each column is, of ``COLUMNS``; default: the first line where it names them, else ``DEFAULT_COLUMNS``
+    columns : the column names, from ``COLUMNS``; default: the first line if it names them, else ``DEFAULT_COLUMNS``
     unit : of the stresses, Pa
 
-    Raises DeckError with the line of what cannot be read.
+    Raises DeckError with the line that cannot be read.
     """
     text = read_text(path, DeckError).splitlines()
     lines = [(n, line.split("#")[0].replace(",", " ").split()) for n, line in enumerate(text, 1)]
@@ -158,20 +158,20 @@ def read_points(path: Path, columns: Sequence[str] | None = None, unit: float = 
     table = np.array([_numbers(path, n, words, len(columns)) for n, words in lines], dtype=float).reshape(-1, len(columns))
     if not len(table):
         raise DeckError(f"{path}: has no points")
-    found = {name: table[:, k] for k, name in enumerate(columns) if name != "skip"}
-    found["stress"] = found["stress"] * unit
-    _check(path, [n for n, _ in lines], found)
-    return Points(group=found.pop("group", np.zeros(len(table))), **found)
+    values = {name: table[:, k] for k, name in enumerate(columns) if name != "skip"}
+    values["stress"] = values["stress"] * unit
+    _check(path, [n for n, _ in lines], values)
+    return Points(group=values.pop("group", np.zeros(len(table))), **values)
 
 
-def _check(path: Path, lines: Sequence[int], found: Mapping[str, np.ndarray]) -> None:
+def _check(path: Path, lines: Sequence[int], values: Mapping[str, np.ndarray]) -> None:
     """Raises DeckError for a point that cannot have been measured."""
-    bad = {"strain": found["strain"] < 0.0, "rate": found["rate"] <= 0.0, "temperature": found["temperature"] <= 0.0,
-           "stress": found["stress"] <= 0.0}
+    bad = {"strain": values["strain"] < 0.0, "rate": values["rate"] <= 0.0, "temperature": values["temperature"] <= 0.0,
+           "stress": values["stress"] <= 0.0}
     for name, mask in bad.items():
         if mask.any():
             must = "must not be negative" if name == "strain" else "must be positive"
-            raise DeckError(f"{path}:{lines[int(np.argmax(mask))]}: {name} = {found[name][mask][0]:g}: {must}")
+            raise DeckError(f"{path}:{lines[int(np.argmax(mask))]}: {name} = {values[name][mask][0]:g}: {must}")
 
 
 def _numbers(path: Path, line: int, words: Sequence[str], expected: int) -> list[float]:
@@ -216,7 +216,7 @@ class Fit:
 
 @dataclass(frozen=True)
 class Heating:
-    """How fast tests heat themselves.
+    """Heating of test specimens by plastic work.
 
     from_rate : strain rate from which plastic work heats the specimen, 1/s
     capacity : density times specific heat, J/(m^3 K)
@@ -233,8 +233,8 @@ class Heating:
 
 def computed(law: Law, values: Mapping[str, float], points: Points, heating: Heating | None) -> np.ndarray:
     """Flow stress of the law at every point, Pa, float64[n]; all points have the same constants."""
-    row, found = law.model.row(values), np.empty(len(points))
-    rho = values.get("reference_density", 1.0)  # a law that asks for the density has its value at rest among its constants
+    row, stresses = law.model.row(values), np.empty(len(points))
+    rho = values.get("reference_density", 1.0)  # a law that needs the density has its value at rest among its constants
     for test in points.tests():
         rate, T = float(points.rate[test[0]]), float(points.temperature[test[0]])
 
@@ -242,8 +242,8 @@ def computed(law: Law, values: Mapping[str, float], points: Points, heating: Hea
             return law.model.flow_stress(ep, rate, at, 0.0, rho, row)
 
         warming = heating.warming(rate) if heating else 0.0
-        found[test], _ = curves.along(stress, T, warming, points.strain[test].tolist(), STEP)
-    return found
+        stresses[test], _ = curves.along(stress, T, warming, points.strain[test].tolist(), STEP)
+    return stresses
 
 
 def fit(
@@ -274,11 +274,11 @@ def fit(
         return _by_group(dict(zip(places, (x * scale).tolist(), strict=True)), points.groups, given)
 
     def residual(x: np.ndarray) -> np.ndarray:
-        found = np.empty(len(points))
+        differences = np.empty(len(points))
         for group, values in constants(x).items():
             mask = members[group]
-            found[mask] = computed(law, values, points.chosen(mask), heating) / points.stress[mask] - 1.0
-        return found
+            differences[mask] = computed(law, values, points.chosen(mask), heating) / points.stress[mask] - 1.0
+        return differences
 
     try:
         best = least_squares(residual, np.ones(len(places)), bounds=(LEAST, np.inf), xtol=1e-10, ftol=1e-10)

@@ -1,4 +1,4 @@
-"""The form of a model's file: what it may import, and the constants and functions that it must have."""
+"""The form of a model's file: the imports that it may have, and the constants and functions that it must have."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from hydro2d.mesh.fields import Field
 from hydro2d.parameters import Parameter
 from hydro2d.parsing import parsed
 
-#: what each model says in words
+#: texts that each model has
 WORDS = ("NAME", "EQUATION", "SOURCE", "VALIDITY")
 #: keys of a model's table in a deck that cannot be parameters
 KEYS = ("model", "file", "code", "code_from", "source", "confidence", "note")
-#: modules of hydro2d that models use, beside those of their own package
+#: modules of hydro2d that models use, in addition to those of their own package
 GROUND = ("hydro2d.jit", "hydro2d.parameters", "hydro2d.mesh.fields")
 
 
@@ -26,7 +26,7 @@ def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
     try:
         names = {node.name for node in parsed(text).body if isinstance(node, ast.FunctionDef)}
     except SyntaxError:
-        return next(iter(required))  # whose import says what is wrong
+        return next(iter(required))  # its import reports the mistake
     return next((name for name, functions in required.items() if names & set(functions)), None)
 
 
@@ -43,21 +43,21 @@ def _imported(tree: ast.AST) -> Iterator[tuple[str, int]]:
 def wrong_import(text: str, package: str) -> tuple[int, str] | None:
     """Line of the first import that a model of ``package`` must not have, and the reason; None if all are allowed.
 
-    What is compiled is kept by the text of the file alone, and the file travels alone.
+    Compiled code is kept by the text of the file alone, and the file is copied alone.
     """
     for name, line in _imported(parsed(text)):
         top = name.split(".")[0]
         ours = any(f"{name}.".startswith(f"{place}.") for place in (*GROUND, package))
-        late = name.split(".")[:2] in ([package, "dispatch"], [package, "radial_return"])
-        if late or not (ours or top == "numpy" or top in sys.stdlib_module_names):
+        choosing = name.split(".")[:2] in ([package, "dispatch"], [package, "radial_return"])
+        if choosing or not (ours or top == "numpy" or top in sys.stdlib_module_names):
             allowed = f"numpy, Python's own modules, {', '.join(GROUND)} and modules of {package}"
-            return line, f"imports {name}; a model may import {allowed}" + (", but not those that choose" if late else "")
+            return line, f"imports {name}; a model may import {allowed}" + (", but not those that choose" if choosing else "")
     return None
 
 
 def fault(module: ModuleType, kind) -> str | None:
     """The first mistake in the file of a model, in words; None if there is none. ``kind`` is an outside.Kind."""
-    return next((found for check in (_constants, _parameters, _functions, _variables) for found in check(module, kind)), None)
+    return next((wrong for check in (_constants, _parameters, _functions, _variables) for wrong in check(module, kind)), None)
 
 
 def _constants(module: ModuleType, kind) -> Iterator[str]:
@@ -102,9 +102,9 @@ def _functions(module: ModuleType, kind) -> Iterator[str]:
         if not hasattr(function, "py_func"):
             yield f"{name} is not compiled: put @point before it"
             return
-        found = inspect.signature(function.py_func).parameters.values()
-        if ", ".join(str(parameter) for parameter in found) != arguments:
-            yield f"{name} takes ({', '.join(str(parameter) for parameter in found)}), not ({arguments})"
+        parameters = inspect.signature(function.py_func).parameters.values()
+        if ", ".join(str(parameter) for parameter in parameters) != arguments:
+            yield f"{name} takes ({', '.join(str(parameter) for parameter in parameters)}), not ({arguments})"
         if not function.py_func.__doc__:
             line = function.py_func.__code__.co_firstlineno
             yield (f'{name}, line {line}, has no docstring: write what the function returns and in which unit under its `def`, '

@@ -1,4 +1,4 @@
-"""What of a deck's models stands in files, code and tables: puts their texts into the deck."""
+"""The files of a deck's models, code and tables: puts their texts into the deck."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ Complaint = Callable[[tuple, str], DeckError]
 def read(data: dict, complaint: Complaint, trust: bool = True) -> dict:
     """The deck with the texts of its files in it.
 
-    Every ``file`` of a model has become its ``model``, the name, ``code``, the text, and ``code_from``; every ``table`` its
-    ``table_data``, the text, and ``table_from``. A file replaces a model of hydro2d in an included deck. ``data`` is changed.
+    Every ``file`` of a model becomes ``model``, its name, ``code``, its text, and ``code_from``; every ``table`` becomes
+    ``table_data``, its text, and ``table_from``. A file replaces a model of hydro2d in an included deck. ``data`` is changed.
     ``complaint(path, message)`` makes the error for a key of the deck; it is raised here. Without ``trust`` no file is read.
     """
     for path, table in model_tables(data):
@@ -35,13 +35,13 @@ def _take_code(path: tuple, table: dict, complaint: Complaint, trust: bool) -> N
     if not isinstance(table["file"], str):
         raise complaint((*path, "file"), "must be the name of a Python file")
     try:
-        found = outside.read(table["file"], path[-1])
+        model = outside.read(table["file"], path[-1])
     except outside.ModelError as error:
         raise complaint((*path, "file"), str(error)) from None
-    if "code" not in table and table.get("model") not in (None, found.name, *found.kind.models):
-        raise complaint((*path, "model"), f'is "{table["model"]}", but the model in {table["file"]} is "{found.name}"')
+    if "code" not in table and table.get("model") not in (None, model.name, *model.kind.models):
+        raise complaint((*path, "model"), f'is "{table["model"]}", but the model in {table["file"]} is "{model.name}"')
     del table["file"]
-    table |= {"model": found.name, "code": found.text, "code_from": found.file}
+    table |= {"model": model.name, "code": model.text, "code_from": model.file}
 
 
 def _take_table(path: tuple, table: dict, complaint: Complaint, trust: bool) -> None:

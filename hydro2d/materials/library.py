@@ -1,7 +1,7 @@
 """Named materials: the library, and the materials of a deck.
 
 A material is an equation of state, a strength model, a damage model, a melting line and a fracture pressure. Every number of
-the library has its source and a confidence. Doubtful printed values are kept as variants, beside the default.
+the library has its source and a confidence. Doubtful printed values are kept as variants of the default.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def parted(text: str) -> tuple[str, list[str]]:
 
 
 def load(text: str, variant: str | None = None) -> Material:
-    """A material of the library by NAME or NAME:VARIANT, which it is then called. Raises DeckError if there is none."""
+    """A material of the library by NAME or NAME:VARIANT, which becomes its name. Raises DeckError if there is none."""
     tables, sources = _library()
     name, named = parted(text)
 
@@ -96,7 +96,7 @@ def problem(text: str, own: Mapping[str, object]) -> str | None:
     """Why a body cannot be of a material NAME or NAME:VARIANT of the library or of a deck's own tables; None if it can."""
     name, variants = parted(text)
     if text in own or name in own:
-        return None  # its own tables are looked at by themselves
+        return None  # a deck's own tables are checked separately
     if name not in names():
         return unknown("material", name, {*own, *names()})
     known = _library()[0][name].get("variants", {})
@@ -113,10 +113,10 @@ def from_deck(name: str, tables: Mapping[str, dict], fail: Fail, trust: bool = T
     if base not in tables:
         return load(name)
 
-    def told(path: tuple, text: str) -> Exception:
+    def fail_at(path: tuple, text: str) -> Exception:
         return fail((base, *path), text)
 
-    return build(name, _varied(_based(base, tables, fail, ()), variants, told), told, trust)
+    return build(name, _varied(_based(base, tables, fail, ()), variants, fail_at), fail_at, trust)
 
 
 def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, ...]) -> dict:
@@ -125,7 +125,7 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
         raise fail((name,), "a material must be a table")
     variants = tables[name].get("variants", {})
     if not isinstance(variants, dict) or not all(isinstance(entry, dict) for entry in variants.values()):
-        raise fail((name, "variants"), "must hold a table for each variant")
+        raise fail((name, "variants"), "must contain a table for each variant")
     own = _sourced(tables[name], "deck")
     base = own.get("based_on")
     if base is None:
@@ -151,7 +151,7 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
 def _overlaid(base: dict, over: dict) -> dict:
     """``over`` on ``base``; a part that names another model replaces the whole part.
 
-    With another equation of state the melting line goes, which stands on its density and its Grueneisen coefficient.
+    Another equation of state removes the melting line, which depends on its density and its Grueneisen coefficient.
     """
     base = dict(base)
     for part in PARTS:
@@ -166,7 +166,7 @@ def _overlaid(base: dict, over: dict) -> dict:
 
 
 def _varied(raw: dict, variant, fail: Fail, own: dict | None = None) -> dict:
-    """The table with one or several of its variants applied, and then the numbers of the deck itself."""
+    """The table with one or several of its variants applied, then the numbers of the deck itself."""
     chosen = [] if variant is None else [variant] if isinstance(variant, str) else variant
     known = raw.get("variants", {})
     if not isinstance(chosen, list):

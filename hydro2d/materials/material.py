@@ -44,8 +44,8 @@ class Model:
     """A model by name, with a number for every parameter; a model from outside also has the name and text of its file.
 
     trusted : whether this text, which may be a stranger's, may be run
-    solid : name of the equation of state that it stands over, if it stands over one; its parameters are among the numbers
-    table, table_from : the text of its table, or that of its solid, if there is one, and the name of the file
+    solid : name of the equation of state that it builds on, if there is one; its parameters are among the numbers
+    table, table_from : the text of its table, or of its solid's, if there is one, and the name of the file
     """
 
     name: str
@@ -73,7 +73,7 @@ class Model:
         return outside.from_text(self.code, self.file, part) if self.code else None
 
     def unread(self, part: str) -> str:
-        """Says that its code is not run; empty for a trusted model."""
+        """A message that its code is not run; empty for a trusted model."""
         from hydro2d.materials import outside
 
         what = f"the {outside.KINDS[part].title} {self.name} ({self.file})"
@@ -83,17 +83,17 @@ class Model:
         """Its functions and constants."""
         from hydro2d.materials import outside
 
-        found = self.outside(part)
-        return found.module if found else outside.KINDS[part].models[self.name]
+        model = self.outside(part)
+        return model.module if model else outside.KINDS[part].models[self.name]
 
     @property
     def title(self) -> str:
-        """Its name, with that of the one that it stands over, and of its table."""
+        """Its name, with those of the model that it builds on and of its table."""
         over, table = f" over {self.solid}" if self.solid else "", f" ({self.table_from})" if self.table else ""
         return f"{self.name}{over}{table}"
 
     def base(self) -> tuple[ModuleType | Table, ...]:
-        """What its row is made from beside its numbers: the equation of state that it stands over, and the table."""
+        """Further inputs of its row: the equation of state that it builds on, and the table."""
         from hydro2d.materials import sesame
 
         over = (solid_model(self.solid)[0],) if self.solid else ()
@@ -108,7 +108,7 @@ class Model:
         return {"model": self.name, **solid, **numbers, **code, **table}
 
 
-#: the keys that say at which tension a material fractures
+#: the keys of the tensions at which a material fractures
 FRACTURE = ("fracture_pressure", "fracture_stress")
 
 
@@ -128,9 +128,9 @@ class Material:
     #: the parameters of its melting line (strength/melting.py), empty without one
     melting: Mapping[str, Number] = field(default_factory=dict)
     variants: Mapping[str, str] = field(default_factory=dict)
-    #: whether it sets its damage model itself, even to none
+    #: whether it sets its damage model itself, even to "none"
     says_damage: bool = field(default=False, compare=False)
-    #: what each of its variants sets: parts, and tensions at which it fractures
+    #: parts, and tensions of fracture, that each of its variants sets
     variant_keys: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
 
     @property
@@ -159,7 +159,7 @@ class Material:
         return data
 
     def unread(self) -> list[str]:
-        """Says of each model that is not trusted that its code is not run."""
+        """A message for each model that is not trusted, that its code is not run."""
         return [said for part in PARTS if (said := getattr(self, part).unread(part))]
 
     def tables(self) -> list[dict]:
@@ -171,22 +171,22 @@ class Material:
 
     def from_outside(self) -> list[Outside]:
         """Its models from outside. Raises ModelError if one is not trusted."""
-        found = [each for part in PARTS if (each := getattr(self, part).outside(part))]
+        models = [each for part in PARTS if (each := getattr(self, part).outside(part))]
         below = solid_model(self.eos.solid)[1] if self.eos.solid else None
-        return [*found, below] if below else found
+        return [*models, below] if below else models
 
 
 def solid_model(name: str) -> tuple[ModuleType, Outside | None]:
-    """The equation of state, without internal variables, that another one stands over: its module, and what is from outside.
+    """The equation of state, without internal variables, that another one builds on: its module, and the model from outside.
 
-    Raises ValueError for a name of none.
+    Raises ValueError for an unknown name.
     """
     from hydro2d.materials import outside
 
     models = outside.KINDS["eos"].models
     below = None if name in models else outside.from_package("eos", name)
-    found = below.module if below else models.get(name)
-    if found is None or hasattr(found, "INTERNAL"):
+    solid = below.module if below else models.get(name)
+    if solid is None or hasattr(solid, "INTERNAL"):
         plain = [each for each, module in models.items() if not hasattr(module, "INTERNAL")]
         raise ValueError(unknown("equation of state without memory", name, [*plain, *outside.in_packages("eos")]))
-    return found, below
+    return solid, below

@@ -2,7 +2,7 @@
 
 A model is one Python file with the contents of a file in ``eos`` or ``strength``, except an ID. Its text is part of the
 resolved deck, so that restarts and workers have it on any machine. It is imported from a copy with a hash of the text in its
-name, and compiled with the models of hydro2d, provided that it is known before the kernels are loaded.
+name, and compiled with the models of hydro2d if it is known before the kernels are loaded.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Kind:
     """A part of a material whose model can come from outside.
 
     models, added : those of hydro2d by name, and those from outside that kernels know;  functions : see eos/registry.py
-    with_memory : functions and required ones of a model with internal variables, where they are others
+    with_memory : functions and required ones of a model with internal variables, if they differ
     """
 
     part: str
@@ -126,7 +126,7 @@ def offered() -> list[tuple[str, str, str]]:
 
 
 def is_known(text: str, part: str) -> bool:
-    """Whether this process has run this text as a model, because the user asked for it."""
+    """Whether this process has run this text as a model, because the user requested it."""
     return (text, part) in _offered
 
 
@@ -139,14 +139,14 @@ def take_over(models: Iterable[tuple[str, str, str]]) -> None:
 def register(*models: str | Path) -> None:
     """Makes models of your own known: paths of files, or names of models that installed packages offer.
 
-    A deck that is loaded makes its own models known. Call this only where kernels are loaded before the deck is, for example
-    because another simulation ran first.
+    Loading a deck makes its models known. Call this only if kernels are loaded before the deck, for example because another
+    simulation ran first.
 
     Raises ModelError for a wrong model, or if the kernels are already loaded.
     """
     for model in models:
-        found = [] if Path(model).is_file() else [each for part in KINDS if (each := from_package(part, str(model)))]
-        for each in found or [read(model)]:
+        offers = [] if Path(model).is_file() else [each for part in KINDS if (each := from_package(part, str(model)))]
+        for each in offers or [read(model)]:
             each.require()
 
 
@@ -187,10 +187,10 @@ def from_package(part: str, name: str) -> Outside | None:
         spec = None
     if spec is None or not spec.origin or not Path(spec.origin).is_file():
         raise ModelError(f"{place}: the entry point {name} names a module that cannot be found")
-    found = from_text(Path(spec.origin).read_text(encoding="utf-8"), place, part)
-    if found.name != name:
-        raise ModelError(f"{place}: the entry point is called {name} and the model {found.name}; the names must be the same")
-    return found
+    model = from_text(Path(spec.origin).read_text(encoding="utf-8"), place, part)
+    if model.name != name:
+        raise ModelError(f"{place}: the entry point is called {name} and the model {model.name}; the names must be the same")
+    return model
 
 
 # ------------------------------------------------------------------------------------------------ is it in order
@@ -203,7 +203,7 @@ def _checked(text: str, part: str) -> ModuleType:
     module = _module(text, kind)
     fault = form.fault(module, kind)
     if fault is None:
-        fault = next((found for name in kind.interface(module)[0] if (found := _compiled(module, name, kind))), None)
+        fault = next((mistake for name in kind.interface(module)[0] if (mistake := _compiled(module, name, kind))), None)
     if fault is not None:
         raise ModelError(f": {fault}")
     digest = hashlib.sha256(f"{part} {text}".encode()).hexdigest()
@@ -234,13 +234,13 @@ def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
     if not hasattr(module, name):
         return None
     try:
-        found = jit.returns(getattr(module, name), arguments)
+        types = jit.returns(getattr(module, name), arguments)
     except Exception as error:
         line = re.search(rf'{module.__name__}\.py", line (\d+)', str(error))
         return f"{name} does not compile{f', line {line[1]}' if line else ''}: {_line(error)}"
-    if found != ("float64",) * count:
+    if types != ("float64",) * count:
         numbers = {0: "nothing", 1: "one number"}.get(count, f"{count} numbers")
-        return f"{name} returns {', '.join(found) or 'nothing'}, not {numbers} (write 1.0, not 1, and return on every path)"
+        return f"{name} returns {', '.join(types) or 'nothing'}, not {numbers} (write 1.0, not 1, and return on every path)"
     return None
 
 

@@ -4,16 +4,16 @@
 State.q in which the internal variables of its equation of state begin.
 ``materials[m, k]``, float64: the parameter rows of the strength and the damage model, from STRENGTH_AT and DAMAGE_AT on, then
 
-    TENSILE         the tension at which the body fractures, Pa, positive; inf where it never does
-    CUTOFF_DENSITY  the density at and below which it is no solid any more, kg/m^3
-    FACTOR          what multiplies its flow stress
-    GAS             1 for a gas beside the other bodies, else 0
+    TENSILE         the tension at which the body fractures, Pa, positive; inf if it never does
+    CUTOFF_DENSITY  the density at and below which it is no longer a solid, kg/m^3
+    FACTOR          factor on its flow stress
+    GAS             1 for a gas compared with the other bodies, else 0
     FADES           1 where the tension falls with damage, to 0 in crushed material, else 0
     CRACKS          the tension at which cracks open, Pa, of a body whose damage model opens them, else 0; its TENSILE is inf
-    MOST_STRESS     the largest principal stress that it bears, Pa; beyond it fails for good; inf where it never does
+    MOST_STRESS     the largest principal stress that it bears, Pa; beyond that it fails for good; inf if it never does
     MELTING_AT      from here on the melting line of the material (strength/melting.py)
 
-and from EOS_AT to the end the row of the equation of state, with zeros behind it where that of another body is longer.
+and from EOS_AT to the end the row of the equation of state, followed by zeros if that of another body is longer.
 """
 
 from __future__ import annotations

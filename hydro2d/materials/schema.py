@@ -13,13 +13,13 @@ _ABOUT = {
     "confidence": {"enum": list(CONFIDENCE), "description": "how reliable they are"},
 }
 _SOLID = {
-    "solid": {**_TEXT, "description": "the equation of state that the model stands over, for one that needs it; its parameters "
-              "stand beside those of the model", "examples": ["mie-grueneisen"]},
+    "solid": {**_TEXT, "description": "the equation of state that the model builds on, if it needs one; its parameters "
+              "are in the same table", "examples": ["mie-grueneisen"]},
 }
 _TABLE = {
-    "table": {**_TEXT, "description": "a file with a table of the SESAME type 301, relative to the deck, for a model that is "
+    "table": {**_TEXT, "description": "a file with a table of the SESAME type 301, relative to the deck, for a model "
               "made from one", "examples": ["aluminium.301"]},
-    "table_data": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
+    "table_data": {**_TEXT, "description": "the text of that file, which resolved decks contain instead of its name",
                    "examples": ["3 3 0.1 0.2 0.3 0 300 600 ..."]},
     "table_from": {**_TEXT, "description": "the name of that file", "examples": ["aluminium.301"]},
 }
@@ -36,13 +36,13 @@ def _melting() -> dict:
                for each in melting.PARAMETERS}
     return {
         "type": "object", "title": "Melting", "additionalProperties": False,
-        "description": "The melting line of a material, from which on it has no strength; see `hydro2d info melting`.",
+        "description": "The melting line of a material; at and above it there is no strength; see `hydro2d info melting`.",
         "properties": {**_ABOUT, **numbers},
     }  # fmt: skip
 
 
 def _part(kind: Kind) -> dict:
-    """The table of a model. The keys of models from outside are not known here."""
+    """The table of a model, without the keys of models from outside."""
     known: dict[str, list[tuple[str, str, str]]] = {}
     for name, module in kind.models.items():
         for parameter in module.PARAMETERS:
@@ -51,7 +51,7 @@ def _part(kind: Kind) -> dict:
         "model": {"enum": [*kind.models, *in_packages(kind.part)], "description": f"the {kind.title}"},
         "file": {**_TEXT, "description": "a Python file with a model of your own, relative to the deck, instead of `model`",
                  "examples": ["my_model.py"]},
-        "code": {**_TEXT, "description": "the text of that file, which resolved decks hold instead of its name",
+        "code": {**_TEXT, "description": "the text of that file, which resolved decks contain instead of its name",
                  "examples": ["NAME = 'my-model'"]},
         "code_from": {**_TEXT, "description": "the name of that file", "examples": ["my_model.py"]},
         **({**_SOLID, **_TABLE} if kind.part == "eos" else {}),
@@ -72,7 +72,7 @@ def _material() -> dict:
         "description": "A material: complete with its equation of state, or `based_on` another, from which it differs.",
         "properties": {
             "based_on": {**_TEXT,
-                         "description": "a material of the library or of the deck, which gives all that is not given here"},
+                         "description": "a material of the library or of the deck, for everything that is not given here"},
             "variant": {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}],
                         "description": "variants of it to apply"},
             "eos": {"$ref": "#/$defs/Eos", "description": "equation of state"},

@@ -19,9 +19,9 @@ import numpy as np
 
 from hydro2d.toml import MOST_TEXT
 
-#: what the units of the table are in SI: Mg/m^3, GPa, MJ/kg
+#: the units of the table in SI: Mg/m^3, GPa, MJ/kg
 DENSITY, PRESSURE, ENERGY = 1e3, 1e9, 1e6
-#: least number of densities and of temperatures, and most characters, which a resolved deck must carry
+#: least number of densities and of temperatures; most characters, since a resolved deck contains them
 LEAST, MOST = 3, MOST_TEXT - 100_000
 _RECORD = re.compile(r"\s*(?:\d\s+)?RECORD\s+TYPE\s*=\s*(\d+)\s+NWDS\s*=\s*(\d+)\s*$", re.IGNORECASE)
 _INDEX = re.compile(r"\s*(?:\d\s+)?INDEX\s+MATID\b", re.IGNORECASE)
@@ -30,7 +30,7 @@ _TO_A_LINE = 5
 
 
 class TableError(ValueError):
-    """A text that is no table, or one that no material can have; the message says where."""
+    """A text that is not a table, or not one that a material can have; the message says where."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +61,9 @@ def read(text: str) -> Table:
 
     for k, word in ((0, "densities"), (1, "temperatures")):
         if numbers.size < 2 or not (numbers[k] == np.floor(numbers[k]) and LEAST <= numbers[k] <= numbers.size):
-            found = f"{numbers[k]:g}" if numbers.size > k else "nothing"
+            number = f"{numbers[k]:g}" if numbers.size > k else "nothing"
             raise TableError(f"record 301 begins with its numbers of densities and temperatures, each at least {LEAST}; that "
-                             f"of {word} is {found}")
+                             f"of {word} is {number}")
     nr, nt = int(numbers[0]), int(numbers[1])
     needed, whole = 2 + nr + nt + 2 * nr * nt, 2 + nr + nt + 3 * nr * nt
     if numbers.size not in (needed, whole):
@@ -97,7 +97,7 @@ def read(text: str) -> Table:
 
 def _numbers(text: str) -> tuple[np.ndarray, list[int]]:
     """The numbers of record 301, and the line of each. Raises TableError."""
-    wanted, stated, found, lines, types = True, None, [], [], []
+    wanted, stated, numbers, lines, types = True, None, [], [], []
     for line, words in enumerate(text.splitlines(), start=1):
         heading = _RECORD.match(words)
         if heading:
@@ -106,7 +106,7 @@ def _numbers(text: str) -> tuple[np.ndarray, list[int]]:
                 raise TableError(f"line {line}: a second record 301: the file of a deck holds one material")
             wanted = types[-1] == 301
             if wanted:
-                stated, found, lines = int(heading[2]), [], []
+                stated, numbers, lines = int(heading[2]), [], []
         elif _INDEX.match(words):
             wanted = False
             if types:
@@ -114,7 +114,7 @@ def _numbers(text: str) -> tuple[np.ndarray, list[int]]:
         elif wanted:
             for word in words.split():
                 try:
-                    found.append(float(word))
+                    numbers.append(float(word))
                 except ValueError:
                     raise TableError(f"line {line}: {word[:40]!r} is not a number") from None
                 lines.append(line)
@@ -122,9 +122,9 @@ def _numbers(text: str) -> tuple[np.ndarray, list[int]]:
         raise TableError(f"has no record 301, only {', '.join(map(str, types))}")
     if not types and not wanted:
         raise TableError("has an index and no record")
-    if stated is not None and stated != len(found):
-        raise TableError(f"its heading states {stated} numbers (NWDS); there are {len(found)}")
-    return np.array(found), lines
+    if stated is not None and stated != len(numbers):
+        raise TableError(f"its heading states {stated} numbers (NWDS); there are {len(numbers)}")
+    return np.array(numbers), lines
 
 
 def write(table: Table) -> str:

@@ -12,7 +12,7 @@ from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over, re
 from hydro2d.materials.material import Material, Model, solid_model
 from hydro2d.mesh.fields import INTERNAL, Field
 
-#: a body is a gas beside the stiffest one if its bulk modulus at rest is below this share of that one's
+#: a body is a gas compared with the stiffest one if its bulk modulus at rest is below this share of that one's
 GAS_MODULUS = 0.01
 
 
@@ -21,12 +21,12 @@ class MaterialTable:
     """The numbers of the materials for kernels, one row per slot m (a body, with all bodies that join it).
 
     ``eos_par`` is float64[m, k] as long as the longest row of the run, at least eos.ROW, ``strength_par`` float64[m,
-    strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` holds the internal
-    variables of every strength model and then those of its equation of state, ``initial`` what virgin material has of them,
+    strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` has the internal
+    variables of every strength model and then those of its equation of state, ``initial`` their values in virgin material,
     ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
-    tension, inf where never, ``fracture_stress`` a largest principal stress, inf where there is none, and ``cracking`` that at
-    which cracks open, where the damage model opens them, else 0; ``melting`` holds the melting lines that the deck uses,
-    float64[m, strength.melting.ROW], NONE where there is none.
+    tension, inf for none, ``fracture_stress`` a largest principal stress, inf for none, and ``cracking`` the tension at which
+    cracks open, if the damage model opens them, else 0; ``melting`` contains the melting lines that the deck uses,
+    float64[m, strength.melting.ROW], NONE for none.
     """
 
     names: tuple[str, ...]
@@ -56,13 +56,13 @@ class MaterialTable:
         return any(INTERNAL + len(own) > first for own, first in zip(self.internal, self.memory, strict=True))
 
     def virgin(self, m: int) -> np.ndarray:
-        """The internal variables of the equation of state of body m, as virgin material has them, float64[n]."""
+        """The internal variables of the equation of state of body m in virgin material, float64[n]."""
         return self.initial[m][self.memory[m] - INTERNAL:]
 
     def spent(self, m: int) -> np.ndarray:
-        """These of what it becomes at most: products, where it is an explosive (the model's SPENT), else virgin material."""
-        found = getattr(self.materials[m].eos.module("eos"), "SPENT", None)
-        return self.virgin(m) if found is None else np.array(found)
+        """`virgin` for fully reacted material: the products of an explosive (the model's SPENT), else virgin material."""
+        products = getattr(self.materials[m].eos.module("eos"), "SPENT", None)
+        return self.virgin(m) if products is None else np.array(products)
 
     def evaluate(self, m: int, rho: float, e: float) -> tuple[float, float, float, float]:
         """(p, dp/drho, dp/de, T) of virgin material of body m, see `eos.dispatch.evaluate`."""
@@ -71,10 +71,10 @@ class MaterialTable:
         return evaluate(self.eos_model[m], rho, e, self.virgin(m), self.eos_par[m])
 
     def limits(self, m: int, rho: float, internal: np.ndarray) -> str:
-        """What the table of body m covers and which energies at a density, in words; empty where it has no table.
+        """The range of the table of body m and its energies at a density, in words; empty if it has no table.
 
-        internal : internal variables of its equation of state, float64[n]. Where that stands over the model of its solid, the
-        table is the solid's, and the density of the solid is said as well.
+        internal : internal variables of its equation of state, float64[n]. If that builds on the model of its solid, the
+        table is the solid's, and the density of the solid is given as well.
         """
         from eos import cracked, layout
 
@@ -103,7 +103,7 @@ class MaterialTable:
         return np.sqrt(squares)
 
     def gases(self) -> np.ndarray:
-        """Which bodies are gases beside the others, bool[m]: bulk modulus at rest below GAS_MODULUS of the largest one."""
+        """Which bodies are gases, compared with the others, bool[m]: bulk modulus at rest below GAS_MODULUS of the largest."""
         moduli = self.rho0 * self.sound_speeds() ** 2
         return moduli < GAS_MODULUS * moduli.max()
 
@@ -116,7 +116,7 @@ def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
 
 
 def _variables(eos_modules, eos_par, strength_modules, strength_par) -> dict:
-    """What a table says of internal variables: those of the strength model of every body, then of its equation of state."""
+    """Entries of a table on internal variables: those of every body's strength model, then of its equation of state."""
     internal, initial = [], []
     for parts in zip(zip(strength_modules, strength_par, strict=True), zip(eos_modules, eos_par, strict=True), strict=True):
         own = [(field, row) for module, row in parts for field in getattr(module, "INTERNAL", ())]
@@ -182,7 +182,7 @@ def resolve(deck) -> MaterialTable:
 
 
 def _line_of(material: Material, used: bool) -> np.ndarray:
-    """The melting line of a material as kernels read it; NONE where it has none, or where it is not used."""
+    """The melting line of a material as kernels read it; NONE if it has none or the deck does not use it."""
     from strength import melting
 
     if not (used and material.melting):

@@ -1,4 +1,4 @@
-"""Tables made from other equations of state: for users without one, and for tests against the model that was tabulated."""
+"""Tables made from other equations of state: for users without one, and for tests against the tabulated model."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hydro2d.errors import DeckError
 from hydro2d.materials.material import Material
 from hydro2d.materials.sesame import Table
 
-#: share of the temperatures that lie between zero and that at rest, and of the range of energies that a search begins with
+#: share of the temperatures that lie between zero and that at rest, and range of energies, J/kg, where a search begins
 BELOW, FIRST = 0.2, 1e6
 #: an energy is known when its interval is this share of it
 _TOLERANCE, _MOST = 1e-15, 200
@@ -29,7 +29,7 @@ def points(low: float, rest: float, high: float, number: int) -> np.ndarray:
 def temperatures(rest: float, high: float, number: int) -> np.ndarray:
     """``number`` temperatures from zero to high, K: in equal steps to that at rest, then in equal ratios; float64[number].
 
-    From zero, where that at rest is zero, in equal steps.
+    If that at rest is zero, all in equal steps.
     """
     if rest == 0.0:
         return np.linspace(0.0, high, number)
@@ -48,7 +48,7 @@ def table_of(name: str, module: ModuleType, values: Mapping[str, float], density
     name : of the material, for messages;  module, values : equation of state and its parameters by name, in SI
     density : float64[i], kg/m^3, rising;  temperature : float64[j], K, rising from 0 or more
 
-    Raises DeckError for an equation of state with internal variables, and where no energy has one of the temperatures.
+    Raises DeckError for an equation of state with internal variables, and if no energy has one of the temperatures.
     """
     if hasattr(module, "INTERNAL") or hasattr(module, "FROM_TABLE"):
         raise DeckError(f"material {name}: {module.NAME} cannot be tabulated: " + (
@@ -60,7 +60,7 @@ def table_of(name: str, module: ModuleType, values: Mapping[str, float], density
             e[i, j] = _energy(module, rho, T, par, name)
             p[i, j] = module.evaluate(rho, e[i, j], par)[0]
     rest = density == par[RHO0]
-    p[rest] = np.where(np.abs(p[rest]) < 1e-3, 0.0, p[rest])  # Pa: what round-off of the energy leaves of zero
+    p[rest] = np.where(np.abs(p[rest]) < 1e-3, 0.0, p[rest])  # Pa: round-off of the energy instead of zero
     return Table(np.array(density, dtype=float), np.array(temperature, dtype=float), p, e)
 
 

@@ -1,6 +1,6 @@
-"""Pressure and temperature of the bodies as they are written: from density and energy alone, changing nothing.
+"""Pressure and temperature of the bodies for output: from density and energy alone, changing nothing.
 
-The cycle works with those of its beginning; what is written belongs to the moment of the output.
+The cycle works with those at its beginning; these are at the time of the output.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The mesh and what stands on it: the table of fields, the grid, the state, sums over it."""
+"""The mesh and its fields: the table of fields, the grid, the state, sums over it."""

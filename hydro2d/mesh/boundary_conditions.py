@@ -1,4 +1,4 @@
-"""What stands at the four edges of a mesh, as the numbers that kernels take."""
+"""The conditions at the four edges of a mesh, as the numbers that kernels take."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class BoundaryConditions:
 
     Attributes
     ----------
-    velocity : float64[4], normal velocity of those that hold, m/s, towards higher r or z, at the time of the last `drive`
+    velocity : float64[4], normal velocity of constrained edges, m/s, towards higher r or z, at the time of the last `drive`
     """
 
     def __init__(self, edges: tuple[Edge, ...]):
@@ -34,27 +34,27 @@ class BoundaryConditions:
 
     @classmethod
     def of(cls, boundaries: Mapping[str, Any]) -> BoundaryConditions:
-        """Those that the table [boundaries] of a resolved deck describes."""
+        """The edges that the table [boundaries] of a resolved deck describes."""
         return cls(tuple(made(edge, boundaries) for edge in EDGES))
 
     def drive(self, time: float) -> None:
-        """Gives `velocity` its values at a time, s."""
+        """Sets `velocity` to its values at a time, s."""
         for n, edge in self._driven:  # the velocities of the others never change
             self.velocity[n] = edge.constrain(time)
 
     def least_crossing(self, widths, start: float, end: float) -> tuple[float, str]:
-        """The least time in which what moves with an edge crosses a width, s, and the name of that edge.
+        """The least time in which material moving with an edge crosses a width, s, and the name of that edge.
 
-        widths : float[4], of the cells beside the edges, m;  start, end : between which the velocity of an edge counts, s
+        widths : float[4], of the cells next to the edges, m;  start, end : interval in which the velocity of an edge counts, s
 
-        inf where no edge moves.
+        inf if no edge moves.
         """
         return min(((widths[n] / speed if (speed := edge.fastest(start, end)) > 0.0 else np.inf, EDGES[n])
                     for n, edge in self._moving), default=(np.inf, ""))
 
     @cached_property
     def sinks(self) -> list[str]:
-        """Sinks of the edges' own, beside those that every run has."""
+        """Sinks of the edges, in addition to those that every run has."""
         return sorted({edge.sink for edge in self.edges} - set(SINKS))
 
     @cached_property
@@ -70,5 +70,5 @@ class BoundaryConditions:
         }
 
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether it mirrors, holds, opens, supplies, drives, transmits or pushes; asked many times a cycle."""
+        """For each edge whether it mirrors, holds, opens, supplies, drives, transmits or pushes; called many times a cycle."""
         return self._flags[flag]

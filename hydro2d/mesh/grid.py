@@ -1,4 +1,4 @@
-"""The graded r-z mesh: edges, volumes, and the metrics of its columns, which kernels use instead of the word "cylindrical".
+"""The graded r-z mesh: edges, volumes, and the metrics of its columns, which kernels use instead of asking for the geometry.
 
 Per radian in cylindrical geometry, per unit depth in planar geometry. With r1, r2 the inner and outer radius of a
 column, dr = r2 - r1 and h the height of a row (explanation/lagrangian-step, equations 1 to 3):
@@ -12,7 +12,7 @@ column, dr = r2 - r1 and h the height of a row (explanation/lagrangian-step, equ
     cm_in    share of the cell's mass at each inner vertex           az_in / (2 vol_r)
     cm_out   share of the cell's mass at each outer vertex           az_out / (2 vol_r)
 
-They are the rows of one block that kernels read, ``Grid.metrics[k, i]``, with the constants below, and attributes of the grid.
+They are the rows of one block that kernels read, ``Grid.metrics[k, i]``, by the constants below, and attributes of the grid.
 """
 
 from __future__ import annotations
@@ -52,12 +52,12 @@ class Grid:
     volume : float64, shape (nz + 2 g, nr + 2 g)
         Cell volumes per radian (planar: per unit depth), positive in ghosts as well.
     metrics : float64, shape (8, nr + 2 g + 1)
-        What every kernel needs of a column or its inner face, in the rows FACE_R to CM_OUT; beyond the last column only
+        Metrics of a column or its inner face for every kernel, in the rows FACE_R to CM_OUT; beyond the last column only
         FACE_R has a value, the others are zero.
     face_r, hoop, vol_r, az_in, az_out, mid_r, cm_in, cm_out : float64
         The rows by name, those of columns without the last entry.
     offset : float
-        How far the mesh has travelled along z since the start, m; see `move`.
+        Distance that the mesh has travelled along z since the start, m; see `move`.
     """
 
     def __init__(self, r_edges, z_edges, geometry: str = "cylindrical"):
@@ -86,7 +86,7 @@ class Grid:
     def _columns(self) -> None:
         dr = self.dr
         if self.cylindrical:
-            r1, r2 = np.abs(self.r[:-1]), np.abs(self.r[1:])  # ghosts left of the axis mirror the cells right of it
+            r1, r2 = np.abs(self.r[:-1]), np.abs(self.r[1:])  # ghosts left of the axis mirror the cells to its right
             inner, outer = np.minimum(r1, r2), np.maximum(r1, r2)
             self.face_r = np.abs(self.r)
             self.hoop = dr / 4

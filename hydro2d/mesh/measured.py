@@ -1,4 +1,4 @@
-"""What a run measures, in words: names and meanings of the numbers in a history and a summary. `solver/` computes them."""
+"""Names and meanings of the numbers in a history and a summary. `solver/` computes them."""
 
 from __future__ import annotations
 
@@ -22,42 +22,42 @@ def unit(name: str) -> str:
 
 
 def in_file(name: str) -> str:
-    """The name of a quantity among the datasets of history.h5, where / would begin a folder."""
+    """The name of a quantity among the datasets of history.h5, where / would start a group."""
     return name.replace("/", "_per_")
 
 
-#: what `penetrator.Penetrator.measure` gives of a projectile, and its meaning; the names say rod, whatever its shape
+#: results of `penetrator.Penetrator.measure` for a projectile, and their meanings; the names say rod for any shape
 QUANTITIES = {
     "penetration_depth_m": "largest depth so far, from the target's original surface to the projectile's deepest part near the "
     "axis",
-    "nose_depth_m": "the same of now: less than that once a projectile has rebounded; in a summary, at the end",
+    "nose_depth_m": "present depth, less than the largest once a projectile has rebounded; in a summary, at the end",
     "penetration_over_length": "the largest depth over the projectile's length at the start: P/L",
     "interface_velocity_m_s": "axial velocity on the axis at the nose: u of the theory of penetration, whose v is of the tail",
-    "rod_length_m": "of the longest run of intact material on the axis, in proportion to its length at the start",
-    "rod_initial_length_m": "length of the deck of a rod or a ball that lies in the mesh whole; else the same at the start",
+    "rod_length_m": "length of the longest run of intact material on the axis, in proportion to its length at the start",
+    "rod_initial_length_m": "length in the deck of a rod or ball that lies wholly in the mesh; else its length at the start",
     "rod_mass_kg": "mass of the projectile in the mesh",
-    "rod_initial_mass_kg": "the same at the start",
+    "rod_initial_mass_kg": "mass of the projectile in the mesh at the start",
     "rod_initial_kinetic_energy_J": "kinetic energy of the projectile at the start",
-    "rod_core_mass_kg": "mass of what is intact, hangs together from the axis outward and keeps up with the axis",
+    "rod_core_mass_kg": "mass of intact material that is connected to the axis and keeps up with it",
     "rod_failed_mass_kg": "mass of the projectile that has failed by damage",
     "target_failed_mass_kg": "mass of the target that has failed by damage",
     "rod_max_radius_m": "largest radius of a solid section with the area of the projectile in a row of cells",
     "rod_initial_radius_m": "radius of the projectile in the deck",
     "rod_max_plastic_strain": "largest plastic strain of the cells that the projectile fills by half",
-    "rod_mean_velocity_m_s": "mean axial velocity of all of the projectile",
-    "rod_core_velocity_m_s": "the same of its core",
+    "rod_mean_velocity_m_s": "mean axial velocity of the whole projectile",
+    "rod_core_velocity_m_s": "mean axial velocity of its core",
     "rod_nose_velocity_m_s": "axial velocity of the projectile on the axis at its leading end",
-    "rod_tail_velocity_m_s": "the same at its tail",
-    "rod_kinetic_energy_J": "kinetic energy of the projectile, of the radial motion as well",
+    "rod_tail_velocity_m_s": "axial velocity of the projectile on the axis at its tail",
+    "rod_kinetic_energy_J": "kinetic energy of the projectile, including the radial motion",
     "rod_residual_velocity_m_s": "axial velocity of the core of a projectile that has perforated the target or left the mesh; "
-    "of all that was left of one in pieces",
-    "rod_residual_mass_kg": "mass of that",
+    "of all that was left if it was in pieces",
+    "rod_residual_mass_kg": "mass that has this velocity",
     "rod_residual_length_m": "length of a projectile that has perforated the target",
-    "exit_time_s": "when its leading end was its radius beyond the rear of the last target; null before",
+    "exit_time_s": "time at which its leading end was its radius beyond the rear of the last target; null before",
     "regime": "rigid, deforming, eroding or left the mesh",
 }
 
-#: those that `BODY` has of every body: of the projectile, and of the first target
+#: those that `BODY` has for every body: for the projectile, and for the first target
 OF_EVERY_BODY = {
     "rod_mass_kg": "mass_kg", "rod_mean_velocity_m_s": "velocity_m_s", "rod_kinetic_energy_J": "kinetic_energy_J",
     "rod_failed_mass_kg": "failed_mass_kg", "target_failed_mass_kg": "failed_mass_kg",
@@ -65,63 +65,63 @@ OF_EVERY_BODY = {
 #: those that a projectile of any shape has in a summary, by their key there
 PROJECTILE = {key: key.removeprefix("rod_") for key in QUANTITIES if key.startswith("rod_") and key not in OF_EVERY_BODY}
 
-#: what `Penetrator.passages` gives of each target, and its meaning; null while the projectile is not through it
+#: results of `Penetrator.passages` for each target, and their meanings; null until the projectile is through it
 PASSAGE = {
-    "exit_time_s": "when the projectile's leading end was its radius beyond the rear of this target",
-    "exit_velocity_m_s": "axial velocity of its core then, or of all that was left of one in pieces",
-    "exit_mass_kg": "mass of that",
-    "exit_length_m": "of the longest run of intact material on the axis then",
+    "exit_time_s": "time at which the projectile's leading end was its radius beyond the rear of this target",
+    "exit_velocity_m_s": "axial velocity of its core then, or of all that was left if it was in pieces",
+    "exit_mass_kg": "mass that had this velocity",
+    "exit_length_m": "length of the longest run of intact material on the axis then",
 }
 
-#: what `bodies.measure` gives of every body, and its meaning; of what is in the mesh where nothing else is said
+#: results of `bodies.measure` for every body, and their meanings; for material in the mesh unless stated otherwise
 BODY = {
     "mass_kg": "mass",
     "momentum_N_s": "axial momentum",
-    "velocity_m_s": "mean axial velocity, by mass; null where nothing of it is in the mesh",
-    "kinetic_energy_J": "kinetic energy, of the radial motion as well",
+    "velocity_m_s": "mean axial velocity, by mass; null if none of it is in the mesh",
+    "kinetic_energy_J": "kinetic energy, including the radial motion",
     "failed_mass_kg": "mass that has failed by damage",
     "outflow_kg": "mass that has left through open edges of the mesh since the start",
-    "inflow_kg": "mass that a mesh that travels has met since the start",
-    "r_min_m": "least radius that it reaches; null where it is less than a hundredth of any cell",
+    "inflow_kg": "mass that has entered a travelling mesh since the start",
+    "r_min_m": "least radius that it reaches; null if it fills less than a hundredth of any cell",
     "r_max_m": "largest radius that it reaches",
     "z_min_m": "lowest axial position that it reaches",
     "z_max_m": "highest axial position that it reaches",
     "length_m": "its extent along the axis",
-    "initial_length_m": "the same at the start",
-    "radius_at_z_min_m": "radius of its lowest row of cells: of the foot of a bar that stands there",
+    "initial_length_m": "its extent along the axis at the start",
+    "radius_at_z_min_m": "radius of its lowest row of cells: the foot of a bar standing there",
     "radius_at_z_max_m": "radius of its highest row of cells",
 }
 
-#: what `crater.Crater.measure` gives of the hole in a target, as it would be had the target not bent, and its meaning
+#: results of `crater.Crater.measure` for the hole in a target, corrected for its bending, and their meanings
 CRATER = {
     "entrance_diameter_m": "in the first row below the surface from which the wall is steeper than 45 degrees; 0: no hole",
     "exit_diameter_m": "in the last such row, also beyond the rear face; null while the hole is not open at its end",
-    "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null where there is none",
+    "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null if there is no hole",
     "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
     "volume_per_energy_m3_J": "that volume over the kinetic energy of the projectile at the start",
-    "efficiency": "mass of the target that filled that volume at first, over the projectile's mass at the start: pi_V of the "
+    "efficiency": "mass of the target that initially filled that volume, over the projectile's mass at the start: pi_V of the "
     "scaling of craters",
-    "depth_m": "from the surface to the bottom on the axis, or the thickness that a target that has bent lacks there; all of "
-    "its thickness where it is shot through",
-    "ejected_mass_kg": "mass of the target beyond its rear face that no longer hangs together with it: plug and debris",
-    "ejected_velocity_m_s": "mean axial velocity of that mass; null where there is none",
+    "depth_m": "from the surface to the bottom on the axis, or the loss of thickness there if the target has bent; its whole "
+    "thickness if it is perforated",
+    "ejected_mass_kg": "mass of the target beyond its rear face that is no longer connected to it: plug and debris",
+    "ejected_velocity_m_s": "mean axial velocity of that mass; null if there is none",
 }
 
-#: what `debris.measure` gives of all that flies behind a target, the projectile included, and its meaning
+#: results of `debris.measure` for everything that flies behind a target, including the projectile, and their meanings
 DEBRIS = {
     "mass_kg": "mass of all bodies",
-    "momentum_N_s": "axial momentum along the flight of the projectile, relative to the undisturbed target, like what follows",
-    "kinetic_energy_J": "kinetic energy, of the radial motion as well",
-    "velocity_m_s": "mean axial velocity, by mass; null where there is nothing",
+    "momentum_N_s": "axial momentum along the flight of the projectile, relative to the undisturbed target, as all below",
+    "kinetic_energy_J": "kinetic energy, including the radial motion",
+    "velocity_m_s": "mean axial velocity, by mass; null if there is no debris",
     "leading_velocity_m_s": "axial velocity that a hundredth of the mass exceeds",
     "cone_angle_rad": "angle to the axis within which nine tenths of the mass fly",
-    "fragments": "number of pieces, each of cells that hang together and are filled by half, or by less where it is narrower "
+    "fragments": "number of pieces, each of connected cells that are filled by half, or by less if it is narrower "
                  "than a cell; one off the axis is a ring",
     "largest_fragment_kg": "mass of the heaviest of them",
-    "dust_kg": "mass in none of them: in cells beside them that are filled by less than half, and crumbs",
+    "dust_kg": "mass in none of them: in cells next to them that are filled by less than half, and crumbs",
 }
 
-#: what is known of each fragment and its unit, and of the mass by axial speed and by angle
+#: results for each fragment with their units, and for the mass by axial speed and by angle
 FRAGMENTS = ("mass_kg", "r_m", "z_m", "velocity_r_m_s", "velocity_z_m_s")
 
 PLACES = {"r_m": "radial position", "z_m": "axial position"}
@@ -138,14 +138,14 @@ WORDS = ("regime",)
 
 
 def names(bodies: Iterable[str], stations: Iterable[str], penetrates: bool) -> list[str]:
-    """What an expression in a deck can be made of: columns of its history, `crater_KEY`, and, where that is meant, SHORT.
+    """Names that an expression in a deck can use: columns of its history, and with ``penetrates`` `crater_KEY` and SHORT.
 
     bodies : of the deck;  stations : `tracer_NAME` and `gauge_NAME`;  penetrates : whether it has a projectile and a target
     """
-    found = ["time", "dt", "internal_energy_J", "kinetic_energy_J"]
-    found += [f"body_{body}_{key}" for body in bodies for key in BODY]
-    found += [f"{station}_{key}" for station in stations for key in (*PLACES, *OF_STATIONS)]
+    columns = ["time", "dt", "internal_energy_J", "kinetic_energy_J"]
+    columns += [f"body_{body}_{key}" for body in bodies for key in BODY]
+    columns += [f"{station}_{key}" for station in stations for key in (*PLACES, *OF_STATIONS)]
     if penetrates:
-        found += [name for name in QUANTITIES if name not in WORDS]
-        found += [f"crater_{key}" for key in CRATER]
-    return found
+        columns += [name for name in QUANTITIES if name not in WORDS]
+        columns += [f"crater_{key}" for key in CRATER]
+    return columns

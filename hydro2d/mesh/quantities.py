@@ -1,6 +1,6 @@
 """THE table of quantities that are written and drawn: name in files, unit, meaning. `output/derived.py` computes them.
 
-Names are for ever the same. All are cell values without ghosts, in SI units.
+Names never change. All are cell values without ghosts, in SI units.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from strength.registry import STRENGTH_MODULES
 
 
 class FieldError(Error):
-    """A field that there is not; the message is for the user."""
+    """An unknown field; the message is for the user."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A row of the table. `title` holds {body} where the quantity is one of every body; one of `contact` is written only
-    where there are two body groups, an `internal` one only for bodies whose model has the variable."""
+    """A row of the table. `title` contains {body} if the quantity is one of every body; one of `contact` is written only
+    if there are two body groups, an `internal` one only for bodies whose model has the variable."""
 
     key: str
     title: str
@@ -47,9 +47,9 @@ def _internal(field: Field) -> Quantity:
 
 
 def from_name(name: str, bodies: Iterable[str]) -> Iterator[Quantity]:
-    """The internal variable of a body that has this name in a file, if it is one whose model is not known here.
+    """The internal variable of a body that has this name in a file, if its model is not known here.
 
-    The key is the name of the field, as `_internal` has made the title of it, where that has no capital letters.
+    The key is the name of the field, recovered from the title that `_internal` made, if that has no capital letters.
     """
     title, _, unit = name.removesuffix("]").partition(" [")
     for body in sorted(bodies, key=len, reverse=True):
@@ -78,12 +78,12 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("temperature", "Temperature", "K", "mean by mass over the bodies"),
     Quantity("von_mises", "Von Mises Stress", "Pa", "sqrt(3/2 s:s) of the stress deviator of the cell"),
     Quantity("deviator_rr", "Deviatoric Stress rr", "Pa", "sum of volume fraction times deviator, radial"),
-    Quantity("deviator_zz", "Deviatoric Stress zz", "Pa", "the same, axial"),
-    Quantity("deviator_rz", "Deviatoric Stress rz", "Pa", "the same, shear"),
-    Quantity("deviator_tt", "Deviatoric Stress tt", "Pa", "the same, hoop: minus the sum of rr and zz"),
-    Quantity("stress_rr", "Stress rr", "Pa", "the whole radial stress, tension positive: deviator minus pressure"),
-    Quantity("stress_zz", "Stress zz", "Pa", "the whole axial stress, tension positive: deviator minus pressure"),
-    Quantity("stress_tt", "Stress tt", "Pa", "the whole hoop stress, tension positive: deviator minus pressure"),
+    Quantity("deviator_zz", "Deviatoric Stress zz", "Pa", "sum of volume fraction times deviator, axial"),
+    Quantity("deviator_rz", "Deviatoric Stress rz", "Pa", "sum of volume fraction times deviator, shear"),
+    Quantity("deviator_tt", "Deviatoric Stress tt", "Pa", "sum of volume fraction times deviator, hoop: minus rr and zz"),
+    Quantity("stress_rr", "Stress rr", "Pa", "total radial stress, tension positive: deviator minus pressure"),
+    Quantity("stress_zz", "Stress zz", "Pa", "total axial stress, tension positive: deviator minus pressure"),
+    Quantity("stress_tt", "Stress tt", "Pa", "total hoop stress, tension positive: deviator minus pressure"),
     Quantity("stress_rz", "Stress rz", "Pa", "shear stress"),
     Quantity("plastic_strain", "Plastic Strain", "", "equivalent plastic strain, mean by mass over the bodies"),
     Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies"),
@@ -98,8 +98,9 @@ TABLE: tuple[Quantity, ...] = (
              "normal pressure at the interface of a contact, in its cells", contact=True),
     Quantity("volume_fraction", "Volume Fraction for {body}", "", "share of the cell that the body fills"),
     Quantity("centroid_r", "Centroid Offset r for {body}", "m",
-             "by how much the centroid of the body lies off that of the cell along r, in cells that it fills in part"),
-    Quantity("centroid_z", "Centroid Offset z for {body}", "m", "the same along z"),
+             "offset of the body's centroid from that of the cell along r, in cells that it fills in part"),
+    Quantity("centroid_z", "Centroid Offset z for {body}", "m",
+             "offset of the body's centroid from that of the cell along z, in cells that it fills in part"),
     Quantity("body_density", "Density of {body}", "kg/m3", "mass per volume of the body itself"),
     Quantity("body_pressure", "Pressure of {body}", "Pa", "pressure in the body"),
     Quantity("body_energy", "Specific Internal Energy of {body}", "J/kg", "specific internal energy of the body"),
@@ -109,18 +110,18 @@ TABLE: tuple[Quantity, ...] = (
     *INTERNAL.values(),
 )  # fmt: skip
 
-#: keys of older versions, and what they are called now
+#: keys of older versions, and their present names
 RENAMED = {"velocity_rest": "velocity_soft"}
 
-#: what the deviators were called up to version 0.3; but for the shear the words stand for whole stresses now
+#: names of the deviators up to version 0.3; except for the shear these now stand for total stresses
 DEVIATORS = {f"stress_{part}": f"deviator_{part}" for part in ("rr", "zz", "tt", "rz")}
 
 BY_KEY = {quantity.key: quantity for quantity in TABLE}
 
-#: always written: without them a file shows no bodies, and nothing that is narrower than a cell
+#: always written: without them a file shows neither bodies nor anything narrower than a cell
 ALWAYS = ("volume_fraction", "centroid_r", "centroid_z", "material")
 
-#: the stress with the pressure in it, which follows from what is standard
+#: the total stress, which follows from the standard fields
 WHOLE_STRESS = ("stress_rr", "stress_zz", "stress_tt", "stress_rz")
 
 #: words that stand for several quantities
@@ -132,7 +133,7 @@ GROUPS = {
 
 
 def declare(fields: Iterable[Field]) -> None:
-    """Adds internal variables of a model from outside to the table; a name that is there keeps its row."""
+    """Adds internal variables of a model from outside to the table; a name that is there already keeps its row."""
     global TABLE
     for field in fields:
         if field.written and field.name not in BY_KEY:
@@ -142,7 +143,7 @@ def declare(fields: Iterable[Field]) -> None:
 
 
 def not_written(*keys: str) -> str:
-    """What to do about quantities that a file does not have."""
+    """Advice on quantities that a file does not have."""
     said = ["output.fields of the deck sets which fields are written"]
     said += [f"up to version 0.3, {key} was the name of {DEVIATORS[key]}" for key in keys if key in DEVIATORS]
     return "; ".join(said)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 #: regimes in the order of impact velocity
 GROWING = RIGID, DEFORMING, ERODING = "rigid", "deforming", "eroding"
-#: that of a rod that has left the mesh, which is judged no further
+#: that of a rod that has left the mesh and is not judged further
 LEFT = "left the mesh"
 #: all regimes by their number in a history
 REGIMES = (*GROWING, LEFT)
@@ -13,7 +13,7 @@ REGIMES = (*GROWING, LEFT)
 RIGID_LENGTH, RIGID_RADIUS = 0.05, 0.10
 #: it is eroding once it has lost more than this share of its length, or more than that of its mass has left its core
 ERODED_LENGTH, ERODED_MASS = 1.0 / 3.0, 0.10
-#: least share of its length that is left of a rod that does not erode; what erosion leaves, with a needle or two, is less
+#: least share of its length that a rod keeps if it does not erode; erosion leaves less, perhaps a needle or two
 LEAST_KEPT = 1.0 - ERODED_LENGTH
 
 #: the rule in words

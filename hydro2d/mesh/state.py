@@ -12,12 +12,12 @@ from hydro2d.jit import GATE, max_threads
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import Grid
 
-#: a range (low, high) that holds nothing, so that min and max of ranges need no special case
+#: an empty range (low, high), so that min and max of ranges need no special case
 EMPTY = (1 << 30, 0)
 
 
 def _lengths(nj: int, ni: int, bodies: int, groups: int, rows: int) -> dict[str, int]:
-    """What the letters of `fields.Work.axes` stand for."""
+    """The lengths that the letters of `fields.Work.axes` stand for."""
     return {"m": bodies, "b": groups, "j": nj, "i": ni, "J": nj + 1, "I": ni + 1, "k": rows, "n": rows - fields.INTERNAL,
             "B": max_threads(), "L": max(nj, ni) + 1, "G": GATE}
 
@@ -32,7 +32,7 @@ def _shape(axes: str, lengths: dict[str, int]) -> list[int]:
 
 
 def _arrays(groups: int, remembers: bool) -> Iterator[tuple[str, str, type]]:
-    """Symbol, axes and kind of every array that has memory of its own; the other fields are views of q and the velocities."""
+    """Symbol, axes and kind of every array with memory of its own; the other fields are views of q and the velocities."""
     yield from (("q", "k m j i", float), ("centroid", "2 m j i", float), ("velocity", "2 b J I", float),
                 ("velocity0", "2 b J I", float))
     views = {"u", "v", "u0", "v0", "centroid_r", "centroid_z", *(field.symbol for field in fields.BODY)}
@@ -43,18 +43,18 @@ def _arrays(groups: int, remembers: bool) -> Iterator[tuple[str, str, type]]:
 
 
 def bytes_needed(nj: int, ni: int, bodies: int, groups: int, internal: int = 0, remembers: bool = False) -> int:
-    """Memory of a State on nj by ni cells, ghosts included, bytes, without taking it; internal : most variables of a body."""
+    """Memory of a State on nj by ni cells, ghosts included, bytes; allocates nothing. internal : most variables of a body."""
     lengths = _lengths(nj, ni, bodies, groups, fields.INTERNAL + internal)
     return sum(math.prod(_shape(axes, lengths)) * np.dtype(kind).itemsize for _, axes, kind in _arrays(groups, remembers))
 
 
 class State:
-    """Fields of ``bodies`` bodies on a mesh, and what the kernels of a cycle leave for one another.
+    """Fields of ``bodies`` bodies on a mesh, and the arrays through which the kernels of a cycle pass values to one another.
 
     Its arrays are those of `fields.FIELDS` and `fields.WORK`, by their symbols; with two groups, of `fields.CONTACT_WORK` as
-    well, and where an equation of state has memory, of `fields.MEMORY_WORK`. Shapes: body fields [m, j, i], cell fields [j, i],
+    well, and if an equation of state has memory, of `fields.MEMORY_WORK`. Shapes: body fields [m, j, i], cell fields [j, i],
     vertex fields [b, j, i] with a leading index of body group b (one group unless contact is on); all with ghosts.
-    ``velocity`` and ``velocity0`` hold u, v and u0, v0, ``centroid`` holds centroid_r and centroid_z; ``body_range`` and
+    ``velocity`` and ``velocity0`` contain u, v and u0, v0, ``centroid`` contains centroid_r and centroid_z; ``body_range`` and
     ``active_range`` are the first of ``body_ranges`` and ``group_ranges``.
 
     Parameters
@@ -62,11 +62,11 @@ class State:
     grid : Grid
     bodies : int
     group : int64[m], optional
-        Body group of every body, which is the velocity field that it moves with: 0, and 1 for the hard bodies of a contact.
+        Body group of every body, that is, the velocity field that it moves with: 0, and 1 for the hard bodies of a contact.
     internal : sequence of a sequence of Field for every body, optional
         Internal variables of its strength model, then of its equation of state; none without.
     initial : sequence of float64[n] for every body, optional
-        What virgin material has of them, which is everywhere at first; zeros without.
+        Their values in virgin material, everywhere at first; zeros without.
     remembers : bool
         Whether an equation of state has internal variables.
 
@@ -94,17 +94,17 @@ class State:
         for m, values in enumerate(initial or ()):
             self.initial[fields.INTERNAL:fields.INTERNAL + len(values), m] = values
         self.q[...] = self.initial[:, :, None, None]
-        self.pre[...] = grid.volume  # ghosts keep it: a face beside them divides by it
+        self.pre[...] = grid.volume  # ghosts keep it: a face next to them divides by it
         self.body_range, self.active_range = self.body_ranges[0], self.group_ranges[0, 0]
         self.empty_ranges()
 
     def empty_ranges(self) -> None:
-        """No body is in any row."""
+        """Sets all ranges to empty: no body is in any row."""
         for ranges in (self.body_ranges, self.group_ranges, self.occupied):
             ranges[..., 0], ranges[..., 1] = EMPTY
 
     def swap_velocities(self) -> None:
-        """Makes the velocities the old ones; what were the old ones is written next."""
+        """Makes the velocities the old ones; the arrays of the old ones are written next."""
         self.velocity, self.velocity0 = self.velocity0, self.velocity
         self.u, self.v = self.velocity
         self.u0, self.v0 = self.velocity0

@@ -1,10 +1,10 @@
-"""What tracers and gauges record, and the columns of the arrays that hold it; the kernels in `tracers.py` fill them."""
+"""Quantities that tracers and gauges record, and the columns of their arrays; the kernels in `tracers.py` fill them."""
 
 from __future__ import annotations
 
 from math import inf, nan
 
-#: what is known of a point, in the order of the columns of `sample`, and its meaning
+#: quantities at a point, in the order of the columns of `sample`, and their meanings
 QUANTITIES = {
     "velocity_r_m_s": "radial velocity",
     "velocity_z_m_s": "axial velocity",
@@ -20,15 +20,15 @@ QUANTITIES = {
     "damage": "0 intact, 1 failed; mean by mass",
 }
 U, V, DENSITY, PRESSURE, S_RR, S_ZZ, S_TT, S_RZ, MISES, TEMPERATURE, STRAIN, FAILED = range(len(QUANTITIES))
-#: what a point has had since the start, looked at in every cycle
+#: extreme values at a point since the start, updated in every cycle
 PEAKS = {
     "peak_pressure_Pa": "largest pressure since the start",
-    "peak_pressure_time_s": "when that was",
+    "peak_pressure_time_s": "time of the largest pressure",
     "least_pressure_Pa": "smallest pressure since the start, negative in tension",
     "peak_speed_m_s": "largest speed since the start",
     "peak_von_mises_Pa": "largest von Mises stress since the start",
     "peak_temperature_K": "largest temperature since the start",
     "peak_plastic_strain": "largest plastic strain since the start",
 }
-#: what they are before the first look
+#: their values before the first update
 NO_PEAKS = (-inf, nan, inf, -inf, -inf, -inf, -inf)

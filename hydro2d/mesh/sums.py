@@ -1,4 +1,4 @@
-"""Sums over the mesh that a run looks at, in the order of the rows; per radian (per unit depth in planar geometry)."""
+"""Sums over the mesh that a run uses, in the order of the rows; per radian (per unit depth in planar geometry)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from hydro2d.jit import plus, point, serial
 
-#: a cell belongs to a body, where its length and its core are asked for, from this share on
+#: for its length and its core, a cell belongs to a body from this share on
 HALF = 0.5
 
 
@@ -69,12 +69,12 @@ def mean_of_vertices(v, j, i):
 
 @serial
 def core_sums(g, nr, first, last, m, half, direction, slack, against, volume, vof, dmg, rho, v, sums):
-    """Mass and axial momentum of the core of body m: what is intact and hangs together from the axis outward, row by row.
+    """Mass and axial momentum of the core of body m: intact material that is connected from the axis outward, row by row.
 
     A row ends before the first cell that falls behind the one on the axis, along `direction`, by more than half of the speed
-    of that one, relative to `against`, and `slack`, m/s: what flies back beside a rod does not count. The first cell that the
-    body does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A cell moves with the
-    mean of its vertices.
+    of that one, relative to `against`, plus `slack`, m/s: material flying back beside a rod does not count. The first cell that
+    the body does not fill to the share `half` ends a row and still counts, unless it is the one on the axis. A cell moves with
+    the mean of its vertices.
 
     Reads    volume [j, i];  vof, dmg, rho [m, j, i];  v [j-1/2, i-1/2] of the body's group
     Writes   sums [2], per radian (per unit depth in planar geometry)
@@ -173,9 +173,9 @@ def between(v, j, i, outer, upper):
 
 @serial
 def edge_course(di, first, last, at, entering, advance, columns, r, z, zc, dz, face_r, vol_r, fr, fz, flux, moved, whole):
-    """Adds what goes through one edge of the mesh to the first moments of the bodies, and what comes in to their mass.
+    """Adds the material crossing one edge of the mesh to the first moments of the bodies, and the inflow to their mass.
 
-    What crosses a face lies on average half of the distance away from it by which it is swept.
+    Material that crosses a face lies on average half of the swept distance away from it.
 
     di : direction of the sweep, 1 along r;  first, last : places along the edge;  at : its face;  entering : 1.0 at the low
     edge, -1.0 at the high one;  advance : of the mesh along z, m
@@ -200,7 +200,7 @@ def body_course(g, nz, nr, cylindrical, m, middle, width, zc, dr, dz, cm_out, vo
     """Mass of body m, its first moments and momenta along r and z, and sums of mass times cell size along r and z.
 
     A body's place in a cell is its centroid; along r that is the offset in r^2/2 (in planar geometry r). There it moves with
-    what lies between the velocities of the vertices; in the middle of a cell that is their mean, weighted by corner masses.
+    the interpolated velocity of the vertices; in the middle of a cell that is their mean, weighted by corner masses.
 
     Reads    middle [i], r^2/2 (planar: r) in the middle of a column, width [i], how much it changes across it; volume [j, i];
              vof, rho [m, j, i]; centroid [2, m, j, i]; u, v [j-1/2, i-1/2] of the body's group

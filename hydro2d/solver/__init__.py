@@ -1,1 +1,1 @@
-"""One run of the method in memory: its choices, its start, its cycle, and what one measures of a rod in a target."""
+"""One run of the method in memory: its choices, its start, its cycle, and measurements of a rod in a target."""

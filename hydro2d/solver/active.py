@@ -1,4 +1,4 @@
-"""The active box: the part of the mesh that a cycle works on, which grows ahead of all that moves (explanation/speed)."""
+"""The active box: the part of the mesh that a cycle works on; it grows ahead of all motion (explanation/speed)."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ class ActiveBox:
     state : State
     table : MaterialTable
     boundaries : BoundaryConditions
-    skips : bool, whether quiet cells may be skipped: not where the mesh travels, and every cell hands on what it holds, nor
-        where sources may heat what no signal has reached
+    skips : bool, whether quiet cells may be skipped: not if the mesh travels, since every cell then passes on its contents,
+        nor if sources may heat cells that no signal has reached
 
     Attributes
     ----------
@@ -43,12 +43,12 @@ class ActiveBox:
         return np.array(self.box[:2], dtype=np.int64)
 
     def reaches(self) -> list[bool]:
-        """Whether it has come to the low and the high edge along z, and along r."""
+        """Whether it has reached the low and the high edge along z, and along r."""
         return [here == there for here, there in zip(self.box, self._all, strict=True)]
 
     def begin(self) -> None:
-        """Becomes the smallest box around everything that moves or is under pressure or stress, the edges that drive, and the
-        margin; the whole mesh where there is nothing but edges, or no cell may be skipped."""
+        """Becomes the smallest box around everything that moves or is under pressure or stress and the driving edges, plus the
+        margin; the whole mesh if there are only such edges, or if no cell may be skipped."""
         if not self._skips:
             return
         s, t, (j0, j1, i0, i1) = self._state, self._table, self.mesh
@@ -71,7 +71,7 @@ class ActiveBox:
         self.box = self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1])
 
     def grow(self) -> bool:
-        """Grows ahead of the vertices that move, as ``State.moving`` has them (equation 1); whether it has."""
+        """Grows ahead of the moving vertices in ``State.moving`` (equation 1). Returns whether it has grown."""
         first, last, low, high = self._state.moving
         if first == last:
             return False

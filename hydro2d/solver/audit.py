@@ -1,4 +1,4 @@
-"""The conservation audit: every total, and every named sink through which something left the mesh or the balance."""
+"""The conservation audit: every total, and every named sink through which a quantity left the mesh or the balance."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ import numpy as np
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.mesh.sums import body_totals, vertex_totals
 
-#: the sinks that are clips: what a limit of the method took from material that is still there
+#: the sinks that are clips: limits of the method that take from material still in the mesh
 CLIPS = {name: SINKS[name] for name in ("cutoff", "ke_bound", "speed_limit")}
 
-#: the sinks through which energy comes in from outside, beside those of sources
+#: the sinks through which energy comes in from outside, in addition to those of sources
 BRINGS = ("inflow", "walls", "transmitted")
 
-#: what keeps a clip from taking much, where runs have shown it (problems/classic/README.md)
+#: remedies for large clips, where runs have shown them (problems/classic/README.md)
 REMEDIES = {"ke_bound": 'try numerics.advection = "both"'}
 
-#: what a contact passes on within the balance: axial momentum from the hard bodies to the soft ones, and the heat that it makes
+#: transfers of a contact within the balance: axial momentum from the hard bodies to the soft ones, and the heat produced
 CONTACT_TRANSFERS = {
     "contact": "the impulse along the normal, and along the tangent, at contact nodes, where hard and soft bodies meet",
     "friction": "heat of the impulse along the tangent",
-    "under-filled nodes": "heat of what moves with its master nodes because there is too little of it",
+    "under-filled nodes": "heat of material that moves with its master nodes because there is too little of it",
 }
 
 
 @dataclass
 class Sink:
-    """What left by one name: mass per body, axial momentum, energy; per radian (per unit depth in planar geometry)."""
+    """Losses under one name: mass per body, axial momentum, energy; per radian (per unit depth in planar geometry)."""
 
     mass: np.ndarray
     momentum: float = 0.0
@@ -38,7 +38,7 @@ class Sink:
 
 @dataclass
 class ContactTransfer:
-    """What passed between two groups by one name: axial momentum and heat; per radian (per unit depth in planar geometry)."""
+    """Transfers between two groups under one name: axial momentum and heat; per radian (per unit depth in planar geometry)."""
 
     momentum: float = 0.0
     energy: float = 0.0
@@ -95,15 +95,15 @@ class Audit:
     def open(cls, state, speeds: np.ndarray, own: Iterable[str] = ()) -> Audit:
         """An audit that begins with the state as it is.
 
-        speeds : of sound in every body at rest, m/s, float64[m];  own : names of the sinks of its edges and sources beside
-        SINKS
+        speeds : of sound in every body at rest, m/s, float64[m];  own : names of the sinks of its edges and sources, in
+        addition to SINKS
         """
         start = totals(state)
         return cls(start, _noise(start, speeds), {name: Sink(np.zeros(state.bodies)) for name in (*SINKS, *own)},
                    {name: ContactTransfer() for name in CONTACT_TRANSFERS if state.groups > 1})
 
     def add(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
-        """Adds to a sink what left the totals."""
+        """Adds to a sink a loss from the totals."""
         sink = self.sinks[name]
         sink.mass += mass
         sink.momentum += momentum
@@ -116,7 +116,7 @@ class Audit:
 
     @property
     def worked(self) -> float:
-        """Work of edges and energy of sources since the start, J per radian: what came in, but for what flowed in."""
+        """Work of edges and energy of sources since the start, J per radian: all incoming energy except inflow."""
         return self.came - self._brought(("inflow",))
 
     def _brought(self, names: Iterable[str]) -> float:
@@ -124,14 +124,14 @@ class Audit:
         return -sum(min(self.sinks[name].energy, 0.0) for name in names)
 
     def transfer(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
-        """Adds to what a contact passed on: axial momentum that soft bodies gained from hard ones, and heat."""
+        """Adds to a transfer of a contact: axial momentum that soft bodies gained from hard ones, and heat."""
         entry = self.contact_transfers[name]
         entry.momentum += momentum
         entry.energy += energy
 
     @property
     def scale(self) -> float:
-        """Energy of the start and what has come in since, and no less than `noise`, J per radian."""
+        """Energy at the start plus incoming energy since, at least `noise`, J per radian."""
         return max(abs(self.start.energy), self.start.kinetic, self.noise) + self.came
 
     def _unexplained(self, now: Totals) -> tuple[np.ndarray, float, float]:
@@ -143,7 +143,7 @@ class Audit:
                 (now.energy + lost["energy"] - self.start.energy) / self.scale)
 
     def unexplained(self, now: Totals) -> dict[str, float]:
-        """The same, of mass the largest, by what they are."""
+        """Relative changes that no sink explains, by name: of momentum, of energy, and the largest of mass."""
         mass, momentum, energy = self._unexplained(now)
         return {"mass": float(mass[np.argmax(np.abs(mass))]), "axial momentum": momentum, "energy": energy}
 
@@ -173,7 +173,7 @@ class Audit:
         }
 
     def saved(self) -> dict:
-        """What a restart file keeps."""
+        """Data for a restart file."""
         return {
             "start": {**vars(self.start), "mass": self.start.mass.tolist(), "internal_of": self.start.internal_of.tolist()},
             "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},

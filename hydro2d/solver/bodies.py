@@ -1,4 +1,4 @@
-"""What one measures of every body, whatever it is: mass, motion, extent, what has failed and what has left the mesh."""
+"""Measurements of every body: mass, motion, extent, failed mass and mass that has left the mesh."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 def measure(sim) -> dict[str, dict[str, float | None]]:
     """BODY by body; SI, whole circumference (per metre of depth in planar geometry).
 
-    Mass, axial momentum, mean axial velocity and kinetic energy are of what is in the mesh. Outflow and inflow are the masses
-    that have left and entered through its open edges. The extent is that of the cells that the body fills by half or more, and
-    of the share of the cells beside them that it fills. A body by which no cell is FILLED is narrower than one: its extent is
-    that of its boxes in the cells (explanation/interfaces, equation 7) of which it fills CRUMB or more; None where there are
-    none such. The radius of its ends is the largest in its lowest and its highest row of these cells.
+    Mass, axial momentum, mean axial velocity and kinetic energy are of material in the mesh. Outflow and inflow are the masses
+    that have left and entered through its open edges. The extent is that of the cells that the body fills by half or more,
+    plus its share of the cells next to them. A body by which no cell is FILLED is narrower than one: its extent is that of its
+    boxes (explanation/interfaces, equation 7) in the cells of which it fills CRUMB or more; None if there are no such cells.
+    The radius of its ends is the largest in its lowest and its highest row of these cells.
     """
     grid = sim.grid
     around = 2 * np.pi if grid.cylindrical else 1.0
     flows = {name: sim.audit.sinks[name].mass if name in sim.audit.sinks else None for name in ("outflow", "inflow")}
-    found = {}
+    results = {}
     for m, name in enumerate(sim.table.names):
         mass, momentum, kinetic, failed = motion(sim, m)
         went, came = (0.0 if flow is None else abs(float(flow[m])) * around for flow in flows.values())
@@ -33,12 +33,12 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
         ends = (float(outer[0]), float(outer[-1])) if len(outer) else (None, None)
         values = (mass, momentum, momentum / mass if mass > 0.0 else None, kinetic, failed, went, came, *extent,
                   _between(*extent[2:]), sim.lengths.get(name), *ends)
-        found[name] = dict(zip(BODY, values, strict=True))
-    return found
+        results[name] = dict(zip(BODY, values, strict=True))
+    return results
 
 
 def lengths(sim) -> dict[str, float | None]:
-    """Extent of every body along the axis now, m, by name; None where it fills CRUMB of no cell."""
+    """Extent of every body along the axis now, m, by name; None if it fills CRUMB of no cell."""
     return {name: _between(*_ends(*_extent(sim, m, 1))) for m, name in enumerate(sim.table.names)}
 
 
@@ -48,11 +48,11 @@ def _between(low: float | None, high: float | None) -> float | None:
 
 def motion(sim, m: int) -> list[float]:
     """Mass, axial momentum, kinetic energy and failed mass of body m; SI, as in `measure`."""
-    grid, state, found = sim.grid, sim.state, np.zeros(4)
+    grid, state, totals = sim.grid, sim.state, np.zeros(4)
     b = state.group[m]
     sums.body_motion(grid.g, grid.nz, grid.nr, m, grid.cm_in, grid.cm_out, grid.volume, state.vof, state.dmg, state.rho,
-                     state.u[b], state.v[b], found)
-    return ((2 * np.pi if grid.cylindrical else 1.0) * found).tolist()
+                     state.u[b], state.v[b], totals)
+    return ((2 * np.pi if grid.cylindrical else 1.0) * totals).tolist()
 
 
 def _extent(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
@@ -65,19 +65,19 @@ def _extent(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _boxes(sim, m: int, axis: int) -> tuple[np.ndarray, np.ndarray]:
-    """The same for a body that is narrower than a cell, from its boxes."""
-    found: dict[int, tuple[float, float]] = {}
+    """`_extent` of a body that is narrower than a cell, from its boxes."""
+    extents: dict[int, tuple[float, float]] = {}
     for line, _, first, last in boxes(sim, m, axis):
-        low, high = found.get(line, (np.inf, -np.inf))
-        found[line] = min(low, first), max(high, last)
-    ends = np.array([found[line] for line in sorted(found)]).reshape(-1, 2)
+        low, high = extents.get(line, (np.inf, -np.inf))
+        extents[line] = min(low, first), max(high, last)
+    ends = np.array([extents[line] for line in sorted(extents)]).reshape(-1, 2)
     return ends[:, 0], ends[:, 1]
 
 
 def boxes(sim, m: int, axis: int, line: int | None = None) -> Iterator[tuple[int, int, float, float]]:
     """(line of cells along the axis, cell on it, lower and upper end in m) of the boxes of body m, cell by cell.
 
-    axis : 0 along r, 1 along z;  line : the only one to be looked at. Cells of which the body fills less than CRUMB have none.
+    axis : 0 along r, 1 along z;  line : the only one to use. Cells of which the body fills less than CRUMB have none.
     """
     grid = sim.grid
     f, centroid = grid.interior(sim.state.vof)[m], grid.interior(sim.state.centroid)[:, m]
@@ -97,19 +97,19 @@ def boxes(sim, m: int, axis: int, line: int | None = None) -> Iterator[tuple[int
 
 def _surfaces(fraction: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest coordinate, m, along the first axis of the fractions [k, n] in cells with these edges [k + 1], of each
-    line that has a cell filled by half; both empty where none has."""
+    line that has a cell filled by half; both empty if none has."""
     inside = fraction >= HALF
     lines = np.nonzero(inside.any(axis=0))[0]
     size = np.diff(edges)
-    found = []
+    ends = []
     for sign in (1, -1):
         cells, widths, faces = (array[::sign] for array in (fraction, size, edges))
         first = np.argmax(inside[::sign], axis=0)[lines]
         beside = np.where(first > 0, cells[np.maximum(first - 1, 0), lines] * widths[np.maximum(first - 1, 0)], 0.0)
-        found.append(faces[first] + sign * ((1.0 - cells[first, lines]) * widths[first] - beside))
-    return found[0], found[1]
+        ends.append(faces[first] + sign * ((1.0 - cells[first, lines]) * widths[first] - beside))
+    return ends[0], ends[1]
 
 
 def _ends(low: np.ndarray, high: np.ndarray) -> tuple[float | None, float | None]:
-    """The lowest and the highest of what `_surfaces` gives; None where there are none."""
+    """The lowest and the highest result of `_surfaces`; None if there are none."""
     return (float(low.min()), float(high.max())) if len(low) else (None, None)

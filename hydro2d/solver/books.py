@@ -1,4 +1,4 @@
-"""What the phases of a step leave for the audit: every sum of the state, under the name of its sink."""
+"""Sums that the phases of a step leave for the audit, each under the name of its sink."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hydro2d.solver.audit import Audit
 
 
 class Books:
-    """Enters what a cycle takes from the totals into its audit.
+    """Enters the losses of a cycle from the totals into its audit.
 
     Parameters
     ----------
@@ -23,31 +23,31 @@ class Books:
 
     @property
     def audit(self) -> Audit:
-        """Where everything is entered."""
+        """The audit of the cycle."""
         return self._cycle.audit
 
     def acceleration(self) -> None:
-        """What the speed limit, contact, dashpots, edges and sources took or gave."""
+        """Enters losses and gains by the speed limit, contact, dashpots, edges and sources."""
         s, (j0, j1, _, _), cycle = self._state, self._cycle.box, self._cycle
-        if np.count_nonzero(s.limited[2, j0:j1 + 1]):  # any() would make an array of truths
+        if np.count_nonzero(s.limited[2, j0:j1 + 1]):  # any() would make a boolean array
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
                            energy=float(s.limited[1, j0:j1 + 1].sum()))
         cycle.contact.account(j0, j1, self.audit)
         if s.held_back.any():
             self.audit.add("transmitted", momentum=float(s.held_back[0]), energy=float(s.held_back[1]))
-        for edge, (taken, energy) in zip(self._edges, s.walls.sum(axis=2).tolist(), strict=True):
-            if taken != 0.0 or energy != 0.0:
-                self.audit.add(edge.sink, momentum=taken, energy=energy)
+        for edge, (momentum, energy) in zip(self._edges, s.walls.sum(axis=2).tolist(), strict=True):
+            if momentum != 0.0 or energy != 0.0:
+                self.audit.add(edge.sink, momentum=momentum, energy=energy)
         cycle.sources.account(self.audit)
 
     def open_edges(self, di: int) -> tuple[bool, bool]:
-        """Whether bodies flow through the low and the high edge of a direction, where the active box has reached them."""
+        """Whether bodies flow through the low and the high edge of a direction, if the active box has reached them."""
         (low, high), reached = (self._opens[0:2], [2, 3]) if di else (self._opens[2:4], [0, 1])
         there = self._cycle.active.reaches()
         return bool(low) and there[reached[0]], bool(high) and there[reached[1]]
 
     def outflow(self, di: int) -> None:
-        """What left through the edges of a sweep, and came in."""
+        """Enters the outflow and inflow through the edges of a sweep."""
         cycle, edges = self._cycle, self.open_edges(di)
         if not any(edges):
             return
@@ -61,7 +61,7 @@ class Books:
                 self.audit.add("inflow", mass=back[1:].copy(), energy=float(back[0]))
 
     def momentum(self, di: int) -> None:
-        """What the advection of momentum dropped, and what was tidied away."""
+        """Enters amounts discarded by the advection of momentum and removed by the tidying."""
         s, (j0, j1, _, _) = self._state, self._cycle.box
         before, after, p_gained, k_cut, _ = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
         lost = before - after - self._kinetic_outflow(di)

@@ -1,4 +1,4 @@
-"""What is due after a cycle: outputs at their intervals, and functions that a program hands to a simulation."""
+"""Actions due after a cycle: outputs at their intervals, and functions that a program passes to a simulation."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class Due:
         self.interval, self.count = interval, 0
 
     def saved(self) -> list:
-        """What a restart file keeps of it."""
+        """Data for a restart file."""
         return [self.interval, self.count]
 
     def resume(self, saved: list, time: float) -> None:
-        """Continues from what was saved at `time`; where the interval has changed since, from the next of the new."""
+        """Continues from data saved at `time`; if the interval has changed since, from the next time of the new one."""
         interval, count = saved
         self.count = count if interval == self.interval else math.floor(time / self.interval) + 1
 
@@ -40,7 +40,7 @@ class Due:
 
 
 def every(interval: int | float | str, call: Callable[[Simulation], object]) -> Callable[[Simulation], None]:
-    """A callback for `Simulation.run` that calls a function now and then and not after every cycle.
+    """A callback for `Simulation.run` that calls a function at intervals instead of after every cycle.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def every(interval: int | float | str, call: Callable[[Simulation], object]) -> 
         A whole number counts cycles. A number with a decimal point is a time in s, and text a time with its unit, such as
         ``"1 us"``: the function is called at the first cycle at or after each multiple of it.
     call : function of the simulation
-        What it returns is ignored.
+        Its result is ignored.
 
     Raises ValueError for an interval that is not positive.
     """
@@ -64,7 +64,7 @@ def every(interval: int | float | str, call: Callable[[Simulation], object]) -> 
             if sim.cycle % period == 0:
                 call(sim)
             return
-        if of is not sim:  # the first call of this simulation: nothing of the time before counts
+        if of is not sim:  # the first call for this simulation: earlier times do not count
             of, due.count = sim, math.floor((sim.time - sim.dt) / period) + 1
         if due(sim.time):
             call(sim)

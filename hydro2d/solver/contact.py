@@ -1,4 +1,4 @@
-"""Contact within a step: what `Cycle` does beside its own phases where two body groups meet (explanation/sliding)."""
+"""Contact within a step: what `Cycle` does in addition to its own phases where two body groups meet (explanation/sliding)."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from hydro2d.solver.audit import Audit
 
 
 class Ties(NamedTuple):
-    """What contact keeps of every contact node, in slots: the nodes of row j have those from first_slot[j] on.
+    """Data of contact for every contact node, in slots: the nodes of row j have those from first_slot[j] on.
 
-    How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`); then what `settle` needs
-    to solve for the impulses of the ties. Nothing in the arrays outlives a step.
+    How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`); then the data for
+    `settle` to solve for the impulses of the ties. Nothing in the arrays outlasts a step.
     """
 
     strength: np.ndarray
@@ -67,7 +67,7 @@ def slots(number: int = 0) -> Ties:
     )
 
 
-#: Courant number from which the squares of an extension's weights are bounded no further
+#: Courant number above which the squares of an extension's weights are not bounded further
 LONGEST = 0.5
 
 
@@ -84,19 +84,19 @@ def most_squares(table, courant: float) -> float:
 
 
 class NoContact:
-    """One group of bodies, which nothing else moves beside.
+    """One group of bodies, without a second one to meet.
 
-    ties : what phases take where they know of no contact nodes
+    ties : empty slots, for phases without contact nodes
     """
 
     def __init__(self):
         self.ties = slots()
 
     def find(self, parts, given) -> None:
-        """Where the groups meet; parts : int64[n + 1], rows;  given : Given."""
+        """Finds where the groups meet; parts : int64[n + 1], rows;  given : Given."""
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
-        """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""
+        """Enters into the audit the transfers of contact between groups and walls in the rows j0 to j1 of the step."""
 
 
 class Contact(NoContact):
@@ -107,7 +107,7 @@ class Contact(NoContact):
         self.state = state
 
     def find(self, parts, given) -> None:
-        """Where the groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
+        """Sets up the contact: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
 
         Beyond the active box bodies that touch have no pressure to exchange yet.
         """
@@ -116,7 +116,7 @@ class Contact(NoContact):
         given.run(lagrangian_step.find_contact)
 
     def account(self, j0: int, j1: int, audit: Audit) -> None:
-        """What contact moved between groups and walls in the rows j0 to j1 of the step goes into the audit."""
+        """Enters into the audit the transfers of contact between groups and walls in the rows j0 to j1 of the step."""
         pushed, *heats, walls = self.state.transfer[:, j0:j1 + 1].sum(axis=1)
         audit.add("walls", momentum=float(walls))
         audit.transfer("contact", momentum=float(pushed), energy=float(heats[0]))

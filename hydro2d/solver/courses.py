@@ -1,7 +1,7 @@
 """The course of every body: whether its centre of mass goes where its momentum takes it.
 
-Momentum and velocities can be exact while the body itself moves at another speed, as whatever is narrower than a cell does
-where nothing says where in its cell it lies. No total tells of that (explanation/sanity).
+Momentum and velocities can be exact while the body itself moves at another speed, as a body narrower than a cell does if its
+place in the cell is not known. No total shows this (explanation/sanity).
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from hydro2d.mesh.grid import FACE_R
 #: cells by which the centre of mass of a body may be off, and the share of its way, the larger of both
 PARTED, PARTED_OF_WAY = 0.1, 0.02
 AXES = "r", "z"
-#: what a restart file keeps of `Courses`
+#: attributes of `Courses` in a restart file
 KEPT = ("_start", "_moved", "_momentum", "_way", "_whole", "apart")
 
 
 class Courses:
-    """What every body's momentum has moved it by since the start, beside where its centre of mass is.
+    """The distance that every body's momentum has moved it since the start, compared with that of its centre of mass.
 
-    The first moment of a body's mass changes by its momentum and by what crosses an edge of the mesh:
+    The first moment of a body's mass changes by its momentum and by the material that crosses an edge of the mesh:
     d(sum m x)/dt = sum m v + (what comes in) x (where it comes in). The place of a body in a cell that it shares is its
-    centroid, and it moves there with what lies between the velocities of the vertices. Its momentum is summed up by the
+    centroid, and it moves there with the interpolated velocity of the vertices. Its momentum is integrated by the
     trapezoidal rule from look to look.
 
     Parameters
@@ -35,8 +35,8 @@ class Courses:
 
     Attributes
     ----------
-    apart : float64[m, 2], how far the centre of mass is off along r and z, in cells of the mean size where the body is; of all
-        of the body's mass that has been in the mesh
+    apart : float64[m, 2], offset of the centre of mass along r and z, in cells of the mean size where the body is; of all the
+        mass of the body that has been in the mesh
     """
 
     def __init__(self, state):
@@ -53,7 +53,7 @@ class Courses:
         self._whole, self._begun = np.zeros(n), False
 
     def crossed(self, di: int, side: int, first: int, last: int, advance: float) -> None:
-        """Books what went through an edge of the mesh in a sweep, from place `first` to `last` along the edge.
+        """Books the material that crossed an edge of the mesh in a sweep, from place `first` to `last` along the edge.
 
         di, side : direction of the sweep and edge, as in `Cycle.remap_bodies` and in `edge_flux`;  advance : of the mesh, m
         """
@@ -65,8 +65,8 @@ class Courses:
     def look(self, time: float, keep: bool = True) -> None:
         """Finds how far every body is off its course, from its momentum since the last look; first at the start.
 
-        keep : whether later looks go on from this one. A look at the end of a run does not: were it kept, a run that goes on
-            from there would end with other sums than one that was not interrupted.
+        keep : whether later looks continue from this one. That at the end of a run is not kept, or a continued run would end
+            with other sums than one without an interruption.
         """
         s, grid = self.state, self.state.grid
         for m in range(s.bodies):
@@ -77,10 +77,10 @@ class Courses:
         if not self._begun:
             self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
         else:
-            taken = 0.5 * (time - self._last) * (self._momentum + momentum)
-            moved = self._moved + taken
-            there = (mass > 0.0) & np.ones(2, dtype=bool)  # the scale of what has left is what it was
-            way = self._way + np.divide(np.abs(taken), sizes, out=np.zeros_like(taken), where=there)
+            step = 0.5 * (time - self._last) * (self._momentum + momentum)
+            moved = self._moved + step
+            there = (mass > 0.0) & np.ones(2, dtype=bool)  # a body that has left keeps its scale
+            way = self._way + np.divide(np.abs(step), sizes, out=np.zeros_like(step), where=there)
             scale = self._whole[:, None] * np.divide(sizes, mass, out=np.ones_like(sizes), where=there)
             np.divide(moment - self._start - moved, scale, out=self.apart, where=there)
             if not keep:
@@ -98,11 +98,11 @@ class Courses:
                         f"taken its centre of mass along {axis}, after a way of {way:.3g} cells")
 
     def saved(self) -> dict:
-        """What a restart file keeps."""
+        """Data for a restart file."""
         return {name: getattr(self, name).tolist() for name in KEPT} | {"last": self._last}
 
     def resume(self, saved: dict) -> None:
-        """Goes on from what `saved` gave."""
+        """Continues from the result of `saved`."""
         for name in KEPT:
             setattr(self, name, np.array(saved[name]))
         self._last, self._begun = saved["last"], True

@@ -8,9 +8,9 @@ import numpy as np
 
 from hydro2d.solver.targets import Target
 
-#: the target fills a cell, for the wall of the hole, from this share on
+#: for the wall of the hole, the target fills a cell from this share on
 HALF = 0.5
-#: a wall begins where a row is filled to this share of what its fullest cell beyond holds: the rest is round-off
+#: a wall begins where a row is filled to this share of its fullest cell beyond; the rest is round-off
 FULL = 0.999
 #: pieces of the target with less than this share of the largest one's volume are debris
 PIECE = 0.05
@@ -19,8 +19,8 @@ PIECE = 0.05
 class Rows(NamedTuple):
     """Rows of cells along the rod's flight, arrays of shape (n,).
 
-    near, far : their ends as depths below the original surface, m;  radius : of the hole, m, NaN where there is no wall
-    axis : share of the cell on the axis that the target fills, of what a full cell of the row holds; 0 without a wall
+    near, far : their ends as depths below the original surface, m;  radius : of the hole, m, NaN if there is no wall
+    axis : share of the cell on the axis that the target fills, relative to a full cell of the row; 0 without a wall
     """
 
     near: np.ndarray
@@ -32,16 +32,16 @@ class Rows(NamedTuple):
 class Crater:
     """Measures the hole that a rod makes.
 
-    The wall belongs to the target's pieces: cells that the target fills by half or more, failed or not, and that hang
-    together over faces, from 5 % of the largest piece's volume on that lies within the target's original extent. Smaller
-    pieces and the rest of the target are debris, which is part of the hole, as the rod is. The wall of a row is its first
+    The wall belongs to the target's pieces: cells that the target fills by half or more, failed or not, connected over faces,
+    from 5 % of the volume of the largest piece within the target's original extent. Smaller pieces and the rest of the
+    target are debris, which is part of the hole, as the rod is. The wall of a row is its first
     run of such cells from the axis, up to a cell that is full. The hole's radius in the row is that of a circle, or in
-    planar geometry the width, with the row's area from the axis to there, less what the target fills of the wall's own
+    planar geometry the width, with the row's area from the axis to there, less the target's share of the wall's own
     cells and of those next to them: exact for any straight wall, and smooth in time.
 
-    A plate that the rod has dished has no hole where its face has left its plane, but where metal of it is missing. Its columns
-    of cells count as moved back by as much as they have gone along with the plate, as far as their rear has moved. Where the
-    rear lies as it did, or is not in the mesh, as of a thick target, that changes nothing.
+    A plate that the rod has dished has a hole only where material is missing, not where its face has left its plane. Its
+    columns of cells are moved back by the distance that their rear has moved with the plate. If the rear has not moved, or is
+    not in the mesh, as for a thick target, that changes nothing.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Crater:
 
     @property
     def target(self) -> Target:
-        """The target as it would be now, had nothing touched it."""
+        """The target as it would be now if nothing had touched it."""
         return self._target.at(self.sim.time)
 
     def _depth(self, z):
@@ -73,7 +73,7 @@ class Crater:
         return float(self._depth(self.sim.grid.z_edges[0 if self.direction > 0 else -1]))
 
     def _walls(self) -> tuple[np.ndarray, np.ndarray]:
-        """Which cells [j, i] belong to the target's pieces, and the target's share of these and of the cells next to them."""
+        """The cells [j, i] of the target's pieces (bool), and the target's share of these and of the cells next to them."""
         from scipy import ndimage
 
         grid = self.sim.grid
@@ -89,7 +89,7 @@ class Crater:
         return wall, np.where(ndimage.binary_dilation(wall), fraction, 0.0)
 
     def pieces(self) -> np.ndarray:
-        """Which cells [j, i] belong to the target's pieces or lie beside one, as those that their surfaces cut do."""
+        """The cells [j, i] in the target's pieces or next to one (bool), as those that their surfaces cut do."""
         return self._walls()[1] > 0.0
 
     def beyond(self) -> np.ndarray:
@@ -97,12 +97,12 @@ class Crater:
         return (self._depth(self.sim.grid.zc[self.sim.grid.inside[0]]) > self.rear)[:, None]
 
     def _bends(self, wall: np.ndarray, filled: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of every column of cells the depth of its face and the way of its rear, m, and whether it is whole; (nr,) each.
+        """For every column of cells the depth of its face and the motion of its rear, m, and whether it is whole; (nr,) each.
 
-        A column that lacks less than half of a cell of the target's thickness is whole, and what it lacks is no hole. Gaps in
-        it, as of a spall, have not moved its face; one that is less than half full goes with the next one outside of it.
+        A column that lacks less than half a cell of the target's thickness is whole, and the missing part is no hole. Gaps in
+        it, as of a spall, do not move its face; a column less than half full takes the values of the next one outside.
 
-        wall, filled : as of `_walls`, along the rod's flight;  edges : of their rows, as depths
+        wall, filled : from `_walls`, along the rod's flight;  edges : of their rows, as depths
         """
         height = np.diff(edges)
         face, way, whole = np.zeros(wall.shape[1]), np.zeros(wall.shape[1]), np.zeros(wall.shape[1], dtype=bool)
@@ -121,7 +121,7 @@ class Crater:
         return face, way, whole
 
     def _unbent(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """The same, with every column of cells moved back by as much as it has gone along with the plate: as its rear has."""
+        """Walls with every column of cells moved back by its motion with the plate: that of its rear."""
         order = slice(None, None, 1 if self.direction > 0 else -1)
         edges = self._depth(self.sim.grid.z_edges)[order]
         if edges[-1] <= self.rear:
@@ -139,7 +139,7 @@ class Crater:
         return wall[order], filled[order]
 
     def _row(self, wall: np.ndarray, filled: np.ndarray) -> tuple[float, float]:
-        """(radius, share on the axis) of a row, shapes (nr,); (NaN, 0) where it has no wall."""
+        """(radius, share on the axis) of a row, shapes (nr,); (NaN, 0) if it has no wall."""
         if not wall.any():
             return np.nan, 0.0
         first = int(np.argmax(wall))
@@ -154,15 +154,15 @@ class Crater:
         return float(np.sqrt(2.0 * area)) if grid.cylindrical else area, float(share[0])
 
     def _rows(self, walls: tuple[np.ndarray, np.ndarray]) -> Rows:
-        """The rows of the mesh, with what `_walls` gives."""
+        """The rows of the mesh, from the result of `_walls`."""
         edges = self._depth(self.sim.grid.z_edges)
-        found = np.array([self._row(*row) for row in zip(*walls, strict=True)])
+        hole = np.array([self._row(*row) for row in zip(*walls, strict=True)])
         if self.direction < 0:
-            edges, found = edges[::-1], found[::-1]
-        return Rows(edges[:-1], edges[1:], found[:, 0], found[:, 1])
+            edges, hole = edges[::-1], hole[::-1]
+        return Rows(edges[:-1], edges[1:], hole[:, 0], hole[:, 1])
 
     def _bottom(self, rows: Rows) -> tuple[int, float]:
-        """Row of the hole's bottom on the axis and its depth in m; the number of rows and the rear of a target shot through."""
+        """Row of the hole's bottom on the axis and its depth in m; the number of rows and the rear if perforated."""
         closed = (rows.axis >= HALF) & (rows.near + rows.far > 0.0)
         if not closed.any():
             return len(closed), max(min(self.rear, float(rows.far[-1])), 0.0)
@@ -176,7 +176,7 @@ class Crater:
     # ------------------------------------------------------------------------------------------------ rows left behind
 
     def record(self) -> None:
-        """After a cycle: keeps the radius in the mesh's last row, once for every height of it that the mesh has moved."""
+        """After a cycle: keeps the radius in the mesh's last row, once for every row height that the mesh has moved."""
         edge = self._trailing_edge()
         if self.sim.grid.offset == 0.0 or edge < self._next:
             return
@@ -189,7 +189,7 @@ class Crater:
     def _last_row(self, last: int, wall: np.ndarray, filled: np.ndarray) -> tuple[float, float]:
         """Depth and radius of the hole in a row that leaves the mesh, in the plate as it was before it bent, m.
 
-        NaN for the radius where there is no wall, and while the row is no deeper than the plate has bent.
+        The radius is NaN if there is no wall, and while the row is no deeper than the plate has bent.
         """
         order = slice(None, None, 1 if self.direction > 0 else -1)
         _, way, _ = self._bends(wall[order], filled[order], self._depth(self.sim.grid.z_edges)[order])
@@ -200,14 +200,14 @@ class Crater:
         return depth - float(way[np.argmax(wall[last])]), radius
 
     def saved(self) -> dict:
-        """What a restart file keeps of it."""
+        """Data for a restart file."""
         return {"next": self._next, "left": [list(pair) for pair in self._left]}
 
     def resume(self, saved: dict) -> None:
-        """Continues from what was saved."""
+        """Continues from the result of `saved`."""
         self._next, self._left = saved["next"], [(depth, radius) for depth, radius in saved["left"]]
 
-    # ------------------------------------------------------------------------------------------------ what is known
+    # ------------------------------------------------------------------------------------------------ results
 
     def _hole(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, bool]:
         """Near and far ends of the hole's rows as depths and their radii, all (n,), and the depth of the bottom; m. Last,
@@ -234,24 +234,24 @@ class Crater:
     def profile(self) -> tuple[np.ndarray, np.ndarray]:
         """Axial positions and radii of the hole in m, shapes (n,), along the rod's flight from the entrance to the bottom.
 
-        Rows of a lip before the target's original face and of a bulge behind its rear are in it; it is empty before impact.
+        It includes rows of a lip before the target's original face and of a bulge behind its rear; it is empty before impact.
         """
         near, far, radius, _, _ = self._hole(self._walls())
         return self.target.surface + self.direction * 0.5 * (near + far), radius
 
     def measure(self) -> dict:
-        """What summary.json says of the hole; SI, whole circumference, within the target's original faces.
+        """The entries of summary.json on the hole; SI, whole circumference, within the target's original faces.
 
         All lengths are those of the plate as it was before it bent, see `_unbent`. The entrance is where the wall becomes
-        steeper than 45 degrees, and the exit where it was so last. The mean diameter is that of the cylinder (in planar
-        geometry: the slot) with the hole's volume and depth, None where there is no hole.
+        steeper than 45 degrees, and the exit is the last such place. The mean diameter is that of the cylinder (in planar
+        geometry: the slot) with the hole's volume and depth, None if there is no hole.
         """
         walls = self._walls()
         near, far, radius, depth, through = self._hole(walls)
         below = near + far > 0.0
         near, far, radius = near[below], far[below], radius[below]
         mouth, end = self._ends(near + far, radius)
-        near[:1] = np.minimum(near[:1], 0.0)  # a row that the original face cuts has no wall where less than half is left
+        near[:1] = np.minimum(near[:1], 0.0)  # a row that the original face cuts has no wall if less than half is left
         height = np.maximum(np.minimum(far, self.rear) - np.maximum(near, 0.0), 0.0)
         cylindrical, penetrator = self.sim.grid.cylindrical, self.sim.penetrator
         volume = float(np.sum((np.pi * radius**2 if cylindrical else radius) * height))
@@ -270,7 +270,7 @@ class Crater:
         }
 
     def _ejected(self, pieces: np.ndarray) -> dict[str, float | None]:
-        """Mass and mean axial velocity of what of the target has left it through its rear; pieces : see `pieces`."""
+        """Mass and mean axial velocity of target material ejected through its rear; pieces : see `pieces`."""
         grid, s = self.sim.grid, self.sim.state
         mass = np.where(~pieces & self.beyond(), grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
         mass *= grid.volume[grid.inside]

@@ -2,7 +2,7 @@
 
 `Cycle.advance` is the page to read: equation of state, mixed-cell closure, viscosity and time step; stress, forces and
 velocities, work and strain (the Lagrangian step); then the remap, one sweep per direction, their order reversed every cycle.
-What each of its phases consists of is listed in `kernels.lagrangian_step` and `kernels.remap_step`.
+`kernels.lagrangian_step` and `kernels.remap_step` list the kernels of its phases.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ class Cycle:
     state : State, with vof, q, u and v set
     table : MaterialTable
     method : Method
-    mesh : what says how the mesh moves; without it the mesh stands
-    sources : Sources; without them nothing gives energy
+    mesh : the motion of the mesh; without it the mesh is fixed
+    sources : Sources; without them no energy is added
 
     Attributes
     ----------
     time, dt, number : time reached (s), last time step (s), cycles done
-    cause : str, what set the last time step, and where
+    cause : str, the cause of the last time step, and its place
     active : ActiveBox, the cells that are active;  box : its rows and columns [j0, j1, i0, i1]
     rows : int64[n + 1], first row of each part of the box and one past the last (`parts`)
     sound_speeds : float64[m], bulk sound speed of every body at rest, m/s
@@ -90,7 +90,7 @@ class Cycle:
     # ------------------------------------------------------------------------------------------------ preparation
 
     def prepare(self) -> None:
-        """Everything that follows from vof, q, u, v: masses, ranges, the active box. Called once, and after a restart."""
+        """Everything that follows from vof, q, u, v: masses, ranges, the active box. Called at the start or a restart."""
         s, every = self.state, self.box
         self.active.box = self.mesh_box.tolist()
         self.mesh.prepare()
@@ -116,7 +116,7 @@ class Cycle:
         self.given.run(phase, parts=self.active.rows, i0=i0, i1=i1, **given)
 
     def activate(self) -> None:
-        """Lets the active box grow ahead of whatever moves, and cuts it into parts."""
+        """Grows the active box ahead of all motion, and cuts it into parts."""
         if not self.active.is_all:
             self._in_one_part(remap_step.find_moving)
             if self.active.grow():
@@ -128,7 +128,7 @@ class Cycle:
     # ------------------------------------------------------------------------------------------------ Lagrangian step
 
     def find_slip_zones(self) -> None:
-        """Distance to the hard bodies and the zones beside them, every few cycles."""
+        """Distance to the hard bodies and the zones next to them, every few cycles."""
         if self.method.slip_widths is not None and self.number % self.method.refresh == 0:
             self.given.run(lagrangian_step.slip_zones)
 
@@ -162,7 +162,7 @@ class Cycle:
     # ------------------------------------------------------------------------------------------------ remap
 
     def remap_bodies(self, dj: int, di: int, second: int) -> None:
-        """Volume of every body through every face of one direction, what it carries with it, and the cells after the sweep."""
+        """Volume of every body through every face of one direction, quantities it carries, and the cells after the sweep."""
         s, leading = self.state, self.mesh.leading
         self.mesh.fill_ghosts(self.dt)
         face, own = (s.fr, "own_r") if di else (s.fz, "own_z")
@@ -172,7 +172,7 @@ class Cycle:
         self.books.outflow(di)
 
     def remap_momentum(self, dj: int, di: int, second: int) -> None:
-        """Velocities after the sweep, by the advection choice; what it discards and what is tidied away is audited."""
+        """Velocities after the sweep, by the advection choice; discarded and tidied amounts are audited."""
         low, high = self.books.open_edges(di)
         self.state.swap_velocities()
         self.given.run(remap_step.carry_momentum, dj=dj, di=di, second=bool(second), opens_low=low, opens_high=high)

@@ -1,4 +1,4 @@
-"""What flies behind a target: its mass, momentum and speeds, the angles of its flight, and its fragments."""
+"""Debris behind a target: its mass, momentum and speeds, the angles of its flight, and its fragments."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ CONE, LEADING = 0.9, 0.01
 
 
 class Debris(NamedTuple):
-    """What is behind a target. Arrays by body have a column for each name in ``bodies``; SI, whole circumference.
+    """Debris behind a target. Arrays by body have a column for each name in ``bodies``; SI, whole circumference.
 
-    bodies : that it is made of
+    bodies : those that it is made of
     speeds, by_speed : edges of the bins of axial speed along the flight (n + 1,), and the mass in them (n, bodies)
     angles, by_angle : edges of the bins of the angle to the axis, rad (n + 1,), and the mass in them (n, bodies)
-    fragments : FRAGMENTS of each, (k, 5), the heaviest first;  kinds : number in ``bodies`` of that which it is mostly, (k,)
+    fragments : FRAGMENTS of each, (k, 5), the heaviest first;  kinds : number in ``bodies`` of the main body of each, (k,)
     totals : measured.DEBRIS by name
     """
 
@@ -37,13 +37,13 @@ class Debris(NamedTuple):
 
 
 def find(sim, crater, later: list[int]) -> Debris:
-    """What is behind the target of a crater, the projectile included, but for cells of the target's pieces and beside them.
+    """Debris behind the target of a crater, including the projectile, except in and next to cells of the target's pieces.
 
     crater : Crater of the target
-    later : indices of the targets that the projectile meets after it, which are no debris
+    later : indices of the targets that the projectile meets after it; they are not debris
 
     Each cell has the velocity of its body group, the mean of its four vertices. Momentum, energy, speeds and angles
-    are relative to the target as it would move on had nothing touched it; the fragments have velocities of the mesh's frame.
+    are relative to the target as it would move if nothing had touched it; fragments have velocities in the frame of the mesh.
     They are those of `_pieces`, in cylindrical geometry rings unless they reach the axis. Bodies that touch are one fragment.
     """
     grid, state, table = sim.grid, sim.state, sim.table
@@ -70,7 +70,7 @@ def find(sim, crater, later: list[int]) -> Debris:
 
 
 def _pieces(filled: np.ndarray) -> tuple[np.ndarray, int]:
-    """Number of the fragment of each cell (nz, nr), 0 in none, and how many there are; filled : by debris, shape (nz, nr).
+    """Number of the fragment of each cell (nz, nr), 0 in none, and the number of fragments; filled : by debris, shape (nz, nr).
 
     A fragment is a set of cells, joined by faces, that are filled by half or more. One that is narrower than a cell may have
     no such cell: a set of cells filled by CRUMB or more, none of them by half, is a fragment as well.
@@ -88,8 +88,8 @@ def _pieces(filled: np.ndarray) -> tuple[np.ndarray, int]:
 
 def _binned(values: np.ndarray, mass: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Mass of each body in bins of a quantity, (n, bodies)."""
-    found = [np.histogram(one.ravel(), edges, weights=weight.ravel())[0] for one, weight in zip(values, mass, strict=True)]
-    return np.stack(found, axis=1) if found else np.zeros((len(edges) - 1, 0))
+    histograms = [np.histogram(one.ravel(), edges, weights=weight.ravel())[0] for one, weight in zip(values, mass, strict=True)]
+    return np.stack(histograms, axis=1) if histograms else np.zeros((len(edges) - 1, 0))
 
 
 def _fragments(grid, labels: np.ndarray, count: int, mass: np.ndarray, u: np.ndarray, v: np.ndarray):
@@ -103,9 +103,9 @@ def _fragments(grid, labels: np.ndarray, count: int, mass: np.ndarray, u: np.nda
     own = total(whole)
     sums = [total(whole * r), total(whole * z), total((mass * u).sum(axis=0)), total((mass * v).sum(axis=0))]
     order = np.argsort(-own, kind="stable")
-    found = np.column_stack([own, *(each / np.maximum(own, 1e-300) for each in sums)])[order]
+    fragments = np.column_stack([own, *(each / np.maximum(own, 1e-300) for each in sums)])[order]
     kinds = np.argmax([total(each) for each in mass], axis=0)[order] if len(mass) else np.zeros(0, dtype=int)
-    return found.reshape(-1, len(FRAGMENTS)), kinds
+    return fragments.reshape(-1, len(FRAGMENTS)), kinds
 
 
 def _totals(mass: np.ndarray, u: np.ndarray, axial: np.ndarray, angle: np.ndarray, fragments: np.ndarray) -> dict:
@@ -126,7 +126,7 @@ def _totals(mass: np.ndarray, u: np.ndarray, axial: np.ndarray, angle: np.ndarra
 
 
 def _quantile(values: np.ndarray, mass: np.ndarray, share: float) -> float | None:
-    """The value that this share of the mass does not exceed; None where there is no mass."""
+    """The value that this share of the mass does not exceed; None if there is no mass."""
     there = mass > 0.0
     if not there.any():
         return None

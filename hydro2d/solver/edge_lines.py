@@ -1,4 +1,4 @@
-"""Where the edges of the mesh are, as kernels and sources take them."""
+"""The places of the edges of the mesh, for kernels and sources."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 class EdgeLines:
-    """The first and the last column and row of vertices, by what stands there.
+    """The first and the last column and row of vertices, by the kind of edge.
 
     Parameters
     ----------
@@ -16,9 +16,9 @@ class EdgeLines:
     Attributes
     ----------
     constrained, pushing, transmitting : int64[4], columns (2) and rows (2) of the edges whose normal velocity is given, that
-        push and are left, and that have dashpots; -1 for the others
-    held : list of (sink, axis, vertices) of the edges that hold what comes to them
-    widths : list of the four widths of the cells beside the edges along their normals, m
+        only push, and that have dashpots; -1 for the others
+    held : list of (sink, axis, vertices) of the edges that constrain their vertices
+    widths : list of the four widths of the cells next to the edges along their normals, m
     """
 
     def __init__(self, boundaries, grid):
@@ -31,12 +31,12 @@ class EdgeLines:
         self.widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
 
     def void_beyond(self, leading: int | None) -> np.ndarray:
-        """The edges (rows j0, j1, columns i0, i1) through which nothing but void comes in, -1 for the others.
+        """The edges (rows j0, j1, columns i0, i1) through which only void comes in, -1 for the others.
 
-        leading : the edge that goes ahead with a mesh that travels, None for a mesh that stands
+        leading : the leading edge of a travelling mesh, None for a fixed mesh
         """
-        found = self._mesh.copy()
-        found[np.roll(self._boundaries.having("supplies"), 2)] = -1
+        edges = self._mesh.copy()
+        edges[np.roll(self._boundaries.having("supplies"), 2)] = -1
         if leading is not None:
-            found[leading] = -1
-        return found
+            edges[leading] = -1
+        return edges

@@ -23,8 +23,8 @@ def calls_of_a_cycle(make: Callable[[], Any]) -> list[jit.Call]:
 
     make : makes the simulation
 
-    Nothing is computed: calls of kernels are only recorded. Code that needs their results may therefore fail, and every part of
-    the cycle ends quietly where it fails.
+    Nothing is computed: calls of kernels are only recorded. Code that needs their results may therefore fail; every part of
+    the cycle then ends quietly.
     """
     with jit.recorded() as calls:
         simulation = make()
@@ -37,7 +37,7 @@ def calls_of_a_cycle(make: Callable[[], Any]) -> list[jit.Call]:
 
 
 def _go_on_after_failure(part) -> None:
-    """Makes every method of an object return quietly where it fails."""
+    """Makes every method of an object return quietly if it fails."""
     for name in dir(type(part)) if part is not None else ():
         method = getattr(type(part), name)
         if not name.startswith("__") and callable(method) and not isinstance(method, type):

@@ -1,9 +1,8 @@
-"""How the mesh moves: not at all, or along z with a body (explanation/following-mesh).
+"""Motion of the mesh: none, or along z with a body (explanation/following-mesh).
 
-A mesh that travels has one axial velocity w, constant within a step. The Lagrangian step knows nothing of it; the faces that
-material crosses in the remap do: relative to the mesh a face along z sweeps F_z - w dt A, with A the axial area of its column.
-After the sweeps the whole mesh has advanced by w dt. What flows in through the edge that goes ahead is what the deck has
-placed there.
+A travelling mesh has one axial velocity w, constant within a step. It does not affect the Lagrangian step, but the remap:
+relative to the mesh a face along z sweeps F_z - w dt A, with A the axial area of its column. After the sweeps the whole mesh
+has advanced by w dt. The material that the deck has placed ahead flows in through the leading edge.
 """
 
 from __future__ import annotations
@@ -18,14 +17,14 @@ from hydro2d.mesh.state import EMPTY
 from hydro2d.mesh.sums import HALF
 from hydro2d.solver import insertion
 
-#: what enters is looked up in a strip of at least this share of a cell, so that it has a height where the mesh rests
+#: entering material is looked up in a strip of at least this share of a cell, so that it has a height when the mesh rests
 THINNEST = 1e-9
 
 
 class StandingMesh:
     """A mesh that stays where it is.
 
-    velocity : float, of the mesh along z, m/s;  leading : the edge along z that goes ahead, 0 low, 1 high, None: neither
+    velocity : float, of the mesh along z, m/s;  leading : the leading edge along z, 0 low, 1 high, None: neither
     """
 
     velocity = 0.0
@@ -38,14 +37,14 @@ class StandingMesh:
         """Chooses the velocity of the mesh for the step."""
 
     def fill_ghosts(self, dt: float) -> None:
-        """Places in the ghost cells ahead of the mesh what flows in."""
+        """Fills the ghost cells ahead of the mesh with the inflow."""
 
     def move(self, dt: float) -> None:
         """Moves the mesh to the end of the step."""
 
 
 class UndisturbedSpace:
-    """What a deck has placed anywhere along z, on the columns of a mesh.
+    """The bodies that a deck has placed anywhere along z, on the columns of a mesh.
 
     Parameters
     ----------
@@ -64,7 +63,7 @@ class UndisturbedSpace:
         self._layers: dict[int, dict] = {}
 
     def beyond(self, z: float, direction: float) -> set[int]:
-        """The bodies m of which something lies beyond z in a direction along the axis."""
+        """The bodies m that reach beyond z in a direction along the axis."""
         return {m for m, low, high in self._extents if (high > z if direction > 0 else low < z)}
 
     def strip(self, low: float, high: float) -> dict[str, np.ndarray]:
@@ -72,8 +71,8 @@ class UndisturbedSpace:
 
         Shapes (m, nr), of ``centroid`` (2, m, nr).
 
-        Between two heights at which something begins, ends or curves they are computed once, for all of the space between, so
-        that they do not depend on when they are asked for: a run that goes on from a restart has the same bits.
+        Where no body begins, ends or curves between two heights, they are computed once for all of the space between, so that
+        they do not depend on the time of the call: a run continued from a restart has the same bits.
         """
         first, last = np.searchsorted(self._levels, [low, high], side="right")
         if first != last or any(a < high and b > low for a, b in self._curved):
@@ -85,14 +84,14 @@ class UndisturbedSpace:
 
     def _insert(self, low: float, high: float) -> dict[str, np.ndarray]:
         row = Grid(self.grid.r_edges, [low, high], self.grid.geometry)
-        found = insertion.initial_state(self.deck, row, self.table)
-        return {name: found[name][..., 0, :] for name in ("vof", "centroid", "rho", "e")}
+        state = insertion.initial_state(self.deck, row, self.table)
+        return {name: state[name][..., 0, :] for name in ("vof", "centroid", "rho", "e")}
 
 
 class FollowingMesh:
     """A mesh that travels with the core of a body, forward only.
 
-    The core is what of the body is intact and hangs together from the axis outward along its longest run on the axis, so that
+    The core is the intact part of the body that is connected from the axis outward along its longest run on the axis, so that
     debris does not drag the mesh along, unless it lies against the core. A body that is not on the axis is followed as a whole.
 
     Parameters
@@ -118,7 +117,7 @@ class FollowingMesh:
         self._announce()
 
     def _announce(self) -> None:
-        """Gives bodies that may enter the whole of the ghost rows ahead as their range of columns."""
+        """Gives bodies that may enter all columns of the ghost rows ahead as their range."""
         s, g = self.state, self.grid
         coming = self.space.beyond(self._edge, self.direction)
         for row in self._ghost_rows:
@@ -128,7 +127,7 @@ class FollowingMesh:
                 s.occupied[: s.group[m] + 1, row] = g.g, g.g + g.nr
 
     def follow(self) -> None:
-        """Takes the mean velocity, by mass, of the body's core; of all of the body where it has none, and never backward."""
+        """Takes the mass-weighted mean velocity of the body's core, or of the whole body if it has no core; never backward."""
         s, g, m = self.state, self.grid, self.m
         sums.axis_run(g.g, g.nz, m, HALF, g.z, s.vof, s.dmg, self._run)
         first, last = self._run
@@ -145,24 +144,24 @@ class FollowingMesh:
         self.velocity = velocity if velocity * self.direction > 0.0 else 0.0
 
     def fill_ghosts(self, dt: float) -> None:
-        """What the deck has placed in the strip that the leading edge crosses in the step, at rest and without stress.
+        """Inserts the deck's material in the strip that the leading edge crosses in the step, at rest and without stress.
 
-        Nothing else writes there: what was placed stays until something else comes.
+        Nothing else writes there: the material stays until other material replaces it.
         """
         s, g, z = self.state, self.grid, self._edge
         row = self._ghost_rows[0]
         height = max(abs(self.velocity) * dt, THINNEST * g.dz[row])
-        found = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
-        if found is self._placed:
+        strip = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
+        if strip is self._placed:
             return
-        self._placed = found
-        vof, rho, e, centroid = (self._padded(found[name]) for name in ("vof", "rho", "e", "centroid"))
+        self._placed = strip
+        vof, rho, e, centroid = (self._padded(strip[name]) for name in ("vof", "rho", "e", "centroid"))
         for row in self._ghost_rows:
             s.vof[:, row], s.q[:, :, row] = vof, s.initial[:, :, None]
             s.q[RHO, :, row], s.q[E, :, row], s.centroid[:, :, row] = rho, e, centroid
 
     def move(self, dt: float) -> None:
-        """Advances the mesh by w dt, and forgets bodies that are inside as a whole."""
+        """Advances the mesh by w dt, and drops bodies that are wholly inside."""
         self.grid.move(self.grid.offset + self.velocity * dt)
         self._announce()
 

@@ -1,6 +1,6 @@
-"""What the phases of a step are given: the handle in which they find arrays and numbers of state, mesh, materials and method.
+"""Arguments of the phases of a step: a handle to the arrays and numbers of state, mesh, materials and method.
 
-What the names mean stands in `hydro2d.kernels.names`.
+`hydro2d.kernels.names` has the meanings of the names.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from hydro2d.mesh import fields
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.solver.contact import most_squares
 
-#: what takes turns: the velocities at the end of a step and at its beginning
+#: arrays that alternate: the velocities at the end of a step and at its beginning
 AT_END, AT_BEGINNING = ("velocity", "u", "v"), ("velocity0", "u0", "v0")
 
 
@@ -77,14 +77,14 @@ class Given:
         self._keep_up()
 
     def _keep_up(self) -> None:
-        """Velocities take turns, and ties may have got more slots."""
+        """Updates the handle: velocities alternate, and ties may have new slots."""
         if self.handle.values.get("masters") is not self._contact.ties.masters:
             self.handle.give(**self._contact.ties._asdict())
         if self.handle.values["velocity"] is not self._state.velocity:
             self.handle.exchange(AT_END, AT_BEGINNING)
 
     def run(self, phase: Phase, **given) -> None:
-        """Runs a phase with what is given from now on."""
+        """Runs a phase with these values, which stay set."""
         self._keep_up()
         self.handle.give(**given)
         phase(self.handle)

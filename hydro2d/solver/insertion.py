@@ -1,6 +1,6 @@
 """Bodies put into the mesh: exact volume fractions and the state at time zero.
 
-At every height z a body fills a few intervals of r. What earlier bodies of the deck fill is taken off those of later
+At every height z a body fills a few intervals of r. Intervals of earlier bodies of the deck are subtracted from those of later
 ones. The share of a cell is the integral over its height of the clipped intervals, in r^2/2 for r-z and in r for planar
 geometry: by Gauss quadrature between all heights at which a curve bends, meets an edge of the mesh or meets another
 curve. In between the integrand is smooth, so that the result is exact to round-off.
@@ -23,7 +23,7 @@ GAS = "ideal-gas"
 _SNAP = 1e-12
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _HALF_TURNS = 0.25 * math.pi * (_NODES + 1.0)
-#: z = a + (b - a) sin^2(pi t/2) takes the square roots at the ends of arcs away
+#: z = a + (b - a) sin^2(pi t/2) removes the square roots at the ends of arcs
 _PLACES = np.sin(_HALF_TURNS) ** 2
 _SHARES = _WEIGHTS * np.sin(2 * _HALF_TURNS)
 _SHARES /= _SHARES.sum()
@@ -36,7 +36,7 @@ def fractions(outlines: list[Outline], r_edges: np.ndarray, z_edges: np.ndarray,
 
 def shares_and_moments(outlines: list[Outline], r_edges: np.ndarray, z_edges: np.ndarray,
                        cylindrical: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Share of every cell that each outline fills, and its first moments; where outlines overlap, the earlier has the place.
+    """Share of every cell that each outline fills, and its first moments; where outlines overlap, the earlier takes the space.
 
     Parameters
     ----------
@@ -82,9 +82,9 @@ def _area_of(r_edges: np.ndarray, cylindrical: bool):
 
 
 def _integrate(total: np.ndarray, rows: list[list[Slab]], a: float, b: float, low: float, high: float, area) -> None:
-    """Adds to ``total`` [3, m, nr] what every body fills of the row from ``low`` to ``high`` between z = a and z = b.
+    """Adds to ``total`` [3, m, nr] the contribution of every body to the row from ``low`` to ``high`` between z = a and z = b.
 
-    Its mean area over the row, and its moments along r and z.
+    These are its mean area over the row, and its moments along r and z.
     """
     share = (b - a) / (high - low)
     middle = 0.5 * (a + b)
@@ -120,24 +120,24 @@ def _without(intervals: list[tuple[float, float]], low: float, high: float) -> l
 
 def _breaks(rows: list[list[Slab]], low: float, high: float, r_edges: np.ndarray) -> list[float]:
     """Heights between ``low`` and ``high`` at which the integrand may bend, in order."""
-    found = {low, high}
+    breaks = {low, high}
     curves = []
     for slabs in rows:
         for slab in slabs:
             a, b = max(slab.low, low), min(slab.high, high)
-            found.update((a, b))
+            breaks.update((a, b))
             for curve in (slab.inner, slab.outer):
                 curves.append((a, b, curve))
-                found.update(_crossings(curve, a, b, r_edges))
-    levels = sorted(found)
+                breaks.update(_crossings(curve, a, b, r_edges))
+    levels = sorted(breaks)
     curves.sort(key=lambda curve: curve[0])
     for n, (a1, b1, first) in enumerate(curves):
         for a2, b2, second in islice(curves, n + 1, None):
             if a2 >= b1:
                 break
             if not (first.constant and second.constant):
-                found.update(_meetings(first, second, max(a1, a2), min(b1, b2), levels))
-    return sorted(found)
+                breaks.update(_meetings(first, second, max(a1, a2), min(b1, b2), levels))
+    return sorted(breaks)
 
 
 def _crossings(curve, a: float, b: float, r_edges: np.ndarray) -> list[float]:
@@ -151,7 +151,7 @@ def _crossings(curve, a: float, b: float, r_edges: np.ndarray) -> list[float]:
 
 def _meetings(first, second, a: float, b: float, levels: list[float]) -> list[float]:
     """Heights from a to b at which two curves cross, one at most between neighbouring levels."""
-    found = []
+    meetings = []
     inside = levels[bisect_left(levels, a) : bisect_right(levels, b)]
     for low, high in zip(inside, inside[1:], strict=False):
         left, right = first.r(low) - second.r(low), first.r(high) - second.r(high)
@@ -162,8 +162,8 @@ def _meetings(first, second, a: float, b: float, levels: list[float]) -> list[fl
                     low = middle
                 else:
                     high = middle
-            found.append(0.5 * (low + high))
-    return found
+            meetings.append(0.5 * (low + high))
+    return meetings
 
 
 def _snapped(vof: np.ndarray) -> np.ndarray:
@@ -188,7 +188,7 @@ def slot_of(deck, table) -> list[int]:
 
 
 def insert(deck, grid, table) -> np.ndarray:
-    """Volume fractions of the slots, float64[m, nz, nr] without ghosts. Earlier bodies have the place of later ones."""
+    """Volume fractions of the slots, float64[m, nz, nr] without ghosts. Earlier bodies take the space of later ones."""
     result = np.zeros((len(table), grid.nz, grid.nr))
     for m, share in zip(slot_of(deck, table), _body_shares(deck, grid)[0], strict=True):
         result[m] += share
@@ -213,9 +213,9 @@ def body_velocity(body, r, z) -> tuple[np.ndarray, np.ndarray]:
 def body_state(body, table, m: int) -> tuple[float, float]:
     """Initial density and specific internal energy of a body in slot m.
 
-    A body about which the deck says nothing is at rest at exactly zero pressure: rho0 and e0 of its material. One of which it
-    says the temperature has the density at which it has its pressure, or none; a gas has its own density.
-    DeckError where no state has the pressure or the temperature asked for.
+    By default a body is at exactly zero pressure: rho0 and e0 of its material. With a given temperature it has the density
+    at which its pressure is the given one, or zero; a gas has its own density.
+    DeckError if no state has the required pressure or temperature.
     """
     gas = table.materials[m].eos.name == GAS
     if body.temperature is not None and body.density is None and not (gas and body.pressure is None):
@@ -233,7 +233,7 @@ def body_state(body, table, m: int) -> tuple[float, float]:
 def _state_for(body, table, m: int, pressure: float, temperature: float) -> tuple[float, float]:
     """Density and energy at which a body has a pressure and a temperature: that nearest to its own density.
 
-    DeckError where there is none from a fifth of its own density to five times it.
+    DeckError if there is none from a fifth of its own density to five times it.
     """
     own = float(table.rho0[m])
 
@@ -243,12 +243,12 @@ def _state_for(body, table, m: int, pressure: float, temperature: float) -> tupl
     inner, at_inner = own, error(own)
     step = 0.98 if at_inner > 0.0 else 1.02
     outer, at_outer = inner, at_inner
-    with suppress(DeckError):  # what has no such temperature there has no such state either
+    with suppress(DeckError):  # without this temperature there is no such state either
         while at_outer * at_inner > 0.0 and 0.2 * own < outer < 5.0 * own:
             inner, outer = outer, outer * step
             at_outer = error(outer)
     if not at_outer * at_inner <= 0.0:
-        raise DeckError(f'body "{body.name}": at no density has {table.materials[m].name} a pressure of {pressure:g} Pa at '
+        raise DeckError(f'body "{body.name}": {table.materials[m].name} has no density with a pressure of {pressure:g} Pa at '
                         f"{temperature:g} K; give its density")
     for _ in range(200):
         middle = 0.5 * (inner + outer)
@@ -261,7 +261,7 @@ def _state_for(body, table, m: int, pressure: float, temperature: float) -> tupl
 def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> float:
     """The energy at which output ``which`` of the equation of state (0 pressure, 3 temperature) has a value.
 
-    Both are linear in the energy in every model that has a constant specific heat; a secant serves those that have not.
+    Both are linear in the energy in every model with a constant specific heat; a secant serves the others.
     """
     def error(e: float) -> float:
         return table.evaluate(m, rho, e)[which] - target
@@ -282,8 +282,8 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
 
 
 def _refuse_unstable(body, table, m: int) -> None:
-    """Raises DeckError where the square of the speed of sound is negative at the start, and such material is torn at once, and
-    where its table has no such state."""
+    """Raises DeckError if the square of the speed of sound is negative at the start, since such material fails at once, or if
+    its table has no such state."""
     from eos.dispatch import sound_speed_squared
 
     rho, e = body_state(body, table, m)
@@ -308,11 +308,11 @@ def initial_state(deck, grid, table, group=None) -> dict[str, np.ndarray]:
     Returns
     -------
     dict with float64 arrays
-        ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg), shape (m, nz, nr); density and energy also where a body is not.
+        ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg), shape (m, nz, nr); density and energy also where there is none of a body.
         ``centroid``, shape (2, m, nz, nr): offsets from the middle of the cell along r^2/2 (planar: r) and z, in cells.
-        ``u_cell``, ``v_cell`` (m/s), shape (b, nz, nr): momentum over mass of the group, 0 where nothing of it is.
+        ``u_cell``, ``v_cell`` (m/s), shape (b, nz, nr): momentum over mass of the group, 0 where there is none of it.
 
-    Raises DeckError where a body has no speed of sound.
+    Raises DeckError if a body has no speed of sound.
     """
     (shares, moments), slots = _body_shares(deck, grid), slot_of(deck, table)
     shape = (len(table), grid.nz, grid.nr)

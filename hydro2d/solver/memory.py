@@ -1,4 +1,4 @@
-"""How much memory a deck needs, before any of it is taken."""
+"""The memory that a deck needs, before any of it is allocated."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hydro2d.materials import library
 from hydro2d.mesh.grid import GHOSTS
 from hydro2d.mesh.state import bytes_needed
 
-#: doubles per cell and body that filling the mesh takes beside the state
+#: doubles per cell and body that filling the mesh needs in addition to the state
 FILLING = 12
 
 
@@ -24,7 +24,7 @@ def needed(deck) -> int:
 
 
 def refuse_too_large(deck) -> None:
-    """Raises DeckError where the machine has not the memory to begin with the deck."""
+    """Raises DeckError if the machine does not have the memory to start the deck."""
     nr, nz = (len(edges) - 1 for edges in decks.edges(deck))
     whole = needed(deck) + 8 * FILLING * nr * nz * len(deck.body)
     there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")

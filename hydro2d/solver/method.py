@@ -13,7 +13,7 @@ from hydro2d.mesh.boundary_conditions import BoundaryConditions
 
 @dataclass(frozen=True)
 class Method:
-    """What `Cycle` needs to know of a deck; see the deck's `numerics`, `sliding`, `failure` and `boundaries`."""
+    """The choices of a deck that `Cycle` needs; see the deck's `numerics`, `sliding`, `failure` and `boundaries`."""
 
     advection: int
     ke_bound: float

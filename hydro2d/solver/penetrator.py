@@ -1,4 +1,4 @@
-"""What one measures of a rod in a target: depth, length, radius, speeds, plastic strain, and the regime by stated rules."""
+"""Measurements of a rod in a target: depth, length, radius, speeds, plastic strain, and the regime by stated rules."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from hydro2d.solver.targets import Target
 
 #: a rod has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
 LEFT_MASS = 0.01
-#: what falls behind the axis by more than half of its speed and this share of the first speed is debris and not of the core
+#: material slower than the axis by more than half of its speed plus this share of the first speed is debris, not core
 DEBRIS_SPEED = 0.05
-#: cycles between looks at whether it is through the target, at what ends a run, and at whether the state makes sense
+#: cycles between checks of perforation, of the ends of a run, and of whether the state makes sense
 WATCH_EVERY = 10
 
 
@@ -49,34 +49,34 @@ class Penetrator:
 
     Lengths are taken along the axis, from runs of cells that the rod fills by half or more, so that fragments behind the
     tail do not count: the depth from the deepest run in the columns within half a radius of the axis, failed or not, the rod's
-    length from the longest run on the axis that has not failed. Its core is what has not failed and hangs together from the
-    axis outward, row by row, along that run, as far as it keeps up with the axis: debris behind the tail, a skirt of
-    turned-back material and debris that flies back against the flank do not belong to it.
-    The depth that is told is the largest that the rod has had, of every tenth cycle and of now; where its deepest part is now,
-    as of a ball that has rebounded, is the depth of its nose.
-    A rod or a ball that lies in the mesh whole has the length of the deck at the start. Its cells show less: the tip of an
-    ogive is thinner than half a cell. What they show later is told in the same proportion, so that a rod that keeps its shape
-    keeps its length, and losses are shares of what they showed first. Of a head that has become blunt this tells too much, by
-    less than the tip was short, and the less the shorter the rod is.
+    length from the longest run on the axis that has not failed. Its core is intact material that is connected from the axis
+    outward, row by row, along that run, as far as it keeps up with the axis: debris behind the tail, a skirt of turned-back
+    material and debris that flies back against the flank do not belong to it.
+    The reported depth is the largest so far, of every tenth cycle and of now; the present depth of its deepest part, as of a
+    ball that has rebounded, is the depth of its nose.
+    A rod or a ball that lies wholly in the mesh has the length of the deck at the start. Its cells show less: the tip of an
+    ogive is thinner than half a cell. Later lengths are scaled in the same proportion, so that a rod that keeps its shape
+    keeps its length, and losses are shares of the length that the cells showed at first. If the head has become blunt this
+    overestimates the length, by less than the tip was short, and by less the shorter the rod is.
 
     The regime is that of `mesh/regime.py`, from the length, the largest radius and the mass of the core.
 
     A rod can leave the mesh through an open edge in z. Its core has reached the edge when it fills half of the edge's cell on
-    the axis and moves outwards there, as the mesh sees it. When more than 1 % of the rod's mass has flowed out since, the
+    the axis and moves outwards there, relative to the mesh. When more than 1 % of the rod's mass has flowed out since, the
     regime is "left the mesh" for good, and the nose stays where it was when the core reached the edge. Debris that leaves
     through any edge changes nothing as long as the core is inside. The edge behind the rod of a mesh that follows it does not
-    count: what flows out there is debris, even where it fills the hole up to the axis and so hangs together with the core.
+    count: material flowing out there is debris, even if it fills the hole up to the axis and so is connected to the core.
     A rod in pieces, with no cell on the axis half full, is through a target when most of it is beyond the rear; behind the last
-    target it has left the mesh by the same 1 %, and is gone when a tenth at most is left.
+    target it has left the mesh by the same 1 %, and is gone when at most a tenth is left.
 
-    Depths, rears and exits are measured from where the targets would be, had nothing touched them: a target that flies at the
-    rod takes its face along with its own velocity. Velocities are those of the mesh's frame.
+    Depths, rears and exits are measured from where the targets would be if nothing had touched them: the face of a target that
+    flies at the rod moves with its own velocity. Velocities are in the frame of the mesh.
 
     Parameters
     ----------
     sim : Simulation
     deck : its deck, which names the rod
-    targets : what the rod is to go through, in the order in which it meets them; the depth is that below the first one's face
+    targets : those that the rod is to go through, in the order in which it meets them; depths are below the first one's face
     direction : of its flight along z, 1 or -1
     """
 
@@ -111,12 +111,12 @@ class Penetrator:
 
     @property
     def targets(self) -> list[Target]:
-        """The targets as they would be now, had nothing touched them."""
+        """The targets as they would be now if nothing had touched them."""
         return [target.at(self.sim.time) for target in self._targets]
 
     @property
     def surface(self) -> float:
-        """Axial position, m, from which depths are measured: that of the first target's face, had nothing touched it."""
+        """Axial position, m, from which depths are measured: that of the first target's face if nothing had touched it."""
         return self._targets[0].at(self.sim.time).surface
 
     @property
@@ -130,7 +130,7 @@ class Penetrator:
         return self.sim.grid.interior(self.sim.state.vof)[self.m]
 
     def _intact(self, rows: slice, columns=slice(None)) -> np.ndarray:
-        """The same in some rows and columns, zero where the rod has failed."""
+        """Volume fraction of the rod in some rows and columns, zero where the rod has failed."""
         damage = self.sim.grid.interior(self.sim.state.dmg)[self.m]
         return np.where(damage[rows, columns] < 1.0, self._fraction()[rows, columns], 0.0)
 
@@ -154,7 +154,7 @@ class Penetrator:
         return float(low), float(high)
 
     def _length(self) -> tuple[float, float, float]:
-        """Length, lower and upper end of the longest run on the axis as its cells show it, m; zeros where there is none."""
+        """Length, lower and upper end of the longest run on the axis as its cells show it, m; zeros if there is none."""
         column = self._intact(slice(None), 0)
         ends = [self._ends(column, run) for run in self._runs(column)]
         if not ends:
@@ -165,13 +165,13 @@ class Penetrator:
     def nose(self) -> float:
         """Depth of the deepest rod material near the axis, from the original surface, now, m; 0 before impact.
 
-        Of a rod in pieces that fill no cell near the axis by half, the depth that a hundredth of their mass has reached. Of a
-        rod that has left the mesh, what it was when it reached the edge.
+        For a rod in pieces that fill no cell near the axis by half, the depth that a hundredth of their mass has reached. For a
+        rod that has left the mesh, the depth when it reached the edge.
         """
         return self.exit.depth if self.left else max(self._front(), 0.0)
 
     def _front(self) -> float:
-        """The same of a rod in the mesh, m; negative before impact."""
+        """Depth of the nose of a rod in the mesh, m; negative before impact."""
         fraction, deepest = self._fraction(), -np.inf
         for i in range(self.columns):
             column = fraction[:, i]
@@ -187,7 +187,7 @@ class Penetrator:
         return (depth[::-1], mass[::-1]) if self.direction > 0 else (depth, mass)
 
     def _front_of_pieces(self) -> float:
-        """Depth that the share LEFT_MASS of what is left of the rod has reached, m; 0 where nothing is left."""
+        """Depth that the share LEFT_MASS of the remaining rod has reached, m; 0 if nothing is left."""
         depth, mass = self._masses()
         whole = float(mass.sum())
         return float(depth[np.searchsorted(np.cumsum(mass), LEFT_MASS * whole)]) if whole > 0.0 else 0.0
@@ -203,7 +203,7 @@ class Penetrator:
         return float(self.sim.velocity_at(np.array([[0.0, z]]), self.sim.state.group[self.m])[0, 1])
 
     def _largest_strain(self, rows: np.ndarray) -> float:
-        """Largest plastic strain of the cells that the rod fills by half or more; rows are those that hold some of it."""
+        """Largest plastic strain of the cells that the rod fills by half or more; rows are those that contain some of it."""
         if len(rows) == 0:
             return 0.0
         rows = slice(rows[0], rows[-1] + 1)
@@ -212,22 +212,22 @@ class Penetrator:
 
     def _core(self, rows: slice) -> tuple[float, float]:
         """Mass in kg and axial momentum in N s of the core in the given rows, see `sums.core_sums`."""
-        g, s, found = self.sim.grid, self.sim.state, np.zeros(2)
+        g, s, totals = self.sim.grid, self.sim.state, np.zeros(2)
         sums.core_sums(g.g, g.nr, g.g + rows.start, g.g + rows.stop, self.m, HALF, self.direction, self._slack, self._against,
-                       g.volume, s.vof, s.dmg, s.rho, s.v[s.group[self.m]], found)
-        mass, momentum = (found * self._around).tolist()
+                       g.volume, s.vof, s.dmg, s.rho, s.v[s.group[self.m]], totals)
+        mass, momentum = (totals * self._around).tolist()
         return mass, momentum
 
     def _rows(self, low: float, high: float) -> slice:
-        """The rows from z = low to high, and what is cut by either end."""
+        """The rows from z = low to high, including those that either end cuts."""
         first, last = np.searchsorted(self.sim.grid.z_edges, (low, high))
         return slice(max(int(first) - 1, 0), min(int(last) + 1, self.sim.grid.nz))
 
     def velocity(self) -> float | None:
-        """Mean axial velocity of the core, m/s, so that what flies back from an eroding rod does not count; None where nothing
+        """Mean axial velocity of the core, m/s, so that debris flying back from an eroding rod does not count; None if nothing
         of the rod is left.
 
-        Without a core, only the pieces that fly on count, over the mass of all: debris that flies back pushes nothing.
+        Without a core, only the momentum of pieces flying forward counts, over the mass of all.
         """
         velocity, mass = self._whole_core()
         if mass > 0.0:
@@ -243,7 +243,7 @@ class Penetrator:
         """Axial velocity, m/s, by which a run ends: of the core, or of the tail while it outruns the core.
 
         A tail that is faster than its core by more than twice the velocity of a wave at the yield stress, 2 Y/(rho c), does not
-        ring: it still feeds the head, however slow that and the mean are. None where nothing of the rod is left.
+        ring: it still feeds the head, however slow the head and the mean are. None if nothing of the rod is left.
         """
         velocity, (length, low, high) = self.velocity(), self._length()
         if velocity is None or length == 0.0:
@@ -252,13 +252,13 @@ class Penetrator:
         return tail if self.direction * (tail - velocity) > self._ringing else velocity
 
     def _whole_core(self) -> tuple[float, float]:
-        """Mean axial velocity in m/s and mass in kg of the core; zeros where nothing is left of it."""
+        """Mean axial velocity in m/s and mass in kg of the core; zeros if nothing is left of it."""
         _, low, high = self._length()
         mass, momentum = self._core(self._rows(low, high))
         return (momentum / mass, mass) if mass > 0.0 else (0.0, mass)
 
     def _whole(self) -> tuple[float, float]:
-        """The same of all that is left of the rod."""
+        """Mean axial velocity in m/s and mass in kg of the remaining rod."""
         mass, momentum = (float(rows.sum()) for rows in self.sim.body_sums(self.m))
         return (momentum / mass if mass > 0.0 else 0.0), mass * self._around
 
@@ -269,7 +269,7 @@ class Penetrator:
         return bool(self._run[0] == self._run[1])
 
     def _share_beyond(self, rear: float) -> float:
-        """Share of what is left of the rod that is deeper than the rear of a target."""
+        """Share of the remaining rod that is deeper than the rear of a target."""
         depth, mass = self._masses()
         whole = float(mass.sum())
         return float(mass[depth > rear].sum()) / whole if whole > 0.0 else 0.0
@@ -281,7 +281,7 @@ class Penetrator:
     # ------------------------------------------------------------------------------------------------ leaving the mesh
 
     def watch(self) -> None:
-        """After a cycle: remembers the rod as it is when its core reaches an open edge, and as it is through each target."""
+        """After a cycle: records the rod when its core reaches an open edge, and when it is through each target."""
         looks = self.sim.cycle % WATCH_EVERY == 0
         while looks and len(self.passed) < len(self.targets) and self._is_through(len(self.passed)):
             flying = self._whole() if self._in_pieces() else self._whole_core()
@@ -301,11 +301,11 @@ class Penetrator:
             self._deepest = max(self._deepest, self.nose())
 
     def _is_through(self, number: int) -> bool:
-        """Whether the rod, or most of its pieces, is through a target; quick where it is far from that."""
+        """Whether the rod, or most of its pieces, is through a target; quick if it is far from that."""
         return (self._near_exit() and self._through(self.nose(), number)) or self._pieces_through(number)
 
     def _watch_pieces(self) -> None:
-        """Remembers a rod in pieces behind the last target, until the first of it flows out."""
+        """Records a rod in pieces behind the last target, until the first of them flows out."""
         if self._pieces_through() and (self.exit is None or self.exit.outflow == self._outflow()):
             self.exit = Exit(*self._whole(), self.nose(), self._outflow(), pieces=True)
 
@@ -331,23 +331,23 @@ class Penetrator:
 
     @property
     def gone(self) -> bool:
-        """Whether nothing of the core of a rod that has left the mesh is in it any more, or a tenth at most of its pieces."""
+        """Whether a rod that has left the mesh has no core in it any more, or at most a tenth of its pieces."""
         if not self.left or not self._in_pieces():
             return False
         return not self.exit.pieces or self._whole()[1] <= ERODED_MASS * self.mass
 
     def saved(self) -> dict:
-        """What a restart file keeps of it."""
+        """Data for a restart file."""
         return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "passed": self.passed,
                 "deepest": self._deepest}
 
     def resume(self, saved: dict) -> None:
-        """Continues from what was saved."""
+        """Continues from the result of `saved`."""
         self.exit = Exit(**saved["exit"]) if saved["exit"] else None
         self._offset, self.passed = saved["offset"], [Passage(*one) for one in saved["passed"]]
         self._deepest = saved["deepest"]
 
-    # ------------------------------------------------------------------------------------------------ what is known
+    # ------------------------------------------------------------------------------------------------ results
 
     def _failed_mass(self, m: int) -> float:
         """Mass of a body's material that has failed by damage, kg, whole circumference."""
@@ -357,7 +357,7 @@ class Penetrator:
 
     def _near_exit(self) -> bool:
         """Whether the rod fills half of a cell in the row before the one that its nose has to reach to be through the next
-        target: quick to tell."""
+        target: a quick check."""
         g, s = self.sim.grid, self.sim.state
         rear = self._rears[len(self.passed)]
         j = int(np.searchsorted(g.z_edges, self.surface + self.direction * (rear + self.radius))) - 1
@@ -385,9 +385,9 @@ class Penetrator:
         return [dict(zip(PASSAGE, one, strict=True)) for one in (*self.passed, *missing)]
 
     def _residual(self, nose: float, core: float, momentum: float) -> tuple[float | None, float | None]:
-        """Velocity in m/s and mass in kg of what flies on, from the nose's depth and the core's mass and momentum: of a rod
-        that has left the mesh, those at its edge; of one that has perforated the last target, those of now; else None. Of a
-        rod in pieces, those of all of it."""
+        """Residual velocity in m/s and mass in kg, from the nose's depth and the core's mass and momentum: for a rod that has
+        left the mesh, those at its edge; for one that has perforated the last target, those of now; else None. For a rod in
+        pieces, those of all of it."""
         if self.left:
             return self.exit.velocity, self.exit.mass
         if core > 0.0 and self._through(nose):
@@ -449,7 +449,7 @@ class Penetrator:
 
 
 def _share(now: float, first: float) -> float:
-    """What is left over what there was at the start; 0 where there was nothing."""
+    """The remaining share of the amount at the start; 0 if there was none."""
     return now / first if first > 0.0 else 0.0
 
 

@@ -1,7 +1,7 @@
-"""What energy a body can reach in a shot: that of its own stagnation state, compressed to the highest pressure of the shot.
+"""The energy that a body can reach in a shot: that of its own stagnation state, compressed to the highest pressure of the shot.
 
-The audit and the shares of `sanity` look at the whole: a light body may be a thousand times too hot and not show there. Its own
-bounds follow from its equation of state (explanation/sanity).
+The audit and the shares of `sanity` concern the whole: a light body may be a thousand times too hot without showing there. Its
+own bounds follow from its equation of state (explanation/sanity).
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from strength import SHEAR
 #: times the heat of the hottest state that a cell may show, for reflections, convergence and the dissipation of the method, and
 #: share of it by which a cell may be colder than at the start
 CELL_HOTTER, CELL_COLDER = 3.0, 0.25
-#: share of what a body can reach by which a cell may miss a temperature of zero
+#: share of the energy that a body can reach by which a cell may fall below a temperature of zero
 CHILL = 1e-3
-#: plastic strain beyond which no more heat of plastic work is believed, and share of the shear modulus that no stress exceeds
+#: plastic strain beyond which no more heat of plastic work is accepted, and share of the shear modulus that no stress exceeds
 MOST_STRAIN, IDEAL_STRENGTH = 10.0, 0.1
 #: rate of strain, 1/s, and temperature, K, at which the largest flow stress is looked up
 STRONGEST_RATE, ROOM = 1e6, 300.0
-#: what a body may show that nothing meets: share of the specific kinetic energy of the closing speed, and of c^2
+#: energy allowed to a body that nothing meets: share of the specific kinetic energy of the closing speed, and of c^2
 AT_REST, OF_SOUND = 0.05, 1e-6
 #: step in the logarithm of the density along an isentrope, and the longest ways in compression and expansion
 STEP, FARTHEST, THINNEST = 0.005, 20.0, 6.9
@@ -43,13 +43,13 @@ class Reach(NamedTuple):
     """Bounds of the specific internal energy of every body, J/kg, float64[m]: of its mean, and of a cell.
 
     lowest, highest : coldest and hottest state, which bound the mean;  cell_lowest, cell_highest : those of a cell
-    worked : heat by plastic strain, J/kg, at the largest flow stress of the law;  plastic : what a cell may show instead
+    worked : heat by plastic strain, J/kg, at the largest flow stress of the law;  plastic : that allowed in a cell
     rubbing : heat of friction in a cell by time, W/kg
-    shear : shear modulus, Pa, by which elastic energy counts;  chill : by what a cell may be colder than 0 K, J/kg
+    shear : shear modulus, Pa, by which elastic energy counts;  chill : energy by which a cell may be colder than 0 K, J/kg
     gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
     speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
-    stands : whether an edge across z is there that bodies can meet
-    squeezed : heat of every body, J/kg, float64[m, k], where all are compressed to one pressure by so much work
+    stands : whether there is an edge across z that bodies can meet
+    squeezed : heat of every body, J/kg, float64[m, k], if all are compressed to one pressure by given work
     work : that work, J per radian, float64[k], rising;  mass : of all bodies at the start, kg per radian
     """
 
@@ -72,7 +72,7 @@ class Reach(NamedTuple):
     mass: float
 
     def given_by(self, work: float) -> np.ndarray:
-        """Heat of every body, J/kg, float64[m], by so much work of edges and sources, in J per radian.
+        """Heat of every body, J/kg, float64[m], from this work of edges and sources, in J per radian.
 
         The work compresses all of them to one pressure, or is spread over their mass, as by shocks.
         """
@@ -149,13 +149,13 @@ def _highest(deck, pressures: list[float]) -> float:
 
 
 def _hottest(deck, table) -> list[Material]:
-    """The materials of the slots, each in the state of the hottest body that is in it; explosives have burnt."""
-    found: dict[int, Material] = {}
+    """The materials of the slots, each in the state of its hottest body; explosives have burnt."""
+    materials: dict[int, Material] = {}
     for body, m in zip(deck.body, slot_of(deck, table), strict=True):
         rho, e = body_state(body, table, m)
-        if m not in found or e > found[m].e:
-            found[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.spent(m), rho, e)
-    return [found[m] for m in range(len(table))]
+        if m not in materials or e > materials[m].e:
+            materials[m] = Material(int(table.eos_model[m]), table.eos_par[m], table.spent(m), rho, e)
+    return [materials[m] for m in range(len(table))]
 
 
 def _edges(deck):
@@ -164,10 +164,10 @@ def _edges(deck):
 
 
 def closing_speed(deck, grid) -> float:
-    """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that hold or push, m/s.
+    """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that constrain or push, m/s.
 
-    An edge meets what moves along its normal, and has no friction: in a tube or beside the axis, bodies may fly along z at any
-    speed. What moves as a whole meets nothing.
+    An edge meets bodies that move along its normal, and has no friction: in a tube or along the axis, bodies may fly along z
+    at any speed. Bodies that move as a whole meet nothing.
     """
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
@@ -183,7 +183,7 @@ def closing_speed(deck, grid) -> float:
 
 
 def _stands(deck) -> bool:
-    """Whether an edge across z is there that bodies can meet: a wall, an anvil, dashpots, or one with its own velocity."""
+    """Whether there is an edge across z that bodies can meet: a wall, an anvil, dashpots, or one with its own velocity."""
     return any(edge.holds() or edge.traction() != FREE for edge in _edges(deck)[2:])
 
 
@@ -201,7 +201,7 @@ def hottest(material: Material, speed: float, pressure: float) -> float:
 
 
 def released(material: Material) -> float:
-    """Energy that a material gives away on its isentrope to no pressure, or to a thousandth of its density, J/kg."""
+    """Energy that a material loses on its isentrope to zero pressure, or to a thousandth of its density, J/kg."""
     if not material.evaluate(material.rho, material.e)[0] > 0.0:
         return 0.0
     return max(material.e - _along_isentrope(material, material.rho, material.e, -STEP, lambda p: p <= 0.0), 0.0)
@@ -209,7 +209,7 @@ def released(material: Material) -> float:
 
 def stagnation(material: Material, speed: float) -> tuple[float, float, float]:
     """(density, energy, pressure) behind a shock that brings a material to rest from a speed in m/s: its Hugoniot at that
-    particle velocity. Where there is none below MOST_COMPRESSION, that of an incompressible limit, rho0 v (c0 + 2 v)."""
+    particle velocity. If there is none below MOST_COMPRESSION, that of an incompressible limit, rho0 v (c0 + 2 v)."""
     from eos.dispatch import sound_speed_squared
 
     rho0, e0 = material.rho, material.e
@@ -254,7 +254,7 @@ def _squeezed(curves: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
 def _isentrope(material: Material, rho: float, e: float, step: float) -> Iterator[tuple[float, float]]:
     """(pressure, energy) on an isentrope, de = p/rho d(ln rho), in steps of the logarithm of density, Pa and J/kg.
 
-    It ends as well where a table does, beyond which no run goes. The pressure of the last point is NaN.
+    It also ends where a table ends, beyond which no run goes. The pressure of the last point is NaN.
     """
     farthest = FARTHEST if step > 0.0 else THINNEST
     for _ in range(round(farthest / abs(step))):
@@ -270,11 +270,11 @@ def _isentrope(material: Material, rho: float, e: float, step: float) -> Iterato
 
 
 def _along_isentrope(material: Material, rho: float, e: float, step: float, ends) -> float:
-    """Energy where the pressure on an isentrope ends a walk along it, or where that comes to its own end, J/kg."""
+    """Energy where the pressure on an isentrope satisfies ``ends``, or where the isentrope itself ends, J/kg."""
     return next(now for p, now in _isentrope(material, rho, e, step) if ends(p) or math.isnan(p))
 
 
 def coldest(material: Material) -> float:
-    """Energy at the first density at which the temperature is zero, J/kg, if the equation of state tells a temperature."""
+    """Energy at the first density at which the temperature is zero, J/kg, if the equation of state has a temperature."""
     cold, warm = (material.evaluate(material.rho, material.e + step)[3] for step in (0.0, DIFFERENCE))
     return material.e - cold * DIFFERENCE / (warm - cold) if warm > cold else material.e

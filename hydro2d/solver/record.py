@@ -21,7 +21,7 @@ class ColumnError(Error):
 
 
 def row(sim: Simulation) -> dict[str, float | str | None]:
-    """One row of the history: what a simulation measures, by name; see `running/columns.py` for all names.
+    """One row of the history: the measurements of a simulation by name; see `running/columns.py` for all names.
 
     Raises ColumnError for a column of the user's that fails.
     """
@@ -30,10 +30,10 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
     values |= {f"mass_change_{body}": change for body, change in conserved["mass"].items()}
     values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
     values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
-    for name, found in sim.of_bodies().items():
-        values |= {f"body_{name}_{key}": value for key, value in found.items()}
-    for name, found in sim.stations.measure().items():
-        values |= {f"{name}_{key}": value for key, value in found.items() if key not in PEAKS}
+    for name, measured in sim.of_bodies().items():
+        values |= {f"body_{name}_{key}": value for key, value in measured.items()}
+    for name, measured in sim.stations.measure().items():
+        values |= {f"{name}_{key}": value for key, value in measured.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
     values |= derived(sim, values)
@@ -49,7 +49,7 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
 
 
 def derived(sim: Simulation, values: Mapping[str, Any]) -> dict[str, float | None]:
-    """What [derived] of the deck defines, by name; values : all other columns of the row."""
+    """The quantities that [derived] of the deck defines, by name; values : all other columns of the row."""
     formulas = sim.formulas
     if not formulas:
         return {}
@@ -61,7 +61,7 @@ def derived(sim: Simulation, values: Mapping[str, Any]) -> dict[str, float | Non
 
 
 def check(columns: Mapping[str, object]) -> None:
-    """Raises ColumnError for what no file could hold, or is no function."""
+    """Raises ColumnError for a name that no file can have, or a column that is not a function."""
     for name, of in columns.items():
         if not isinstance(name, str) or not name.isidentifier() or name.startswith((CRATER, DEBRIS)):
             raise ColumnError(f"a column cannot be called {name!r}: its name is a word of letters, digits and underscores that "
@@ -80,11 +80,11 @@ class Recorder:
         self.columns, self._due = Columns(), Due(interval)
 
     def __call__(self, sim: Simulation) -> None:
-        """Adds a row where one is due."""
+        """Adds a row if one is due."""
         if self._due(sim.time):
             self.columns.append(row(sim))
 
     def last(self, sim: Simulation) -> None:
-        """Adds the row of the end where it is not there yet."""
+        """Adds the row of the end unless it is already there."""
         if self.columns.last_time != sim.time:
             self.columns.append(row(sim))

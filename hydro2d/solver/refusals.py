@@ -1,4 +1,4 @@
-"""What a cycle refuses to go on with, and how it says so: cells that are not finite or inside out, a step that is too small."""
+"""States in which a cycle ends the run, with messages: cells that are not finite or inside out, a step that is too small."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Refusals:
             raise UnphysicalState(f"{self._when}: velocities that are not finite near z = {g.zc[row[2]]:.6g} m")
 
     def small_step(self, dt: float, cause: str) -> None:
-        """Raises UnphysicalState for a time step below the least one; cause : what set it."""
+        """Raises UnphysicalState for a time step below the least one; cause : the condition that set it."""
         s, dt_min = self._cycle.state, self._cycle.method.dt_min
         if not dt_min < dt < 1e300:
             m = int(np.argmax(s.vof[:, int(s.least_row[0]), s.cause[1]]))
@@ -41,8 +41,8 @@ class Refusals:
                                   f'"{self._cycle.table.names[m]}"')
 
     def turned_cells(self, second: int) -> None:
-        """Raises UnphysicalState where what the faces of a cell swept is more than its volume, of both directions or of the
-        second, so that no remap can give back what was in it."""
+        """Raises UnphysicalState if the faces of a cell sweep more than its volume, in both directions or in the second one, so
+        that no remap can recover its contents."""
         s, (j0, j1, _, _) = self._cycle.state, self._cycle.box
         if s.turned[j0:j1, 0].max() < 0:
             return

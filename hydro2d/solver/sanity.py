@@ -1,7 +1,7 @@
-"""What no run may do, whatever its audit says: clips and sinks have names, so the totals close over nonsense as well.
+"""Limits that no run may exceed, even if its audit closes: clips and sinks have names, so the totals of nonsense close too.
 
-A state is refused where the energy does not add up, a body as a whole is hotter or colder than it can become, the kinetic
-energy has outgrown all that was put in, or a clip has taken a sizeable share of it. It is not trusted where a body is hotter or
+A state is refused if the energy does not add up, a body as a whole is hotter or colder than it can become, the kinetic energy
+exceeds all the energy that was put in, or a clip has taken a sizeable share of it. It is not trusted if a body is hotter or
 colder in some cell than it can become there (explanation/sanity).
 """
 
@@ -16,22 +16,22 @@ from hydro2d.solver.reach import MOST_STRAIN, Reach, drift
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
 CLOSES = 1e-6
-#: share of the energy that a clip may take, and that a total may be beyond what is possible, in a run to be trusted
+#: share of the energy that a clip may take, and by which a total may exceed the possible, in a run to be trusted
 TRUSTED = 0.02
-#: share of the energy of the motion as a whole that is no less than what is left of all energy beside it
+#: least energy in addition to that of the motion as a whole, as a share of it
 FLIGHT = 0.01
-#: cells of which a body fills less than this share are not looked at one by one
+#: cells of which a body fills less than this share are not checked individually
 SLIVER = 0.01
-#: times the share that a clip may take, which the remap of velocities may discard before that is a fault
+#: multiple of the share of a clip that the remap of velocities may discard before that is a fault
 DISCARDS = 5.0
-#: a body of which less than this share of its mass is left, as the rest went out through an edge, is not looked at as a whole
+#: a body with less than this share of its mass left, the rest having left through an edge, is not checked as a whole
 LEFT = 0.1
-#: what to do about a gas that is too hot
+#: advice on a gas that is too hot
 GAS_REMEDY = ". Leave the space empty: a gas in one cell with a solid is not computed well enough"
 
 
 def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> list[str]:
-    """What is wrong with a state, a sentence for each fault with its place where it has one; empty where nothing is.
+    """Faults of a state, a sentence for each, with its place if it has one; empty if there are none.
 
     Parameters
     ----------
@@ -39,40 +39,41 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     audit : Audit
     names : of the bodies
     reach : bounds of their energies
-    share : of the energy of the start and of what came in since, beyond which a clip or a total is a fault; a body may have
+    share : of the energy at the start and of that added since, beyond which a clip or a total is a fault; a body may have
         1 + share/TRUSTED times the energy that it can reach
     """
     now, start = totals(state), audit.start
     came = audit.came
     energy, whole = _energy(audit, reach)
-    found = []
+    sentences = []
     for kind, error in audit.unexplained(now).items():
         if not abs(error) <= CLOSES:
-            found.append(f"the {kind} does not add up: {error:.2g} of it is explained by nothing in the audit")
+            sentences.append(f"the {kind} does not add up: {error:.2g} of it is not explained by the audit")
     for m, internal in enumerate(now.internal_of):
         if not internal - min(start.internal_of[m], 0.0) >= -share * energy:
-            found.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as internal '
-                         f"energy{_least_energy(state, m)}")
+            sentences.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as '
+                             f"internal energy{_least_energy(state, m)}")
         if now.mass[m] > LEFT * start.mass[m]:
-            found += _mean_beyond_reach(m, names[m], state, now, came, reach, share)
+            sentences += _mean_beyond_reach(m, names[m], state, now, came, reach, share)
     if not now.kinetic - whole <= (1.0 + share) * energy:
-        found.append(f"the kinetic energy is {(now.kinetic - whole) / energy:.3g} times the energy that was ever put in"
-                     f"{_fastest(state, names)}")
+        sentences.append(f"the kinetic energy is {(now.kinetic - whole) / energy:.3g} times all the energy put in"
+                         f"{_fastest(state, names)}")
     for name in CLIPS:
-        taken = audit.sinks[name].energy
-        if not abs(taken) <= share * energy:
-            told = f"{name} has removed {100 * taken / energy:.2g} % of the energy ({CLIPS[name]}; limit {100 * share:g} %)"
-            found.append(told + (f"; {REMEDIES[name]}" if name in REMEDIES else ""))
+        removed = audit.sinks[name].energy
+        if not abs(removed) <= share * energy:
+            sentence = (f"{name} has removed {100 * removed / energy:.2g} % of the energy ({CLIPS[name]}; "
+                        f"limit {100 * share:g} %)")
+            sentences.append(sentence + (f"; {REMEDIES[name]}" if name in REMEDIES else ""))
     lost = audit.sinks["advection"].energy
     if not -lost <= share * energy:
-        found.append(f"the remap of velocities has gained {-lost / energy:.2g} of the energy, more than {share:g} of it")
+        sentences.append(f"the remap of velocities has gained {-lost / energy:.2g} of the energy, more than {share:g} of it")
     if not lost <= DISCARDS * share * energy:
-        found.append(_discarded(lost / energy, DISCARDS * share))
-    return found
+        sentences.append(_discarded(lost / energy, DISCARDS * share))
+    return sentences
 
 
 def discards(audit: Audit, reach: Reach) -> Iterator[tuple[str, str]]:
-    """(what, sentence) where the remap of velocities has discarded more of the energy than a run to be trusted may lose.
+    """(what, sentence) if the remap of velocities has discarded more of the energy than a trusted run may lose.
 
     audit : of the run so far;  reach : bounds of the energies
     """
@@ -87,14 +88,14 @@ def _discarded(share: float, limit: float) -> str:
 
 
 def _energy(audit: Audit, reach: Reach) -> tuple[float, float]:
-    """Energy of which shares are judged: of the start, beside the flight as a whole, and what came; and that of the flight."""
+    """Reference energy of shares: at the start without that of the flight as a whole, plus incoming; that of the flight."""
     start = audit.start
-    whole = 0.0 if reach.stands else drift(start)  # which another frame would have otherwise
+    whole = 0.0 if reach.stands else drift(start)  # which depends on the frame
     return max(abs(start.energy - whole), start.kinetic - whole, FLIGHT * whole, audit.noise) + audit.came, whole
 
 
 def _mean_beyond_reach(m: int, name: str, state, now: Totals, came: float, reach: Reach, share: float) -> Iterator[str]:
-    """What is wrong with the energy of body m as a whole; came : energy that edges brought."""
+    """The fault of the energy of body m as a whole, if any; came : energy that edges brought."""
     span = reach.highest[m] - reach.lowest[m]
     low, high = reach.lowest[m] - share * span, reach.lowest[m] + (1.0 + share / TRUSTED) * span + came / now.mass[m]
     mean = now.internal_of[m] / now.mass[m]
@@ -128,15 +129,15 @@ def doubts(state, table, time: float, reach: Reach, given: np.ndarray) -> Iterat
     reach : bounds of the energies
     given : the most energy that sources and the work of edges have given to a cell of each body, J/kg, float64[m]
     """
-    from hydro2d.kernels.thermodynamics import worst_energies  # after which no model can join
+    from hydro2d.kernels.thermodynamics import worst_energies  # no model can be added after this import
 
-    grid, found = state.grid, np.zeros((2, 3))
+    grid, worst = state.grid, np.zeros((2, 3))
     for m, name in enumerate(table.names):
         high = reach.cell_highest[m] + reach.rubbing[m] * time + given[m]
         worst_energies(grid.g, grid.nz, grid.nr, m, SLIVER, reach.cell_lowest[m], high, reach.plastic[m], MOST_STRAIN,
                        reach.shear[m], reach.warm[m], reach.chill[m], table.eos_model[m], table.memory[m], table.eos_par[m],
-                       state.vof, state.q, found)
-        for what, (beyond, j, i) in zip(("hot", "cold"), found.tolist(), strict=True):
+                       state.vof, state.q, worst)
+        for what, (beyond, j, i) in zip(("hot", "cold"), worst.tolist(), strict=True):
             if beyond > 0.0:
                 j, i = int(j) - grid.g, int(i) - grid.g
                 e, strain = grid.interior(state.e)[m, j, i], grid.interior(state.ep)[m, j, i]
@@ -152,16 +153,16 @@ def _least_energy(state, m: int) -> str:
     density = grid.interior(state.vof[m] * state.rho[m] * state.e[m])
     j, i = np.unravel_index(np.argmin(density), density.shape)
     e = state.e[m, j + grid.g, i + grid.g]
-    return f", least of all {e:.3g} J/kg in the cell {_place(grid, j, i)}"
+    return f", lowest at {e:.3g} J/kg in the cell {_place(grid, j, i)}"
 
 
 def _fastest(state, names) -> str:
-    """The cell below the fastest vertex, and what fills most of it."""
+    """The cell below the fastest vertex, and the body that fills most of it."""
     grid = state.grid
     square = grid.interior_vertices((state.u**2 + state.v**2).max(axis=0))[:-1, :-1]
     j, i = np.unravel_index(np.argmax(square), square.shape)
     m = int(np.argmax(state.vof[:, j + grid.g, i + grid.g]))
-    return f', fastest of all {square[j, i] ** 0.5:.3g} m/s of "{names[m]}" at the cell {_place(grid, j, i)}'
+    return f', highest speed {square[j, i] ** 0.5:.3g} m/s of "{names[m]}" at the cell {_place(grid, j, i)}'
 
 
 def _place(grid, j: int, i: int) -> str:

@@ -1,4 +1,4 @@
-"""A simulation: a deck made into a mesh, a state and a cycle, with what one wants to know of it after every step."""
+"""A simulation: a deck made into a mesh, a state and a cycle, with the results after every step."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ MOVES = 1e-3
 
 
 class Simulation:
-    """A deck in memory, to be stepped and looked at. It writes no files: `hydro2d.run` does.
+    """A deck in memory, to be stepped and inspected. It writes no files: `hydro2d.run` does.
 
-    While kernels are compiled, a line on the error output or below the cell of a notebook says how far that is.
+    While kernels are compiled, a line on the error output or below the cell of a notebook shows the progress.
 
     Parameters
     ----------
@@ -56,21 +56,21 @@ class Simulation:
     Attributes
     ----------
     columns : dict of functions of the simulation, by name
-        Further columns of the history, each a number. The ending of a name tells its unit: ``_m``, ``_m_s``, ``_Pa``, ``_K``.
+        Further columns of the history, each a number. The ending of a name gives its unit: ``_m``, ``_m_s``, ``_Pa``, ``_K``.
     formulas : dict of Expression by name
-        What [derived] of the deck defines.
+        Those that [derived] of the deck defines.
     lengths : dict of float by name
         Extent of every body along the axis at the start, m; None for one that filled no cell by half.
-    grid, state, table, audit : the mesh, the fields, the materials, what is conserved
+    grid, state, table, audit : the mesh, the fields, the materials, the conserved quantities
     stations : the tracers and gauges
-    penetrator : what measures the projectile; None for a deck without projectile and target
-    craters : what measures the hole in each target, in the order in which the projectile meets them; empty without both
+    penetrator : measures the projectile; None for a deck without projectile and target
+    craters : measure the hole in each target, in the order in which the projectile meets them; empty without both
 
-    Raises DeckError where the machine has not the memory for the mesh.
+    Raises DeckError if the machine does not have the memory for the mesh.
     """
 
     def __init__(self, deck: decks.Deck):
-        from hydro2d.solver.cycle import Cycle  # these load kernels, after which no model can join them
+        from hydro2d.solver.cycle import Cycle  # these load kernels, after which no model can be added
         from hydro2d.solver.method import Method
         from hydro2d.solver.stations import Stations
 
@@ -85,7 +85,7 @@ class Simulation:
                            self.table.remembers)
         self._insert(method.boundaries)
         self.sources = Sources(deck.source, self.state, self.table, [slots.index(entry.body) for entry in deck.source])
-        #: what sources have to say of the deck on its mesh, one sentence each
+        #: warnings of the sources about the deck on its mesh, one sentence each
         self.warnings = self.sources.begin()
         self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method), self.sources)
         self.engine.prepare()
@@ -104,17 +104,17 @@ class Simulation:
         self._recorder = Recorder(deck.output.history_interval)
 
     def _penetration(self) -> tuple[Penetrator | None, list[Crater]]:
-        """What measures the projectile and the holes in its targets."""
+        """The measurements of the projectile and of the holes in its targets."""
         if self.deck.penetration is None:
             return None, []
         rod = self.deck.penetration.rod
         first = decks.body(self.deck, self.deck.penetration.targets[0])
         direction = float(decks.heading(decks.body(self.deck, rod), first))
-        found = targets(self.deck, direction)
-        return Penetrator(self, self.deck, found, direction), [Crater(self, target, direction) for target in found]
+        penetrated = targets(self.deck, direction)
+        return Penetrator(self, self.deck, penetrated, direction), [Crater(self, target, direction) for target in penetrated]
 
     def _mesh(self, slots: list[str], method: Method) -> StandingMesh | FollowingMesh:
-        """How the mesh moves."""
+        """The motion of the mesh."""
         name = self.deck.mesh.follow
         if name is None:
             return StandingMesh()
@@ -126,8 +126,8 @@ class Simulation:
     def _insert(self, conditions: BoundaryConditions) -> None:
         """Fills the mesh.
 
-        Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where nothing of it is
-        around, those of the other group.
+        Vertex velocities of a body group are the mass-weighted means of its own in the cells around; where there is none of
+        it, those of the other group.
         """
         s, g = self.state, self.grid
         first = insertion.initial_state(self.deck, g, self.table, s.group)
@@ -170,7 +170,7 @@ class Simulation:
 
     @property
     def cycle(self) -> int:
-        """Number of cycles that were done."""
+        """Number of cycles done."""
         return self.engine.number
 
     @property
@@ -180,30 +180,30 @@ class Simulation:
 
     @property
     def dt_cause(self) -> str:
-        """Where and why no longer time step was possible, in words."""
+        """The place and reason of the limit on the time step, in words."""
         return self.engine.cause
 
     @property
     def audit(self) -> Audit:
-        """What is conserved, and what has left the mesh or was taken by the method."""
+        """Conserved quantities, and losses from the mesh or by the method."""
         assert self.engine.audit is not None, "it is opened when the cycle is prepared"
         return self.engine.audit
 
     def run(self, until: float | str | Callable[[Simulation], bool] | None = None,
             callbacks: Iterable[Callable[[Simulation], object]] = ()) -> str:  # fmt: skip
-        """Steps on until something ends it, and returns what that was. Call it again to go on.
+        """Steps until a condition ends the run, and returns that condition. Call it again to continue.
 
         Parameters
         ----------
         until : float, str or function of the simulation
             A time in s or text such as ``"50 us"``, which the last cycle reaches or passes; or a function that is true at the
-            end. None: the [stop] of the deck, which otherwise plays no part.
+            end. None: the [stop] of the deck, which is ignored otherwise.
         callbacks : functions of the simulation
-            Each is called after every cycle; `hydro2d.every` makes one that is called now and then.
+            Each is called after every cycle; `hydro2d.every` makes one that is called at intervals.
 
         Adds a row to `history` at every ``output.history_interval`` of the deck, and at the end.
 
-        Raises UnphysicalState, ColumnError for a column that fails, and KeyboardInterrupt, after which `run` can go on: an
+        Raises UnphysicalState, ColumnError for a column that fails, and KeyboardInterrupt, after which `run` can continue: an
         interrupt waits for the end of the cycle.
         """
         ended, callbacks, interrupt = self._end(until), tuple(callbacks), Interrupt()
@@ -221,7 +221,7 @@ class Simulation:
         return reason
 
     def _end(self, until: float | str | Callable[[Simulation], bool] | None) -> Callable[[], str | None]:
-        """What tells why `run` is over, or None."""
+        """A function that gives the reason why `run` is over, or None."""
         if until is None:
             return self.stop_reason
         if callable(until):
@@ -256,7 +256,7 @@ class Simulation:
                 crater.record()
 
     def velocity_at(self, points: ArrayLike, group: int | None = None) -> np.ndarray:
-        """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of that which the cell moves with.
+        """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of the group that the cell moves with.
 
         Raises ValueError for points of another shape.
         """
@@ -272,12 +272,12 @@ class Simulation:
         return mass, momentum
 
     def mean_velocity(self, m: int) -> float | None:
-        """Axial velocity of the centre of mass of body m, m/s; None where there is nothing of it."""
+        """Axial velocity of the centre of mass of body m, m/s; None if there is none of it."""
         mass, momentum = (float(rows.sum()) for rows in self.body_sums(m))
         return momentum / mass if mass > 0.0 else None
 
     def has_left(self, m: int) -> bool:
-        """Whether body m has gone out through open edges, but for a hundredth of its mass."""
+        """Whether body m has left through open edges, except for a hundredth of its mass."""
         sinks = self.audit.sinks
         whole = self.audit.start.mass[m] - sinks["inflow"].mass[m]
         return bool(sinks["outflow"].mass[m] > (1.0 - LEFT_MASS) * whole > 0.0)
@@ -315,19 +315,19 @@ class Simulation:
                     return f"speed of {stop.body} below {stop.speed_below:g} m/s"
         return None
 
-    # ------------------------------------------------------------------------------------------------ what is known
+    # ------------------------------------------------------------------------------------------------ results
 
     def of_targets(self) -> dict[str, dict]:
-        """The projectile as it went through each target, see `measured.PASSAGE`, the hole and what flies behind it, by name."""
+        """The projectile as it went through each target, see `measured.PASSAGE`, the hole and the debris behind it, by name."""
         if not self.penetrator:
             return {}
-        found = self.debris()
-        return {target.name: {**passage, "crater": crater.measure(), "debris": found[target.name].totals}
+        debris = self.debris()
+        return {target.name: {**passage, "crater": crater.measure(), "debris": debris[target.name].totals}
                 for target, passage, crater in
                 zip(self.penetrator.targets, self.penetrator.passages(), self.craters, strict=True)}
 
     def debris(self) -> dict[str, Debris]:
-        """What flies behind each target, by the target's name; empty without projectile and target."""
+        """Debris behind each target, by the target's name; empty without projectile and target."""
         targets = self.penetrator.targets if self.penetrator else []
         return {target.name: debris.find(self, crater, [later.m for later in targets[number + 1 :]])
                 for number, (target, crater) in enumerate(zip(targets, self.craters, strict=True))}
@@ -353,7 +353,7 @@ class Simulation:
     def conservation(self) -> dict:
         """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name.
 
-        Beside them by body how far its centre of mass was off its course when it was last looked at (`courses.Courses`).
+        In addition, for each body, how far its centre of mass was off its course at the last check (`courses.Courses`).
         """
         result = self.audit.balance(self.state)
         result["mass"] = dict(zip(self.table.names, (float(x) for x in result["mass"]), strict=True))
@@ -362,22 +362,22 @@ class Simulation:
         return result
 
     def faults(self, share: float = TRUSTED) -> list[str]:
-        """Why the state is not to be trusted, see `sanity.faults`; empty where there is no reason."""
+        """Reasons not to trust the state, see `sanity.faults`; empty if there are none."""
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
     def doubts(self) -> list[str]:
-        """Why what was run is not to be trusted: when a body was first too hot or too cold in some cell, or off its course."""
+        """Reasons not to trust the run: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
 
     def refuse_nonsense(self) -> None:
-        """Raises UnphysicalState with the first fault of the state, if it has any, and remembers what is doubtful."""
+        """Raises UnphysicalState with the first fault of the state, if it has any, and records doubts."""
         self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
         given = self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
         doubtful = doubts(self.state, self.table, self.time, self._reach, given)
         for what, sentence in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
-        if found := self.faults(self.deck.numerics.clip_limit):
-            raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {found[0]}")
+        if faults := self.faults(self.deck.numerics.clip_limit):
+            raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {faults[0]}")
 
     # ------------------------------------------------------------------------------------------------ fields
 
@@ -387,7 +387,7 @@ class Simulation:
         name : name or symbol in the table of fields, such as "density" or "rho"
 
         Shape (bodies, nz, nr) for fields of the bodies, (nz, nr) for those of cells, (groups, nz + 1, nr + 1) for those of
-        vertices, with one group unless there is contact. Where a body is not, its fields have no meaning. Raises FieldError.
+        vertices, with one group unless there is contact. In cells without a body its fields have no meaning. Raises FieldError.
         """
         field = next((each for each in fields.FIELDS if name in (each.name, each.symbol)), None)
         if field is None:
@@ -414,20 +414,20 @@ class Simulation:
             raise quantities.FieldError(unknown("field", key, quantities.BY_KEY))
         if quantity.per_body and body not in self.table.names:
             raise quantities.FieldError(f"{key} is one of every body; " + unknown("body", str(body), self.table.names))
-        found = fields_now.evaluate(self, (key,)).get(quantity.name(body))
-        if found is None:
+        values = fields_now.evaluate(self, (key,)).get(quantity.name(body))
+        if values is None:
             raise quantities.FieldError(f"{key}: the simulation has none" + (f" for {body}" if body else ""))
-        return found
+        return values
 
     @property
     def fields(self) -> xarray.Dataset:
-        """All quantities as they are now, over z and r, in SI units; computed anew at every call."""
+        """All present quantities over z and r, in SI units; computed anew at every call."""
         from hydro2d.output import datasets, vtk
 
         return datasets.of_state(vtk.Dump.of(self))
 
     def to_pyvista(self) -> pyvista.RectilinearGrid:
-        """All quantities as they are now, as cell data of a pyvista.RectilinearGrid with x = r, y = z."""
+        """All present quantities, as cell data of a pyvista.RectilinearGrid with x = r, y = z."""
         from hydro2d.output import derived as fields_now
         from hydro2d.output import vtk
 
@@ -436,21 +436,21 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------ restart
 
     def restart_arrays(self) -> dict[str, np.ndarray]:
-        """Everything that a restart must hold, by name."""
+        """All arrays that a restart needs, by name."""
         return {**self.state.restartable(), "stations": self.stations.places, "peaks": self.stations.peaks}
 
     def load_restart_arrays(self, arrays: dict[str, np.ndarray]) -> None:
-        """Takes the arrays of a restart file; ValueError where one is missing or differs in shape or type."""
+        """Takes the arrays of a restart file; ValueError if one is missing or differs in shape or type."""
         for name, array in self.restart_arrays().items():
-            found = arrays.get(name)
-            kinds = ["nothing" if each is None else f"{each.dtype}{list(each.shape)}" for each in (found, array)]
+            stored = arrays.get(name)
+            kinds = ["nothing" if each is None else f"{each.dtype}{list(each.shape)}" for each in (stored, array)]
             if kinds[0] != kinds[1]:
                 raise ValueError(f"{name} is {kinds[0]} in the restart file and {kinds[1]} in the deck")
         for name, array in self.restart_arrays().items():
             array[...] = arrays[name]
 
     def restart_scalars(self) -> dict:
-        """What a restart needs beside the arrays; JSON keeps every bit of it."""
+        """Data that a restart needs in addition to the arrays; JSON keeps every bit of them."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
@@ -459,17 +459,17 @@ class Simulation:
                 "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
-        """Continues from what `restart_scalars` gave; after `load_restart_arrays`."""
+        """Continues from the result of `restart_scalars`; after `load_restart_arrays`."""
         e = self.engine
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.active.box, e.speed_limit = list(scalars["box"]), scalars["speed_limit"]
-        if scalars["watch"]["body"] == self.deck.stop.body:  # else another one is watched from here on
+        if scalars["watch"]["body"] == self.deck.stop.body:  # else a different one is watched from here on
             self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])
         self._doubts = dict(scalars["doubts"])
         e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
         e.courses.resume(scalars["courses"])
-        self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, which had no sources, say nothing
+        self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, without sources, lack it
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):

@@ -1,4 +1,4 @@
-"""The sources of a deck at work: what they give to cells and vertices, and what the audit books of it."""
+"""The sources of a deck during a run: energy and impulse for cells and vertices, and their entries in the audit."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hydro2d.sources.base import Reached, Source
 
 
 def begin(entries, slots: list[int], grid, table, vof, rho, variables: dict[int, np.ndarray]) -> list[str]:
-    """Lets sources set what they need of their bodies, and returns their warnings.
+    """Lets sources set the variables of their bodies that they need, and returns their warnings.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def arrival(grid, share: np.ndarray, points: np.ndarray, speed: float) -> np.nda
 
     share : of every cell's volume that the body fills. inf where it does not arrive.
     """
-    from hydro2d.kernels.light_times import bend_around, light_points  # after which no model can join
+    from hydro2d.kernels.light_times import bend_around, light_points  # no model can be added after this import
 
     light, front = np.full(share.shape, np.inf), np.zeros((3, *share.shape))
     rows, columns = grid.inside
@@ -56,18 +56,18 @@ def at_vertices(grid, cells: np.ndarray) -> np.ndarray:
     """Sums at the vertices over their cells, by the shares of corner masses; float64[nz + 1, nr + 1] of float64[nz, nr]."""
     columns = grid.inside[1]
     inner, outer = cells * grid.metrics[CM_IN, columns], cells * grid.metrics[CM_OUT, columns]
-    found = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1))
+    total = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1))
     for rows in (slice(None, -1), slice(1, None)):
-        found[rows, :-1] += inner
-        found[rows, 1:] += outer
-    return found
+        total[rows, :-1] += inner
+        total[rows, 1:] += outer
+    return total
 
 
 class Impulse(NamedTuple):
-    """What a source does to one component (0 radial, 1 axial) of the velocities of a body group in a step.
+    """The effect of a source on one component (0 radial, 1 axial) of the velocities of a body group in a step.
 
-    passed : impulses on the vertices of the mesh, N s, per radian, float64[nz + 1, nr + 1];  gained : the velocities of them
-    taken : (sink, line, impulses) of the edges that hold vertices
+    passed : impulses on the vertices of the mesh, N s, per radian, float64[nz + 1, nr + 1];  gained : their velocities
+    taken : (sink, line, impulses) of the edges that constrain vertices
     """
 
     name: str
@@ -79,7 +79,7 @@ class Impulse(NamedTuple):
 
 
 class Sources:
-    """What the sources of a deck do to a state.
+    """The action of the sources of a deck on a state.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class Sources:
 
     Attributes
     ----------
-    given : float64[m], the most energy that a cell of each body has been given, J/kg
+    given : float64[m], the most energy given to a cell of each body, J/kg
     pushed : float64[2, b, j, i], velocity that forces of sources add in the step, m/s; without such sources it is empty
     """
 
@@ -105,18 +105,18 @@ class Sources:
 
     @property
     def names(self) -> list[str]:
-        """Those of their sinks."""
+        """Names of their sinks."""
         return [entry.name for entry, _ in self._all]
 
     def begin(self) -> list[str]:
-        """Lets every source set what it needs of its body before the first step. Returns their warnings."""
+        """Lets every source prepare its body before the first step. Returns their warnings."""
         s = self.state
         inner = s.grid.interior
         return begin([entry for entry, _ in self._all], [m for _, m in self._all], s.grid, self._table,
                      inner(s.vof), inner(s.rho), {m: inner(s.q[INTERNAL:, m]) for _, m in self._all})
 
     def give(self, time: float, dt: float, audit: Audit) -> None:
-        """Adds the heat of the step from ``time`` on to the bodies as they are after it, and books it; J per radian."""
+        """Adds the heat of the step from ``time`` on to the bodies in their state after it, and books it; J per radian."""
         s, grid = self.state, self.state.grid
         for entry, m in self._all:
             heat = entry.heat(grid, time, dt)
@@ -126,18 +126,18 @@ class Sources:
             there = vof > 0.0
             before = np.where(there, e, 0.0)
             e[...] = np.where(there, e + heat, e)
-            gained = np.where(there, e, 0.0) - before  # what the sum has kept of it, to the last bit
+            gained = np.where(there, e, 0.0) - before  # the part that the sum has kept, to the last bit
             audit.add(entry.name, energy=-float(np.sum(vof * rho * grid.interior(grid.volume) * gained)))
             self.given[m] += float(np.abs(heat).max(initial=0.0))
 
     def push(self, time: float, dt: float, held: Iterable[tuple[str, int, tuple]]) -> None:
-        """Finds the velocity that sources add to the vertices from ``time`` to ``time + dt``.
+        """Computes the velocity that sources add to the vertices from ``time`` to ``time + dt``.
 
-        The material of a cell gains it, and a vertex moves with what its cells hold: its velocity changes by the impulse of
-        the corner masses over its mass. An edge that holds its vertices takes their impulse.
+        The material of a cell gains it, and a vertex moves with the contents of its cells: its velocity changes by the
+        impulse of the corner masses over its mass. An edge that constrains its vertices takes their impulse.
 
-        held : (sink, component, line) of the edges that hold: 0 for radial velocities and 1 for axial ones;  index of their
-        vertices among those of the mesh
+        held : (sink, component, line) of the constraining edges: 0 for radial velocities and 1 for axial ones;  index of
+        their vertices among those of the mesh
         """
         if self.pushed.size == 0:
             return
@@ -148,36 +148,36 @@ class Sources:
         for component in range(2):
             for name, m, gain in gains:
                 impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
-                taken = [(sink, line, impulse[line].copy()) for sink, of, line in held if of == component]
-                for _, line, _ in taken:
+                absorbed = [(sink, line, impulse[line].copy()) for sink, of, line in held if of == component]
+                for _, line, _ in absorbed:
                     impulse[line] = 0.0
                 mass = grid.interior_vertices(s.mass[s.group[m]])
                 gained = np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
                 grid.interior_vertices(self.pushed[component, s.group[m]])[...] += gained
-                self._impulses.append(Impulse(name, s.group[m], component, mass * gained, gained, taken))
+                self._impulses.append(Impulse(name, s.group[m], component, mass * gained, gained, absorbed))
 
     def account(self, audit: Audit) -> None:
-        """Books what forces of sources have done, by the velocities at the end of the step.
+        """Books the work and momentum of forces of sources, by the velocities at the end of the step.
 
-        The work of an impulse is that at the mean of the velocities at the start and at the end, as of the other forces.
+        The work of an impulse is that at the mean of the velocities at the start and at the end, as for the other forces.
         """
         s, grid = self.state, self.state.grid
-        for name, g, component, impulse, gained, taken in self._impulses:
+        for name, g, component, impulse, gained, absorbed in self._impulses:
             start, end = (s.u0, s.u) if component == 0 else (s.v0, s.v)
             mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
             momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
-            for sink, line, lost in taken:
+            for sink, line, lost in absorbed:
                 part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
                 momentum, energy = momentum + part, energy + work
                 audit.add(sink, momentum=part, energy=work)
             audit.add(name, momentum=-momentum, energy=-energy)
-            work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least what it would do alone
-            self.given += float(work.max(initial=0.0))  # what is pushed may meet any of the others
+            work = np.maximum(np.abs(gained * mean), 0.5 * gained**2)  # at least its work if alone
+            self.given += float(work.max(initial=0.0))  # a pushed body may meet any of the others
 
     def saved(self) -> list[float]:
-        """What a restart file keeps."""
+        """Data for a restart file."""
         return self.given.tolist()
 
     def resume(self, saved: list[float] | float) -> None:
-        """Continues from what `saved` gave."""
+        """Continues from the result of `saved`."""
         self.given[:] = saved

@@ -1,4 +1,4 @@
-"""Points at which a run records what is there: tracers, which move with the material, and gauges, which stand still or stay on
+"""Points at which a run records the local state: tracers, which move with the material, and gauges, which are fixed or stay on
 a surface."""
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from hydro2d.mesh.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
 from hydro2d.solver import tracers
 from hydro2d.solver.surfaces import Follower
 
-#: group of a point that begins in no body, or stands still
+#: group of a point that begins in no body, or is fixed
 NO_GROUP = -1
 
 
@@ -27,7 +27,7 @@ class Stations:
     names : of the columns and keys: "tracer_tip", "gauge_wall", and "gauge_line_1" on for the points of a line
     places : float64[n, 2], r and z in m, tracers first
     tracers : the places of the tracers, a view
-    peaks : float64[n, len(PEAKS)], what each has had since the start
+    peaks : float64[n, len(PEAKS)], extreme values of each since the start
     """
 
     def __init__(self, sim, deck):
@@ -57,7 +57,7 @@ class Stations:
         """After a cycle: tracers follow the velocity in their cell, bilinear, by the midpoint rule; gauges stay on
         their surfaces; peaks are kept.
 
-        A tracer that begins in a body moves with that body's group: where the two groups of a contact share its cell as well.
+        A tracer that begins in a body moves with that body's group, also where the two groups of a contact share its cell.
         """
         if not self.names:
             return
@@ -69,7 +69,7 @@ class Stations:
         self._look()
 
     def measure(self) -> dict[str, dict[str, float | None]]:
-        """By station, what is there now and what it has had since the start, SI; None while it is outside of the mesh."""
+        """By station, present values and extreme values since the start, SI; None while it is outside the mesh."""
         if not self.names:
             return {}
         self._look()
@@ -80,7 +80,7 @@ class Stations:
 
 
 def _group(sim, deck, r: float, z: float) -> int:
-    """Body group of the body of the deck that is at (r, z) at the start; NO_GROUP where none is."""
+    """Body group of the body of the deck that is at (r, z) at the start; NO_GROUP if there is none."""
     for body in deck.body:
         if any(low <= z <= high for low, high in outline(body, deck.mesh.r_start).chords("z", r)):
             return int(sim.state.group[sim.table.names.index(body.join or body.name)])

@@ -1,4 +1,4 @@
-"""The surface of a body on a line of the mesh: where it is, and a point that stays on it."""
+"""The surface of a body on a line of the mesh: its place, and a point that stays on it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import FILLED
 from hydro2d.solver import bodies, tracers
 
-#: how far a surface may be from where it was in the cycle before, in cells
+#: largest distance that a surface may move in a cycle, in cells
 NEAR = 2.0
 
 
@@ -19,45 +19,45 @@ def surfaces(column: np.ndarray, edges: np.ndarray) -> list[tuple[float, int]]:
     column (n,) : the share of each cell that the body fills;  edges (n + 1,) of the cells, m
 
     A run of cells that are filled by half or more is the body; the cells at either side of its end count by their share. Ends
-    at the edge of the mesh are none. Where no cell is FILLED, `thin_surfaces` finds what is narrower than a cell.
+    at the edge of the mesh do not count. If no cell is FILLED, `thin_surfaces` finds bodies narrower than a cell.
     """
-    size, found = np.diff(edges), []
+    size, ends_of_runs = np.diff(edges), []
     inside = np.concatenate([[False], column >= HALF, [False]])
     for edge in np.nonzero(inside[1:] != inside[:-1])[0].tolist():
         if 0 < edge < len(column):
             below, above = column[edge - 1] * size[edge - 1], column[edge] * size[edge]
             ends = inside[edge]
             at = edges[edge] - size[edge - 1] + below + above if ends else edges[edge] + size[edge] - above - below
-            found.append((float(at), 1 if ends else -1))
-    return found
+            ends_of_runs.append((float(at), 1 if ends else -1))
+    return ends_of_runs
 
 
 def thin_surfaces(sim, m: int, axis: int, line: int) -> list[tuple[float, int]]:
-    """The same of body m on a line of cells, along r (axis 0) or z (1), from its boxes; those in neighbouring cells are one."""
-    found: list[tuple[float, int]] = []
+    """`surfaces` of body m on a line of cells, along r (axis 0) or z (1), from its boxes; neighbouring ones are merged."""
+    ends: list[tuple[float, int]] = []
     before = -2
     for _, cell, low, high in bodies.boxes(sim, m, axis, line):
         if cell == before + 1:
-            found[-1] = high, 1
+            ends[-1] = high, 1
         else:
-            found += [(low, -1), (high, 1)]
+            ends += [(low, -1), (high, 1)]
         before = cell
-    return found
+    return ends
 
 
 class Follower:
     """A point that stays on the surface of a body, on the line through its first place along r or z.
 
-    It takes the surface of the same side that is nearest to where it was, NEAR cells away at most: material that breaks off
-    takes it along, and one that is used up leaves it nowhere, for good.
+    It takes the surface of the same side that is nearest to its last place, at most NEAR cells away: material that breaks off
+    takes it along, and if the material is used up it has no place from then on.
 
     Parameters
     ----------
     sim : Simulation, as it begins
     gauge : Gauge of the deck, with `surface`
-    place : float64[2], r and z in m, which is moved on to the nearest surface; NaN where there is none any more
+    place : float64[2], r and z in m, moved to the nearest surface; NaN once there is none
 
-    Raises DeckError where the body has no surface on the line.
+    Raises DeckError if the body has no surface on the line.
     """
 
     def __init__(self, sim, gauge, place: np.ndarray):
@@ -71,10 +71,10 @@ class Follower:
         self.place[self._axis], self._side = min(found, key=lambda one: abs(one[0] - self.place[self._axis]))
 
     def velocity(self) -> np.ndarray:
-        """Velocity (u, v) of the body one cell inside of its surface, or at its middle, m/s; NaN where there is no surface.
+        """Velocity (u, v) of the body one cell inside its surface, or at its middle, m/s; NaN if there is no surface.
 
         At the surface itself the velocity is partly that of vertices in void, which lags behind it: by 22 m/s (r.m.s.) in a
-        spall at 500 m/s, where one cell inside it differs by 4 m/s from the rate of the place.
+        spall at 500 m/s, where one cell inside it differs by 4 m/s from the speed of the place.
         """
         grid, inside = self._sim.grid, self.place.copy()
         if not np.isfinite(inside).all():
@@ -101,7 +101,7 @@ class Follower:
         return float(edges[cell + 1] - edges[cell])
 
     def follow(self) -> None:
-        """Puts the place where the surface is now; to be called after every cycle."""
+        """Moves the place to the present surface; to be called after every cycle."""
         here = self.place[self._axis]
         ends = []
         if np.isfinite(here):

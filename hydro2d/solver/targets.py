@@ -1,4 +1,4 @@
-"""The bodies that a rod is to go through, one behind the other."""
+"""The bodies that a rod is to go through, in order."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class Target(NamedTuple):
 
     name, m : of the body;  low, high : its extent along the axis at the start, with all that is joined to it, m
     surface, rear : axial positions of the face that the rod meets and of the other one, m, at the start
-    velocity : axial, m/s, with which the target moves on where nothing has touched it
+    velocity : axial, m/s, with which the target moves if nothing touches it
     """
 
     name: str
@@ -24,7 +24,7 @@ class Target(NamedTuple):
     velocity: float = 0.0
 
     def at(self, time: float) -> Target:
-        """The target as it would be by then, had nothing touched it."""
+        """The target as it would be then if nothing had touched it."""
         way = self.velocity * time
         return self._replace(low=self.low + way, high=self.high + way, surface=self.surface + way, rear=self.rear + way)
 
@@ -34,12 +34,12 @@ def targets(deck, direction: float) -> list[Target]:
 
     The face of the first one is where the deck has it; a depth is measured from there.
     """
-    names, found = decks.slots(deck), []
+    names, result = decks.slots(deck), []
     for number, name in enumerate(deck.penetration.targets):
         low, high = decks.extent(decks.body(deck, name), deck, "z")
         front, rear = (low, high) if direction > 0 else (high, low)
         surface = decks.surface(deck) if number == 0 else front
         joined = [decks.extent(entry, deck, "z") for entry in deck.body if name in (entry.name, entry.join)]
-        found.append(Target(name, names.index(name), min(z for z, _ in joined), max(z for _, z in joined), surface, rear,
+        result.append(Target(name, names.index(name), min(z for z, _ in joined), max(z for _, z in joined), surface, rear,
                             decks.body(deck, name).velocity[1]))  # fmt: skip
-    return found
+    return result

@@ -1,4 +1,4 @@
-"""How long the next step is, and what set it; how fast a vertex may be."""
+"""The length of the next step and its cause; the speed limit of a vertex."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from hydro2d.physics import waves
 
-#: vertices may be this much faster than the fastest body was at the start, or than the slowest wave
+#: vertices may be this many times faster than the fastest body at the start, or than the slowest wave
 SPEED_LIMIT_FACTOR = 5.0
 
 

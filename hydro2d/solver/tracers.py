@@ -1,4 +1,4 @@
-"""What is at points, and points that move with the material."""
+"""Local values at points, and points that move with the material."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def group_of(group, vof, j, i):
 
 @point
 def group_at(own, group, vof, j, i):
-    """Body group that a point of group `own` moves with in a cell: its own as long as that is there, else the cell's.
+    """Body group that a point of group `own` moves with in a cell: its own as long as it is present, else the cell's.
 
     A point without a group of its own (-1) always moves with the cell's.
     """
@@ -60,7 +60,7 @@ def group_at(own, group, vof, j, i):
 def velocities(g, nr, nz, own, r, z, group, vof, u, v, points, result):
     """Velocity (u, v) at points (r, z), bilinear in the cell; those beyond the mesh have that of its edge.
 
-    It is that of body group `own`, or of the group of the cell where `own` is negative.
+    It is that of body group `own`, or of the group of the cell if `own` is negative.
 
     Reads    r, z edges;  group [m];  vof [m, j, i];  u, v [b, j-1/2, i-1/2];  points [n, 2]
     Writes   result [n, 2]
@@ -95,9 +95,9 @@ def advect(g, nr, nz, dt, r, z, own, group, vof, u, v, points):
 
 @serial
 def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v, points, found):
-    """What is in the cell of each point: mixtures over the bodies, as fields of these names have them.
+    """Values in the cell of each point: mixtures over the bodies, as in the fields of these names.
 
-    Pressure and stress are sums of volume fraction times value, void bearing none; temperature, strain and damage are means by
+    Pressure and stress are sums of volume fraction times value, with zero for void; temperature, strain and damage are means by
     mass; stresses are total, tension positive. The velocity is that of the point's group at the point. Beyond the mesh all is
     NaN.
 
@@ -145,7 +145,7 @@ def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v
 
 @serial
 def keep_peaks(time, found, peaks):
-    """Takes what points have now into the largest values that they have had; what is NaN does not count.
+    """Updates the extreme values of points by their present ones; NaN does not count.
 
     Reads    found [n, QUANTITIES]
     Updates  peaks [n, PEAKS]
@@ -166,7 +166,7 @@ def keep_peaks(time, found, peaks):
 def velocity_at(grid, state, points, group: int | None = None) -> np.ndarray:
     """Velocity (u, v) at points (r, z), array_like of shape [n, 2], bilinear in the cell; m/s.
 
-    group : body group whose velocity it is; without it that which the cell moves with
+    group : body group whose velocity it is; without it the group that the cell moves with
     """
     points = np.ascontiguousarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 2:

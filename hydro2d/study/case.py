@@ -58,15 +58,15 @@ class Outcome:
 
 def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwrite: bool = False,
              interrupt: Interrupt | None = None) -> Outcome:  # fmt: skip
-    """Runs a resolved deck in a directory, continues it from its restart file, or finds that it is done.
+    """Runs a resolved deck in a directory, continues it from its restart file, or detects that it is done.
 
     directory : its parent must exist, so that a machine without access to the study's disk says so
     deck_text : resolved TOML, as from Deck.to_toml
     threads : number of threads for the kernels; the results do not depend on it
-    overwrite : replace a run of another deck in the directory, which otherwise is a failure
+    overwrite : replace a run of another deck in the directory; without it such a run is a failure
     interrupt : may be called from anywhere to stop the run after the cycle, with a restart file
 
-    A case that fails by neither its physics nor anything that its user can mend is tried once more. Never raises; the message
+    A case that fails for a reason other than its physics or a mistake of its user is tried once more. Never raises; the message
     of the outcome says what went wrong.
     """
     directory = Path(directory)
@@ -81,9 +81,9 @@ def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, int
     started = time.perf_counter()
     about = {"host": socket.gethostname()}
     try:
-        found = _finished(directory, deck_text)
-        fresh = found is None
-        summary = found or _run(directory, deck_text, threads, overwrite, interrupt)
+        finished = _finished(directory, deck_text)
+        fresh = finished is None
+        summary = finished or _run(directory, deck_text, threads, overwrite, interrupt)
         if summary["status"] != DONE:
             about["message"] = summary["stop_reason"]
         about |= {"status": summary["status"], "fresh": fresh}
@@ -95,13 +95,13 @@ def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, int
 def _finished(directory: Path, deck_text: str) -> dict | None:
     """The summary of a finished run of this deck. A run that ended as unphysical counts, because it would do so again."""
     sha256 = run.deck_hash(deck_text)
-    found = state(directory, sha256)
-    ended = found["status"] in (DONE, UNPHYSICAL) and found["summary"].get("deck_sha256") == sha256
-    return found["summary"] if ended and not is_older(found["summary"]) else None
+    present = state(directory, sha256)
+    ended = present["status"] in (DONE, UNPHYSICAL) and present["summary"].get("deck_sha256") == sha256
+    return present["summary"] if ended and not is_older(present["summary"]) else None
 
 
 def is_older(summary: dict) -> bool:
-    """Whether a run has ended that was of another version of the method."""
+    """Whether an ended run is of another version of the method."""
     return bool(summary) and summary.get("method") != METHOD
 
 
@@ -115,7 +115,7 @@ def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interru
     # a second process helps: the other workers of the study wait meanwhile
     compilation.once(kernels(deck), lambda: compile_all.run_briefly(deck, second=True))
     summary = run.run(deck, directory, restart=restart, overwrite=not restart, quiet=True, interrupt=interrupt)
-    (directory / FAILED).unlink(missing_ok=True)  # not before: dask may repeat a case whose failure the sweep has written down
+    (directory / FAILED).unlink(missing_ok=True)  # not before: dask may repeat a case whose failure the sweep has recorded
     return summary
 
 
@@ -123,8 +123,7 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
     """Waits for a worker on this machine that is still ending, for example after its sweep was killed.
 
     Removes the lock of a process on another machine that shows no progress while this one watches, because its worker is gone;
-    what clocks of other machines say does not count. A process that still shows progress keeps its lock, and the run reports
-    that.
+    clocks of other machines do not count. A process that still shows progress keeps its lock, and the run reports that.
     """
     lock, began = directory / run.LOCK, time.monotonic()
     heard, signs = began, _signs(directory)
@@ -141,9 +140,9 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
 
 
 def _signs(directory: Path) -> list[tuple[int, int]]:
-    """What changes as long as the process lives that runs in a directory."""
-    found = (file.stat() for name in (run.LOCK, run.PROGRESS) if (file := directory / name).exists())
-    return [(each.st_ino, each.st_mtime_ns) for each in found]
+    """Marks that change as long as the process that runs in a directory lives."""
+    stats = (file.stat() for name in (run.LOCK, run.PROGRESS) if (file := directory / name).exists())
+    return [(each.st_ino, each.st_mtime_ns) for each in stats]
 
 
 def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:

@@ -42,7 +42,7 @@ class Option:
 class Planned:
     """A case before it runs. `text` is its resolved deck, or empty if the deck is wrong, and `message` then says why.
 
-    of, member, changed : in an ensemble the case that it repeats, its number, and what is changed, by name
+    of, member, changed : in an ensemble the case that it repeats, its number, and the changes, by name
     """
 
     name: str
@@ -82,7 +82,7 @@ def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None 
 
     search : whether the study must be a search; None: it may be either
     quiet : prints nothing while the decks of many cases are read
-    size : members and cells, where they are not those of the file
+    size : members and cells that replace those of the file
 
     Raises StudyError for mistakes in the study itself.
     """
@@ -129,21 +129,21 @@ class _Planner:
         self._raise()
         described = [{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
                      for axis, choices in zip(self.definition.axis, axes, strict=True)]  # fmt: skip
-        found = self._velocities(speeds, bare, files) if speeds else None
-        if found is not None:
-            combinations = self._at_velocities(combinations, found)
-            described.append({"name": velocities.AXIS, "key": found.key, "values": list(found.labels)})
+        interval = self._velocities(speeds, bare, files) if speeds else None
+        if interval is not None:
+            combinations = self._at_velocities(combinations, interval)
+            described.append({"name": velocities.AXIS, "key": interval.key, "values": list(interval.labels)})
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
         planned = [self._repeated(name, *self._case(each), files)
                    for name, each in zip(names, counted(combinations, "decks read", quiet), strict=True)]
         self.wrong = list(dict.fromkeys(self.wrong))
         self._raise()
         cases = [case for group in planned for case in group]
-        if found is not None:
-            self._check_impacts(cases, found)
+        if interval is not None:
+            self._check_impacts(cases, interval)
         return Plan(
             name=self.path.stem, title=self.definition.title, text=self.text,
-            out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=found,
+            out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=interval,
             ensemble=self.ensemble, keep=self.path.parent / keep if (keep := self.definition.keep) else None,
         )  # fmt: skip
 
@@ -208,13 +208,13 @@ class _Planner:
             raise StudyError(f"{self.path}: {of} {count} cases; at most {ranges.MOST} are allowed")
 
     def _free_of_axes(self, axes: list[list[Option]]) -> None:
-        """Checks that no axis sets what the members of an ensemble change."""
+        """Checks that no axis sets a key that the members of an ensemble change."""
         for number, (axis, choices) in enumerate(zip(self.definition.axis, axes, strict=True)):
             for choice in choices:
-                found = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
-                if found:
-                    self._say(("axis", number), f'axis "{axis.name}" sets {found[1]}, and the ensemble changes it by '
-                                                f'"{found[0]}"; leave out one of them')  # fmt: skip
+                clash = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
+                if clash:
+                    self._say(("axis", number), f'axis "{axis.name}" sets {clash[1]}, and the ensemble changes it by '
+                                                f'"{clash[0]}"; leave out one of them')  # fmt: skip
                     break
 
     # ------------------------------------------------------------------------------------------------ velocities of a search
@@ -250,15 +250,15 @@ class _Planner:
         given = self.definition.transition
         return velocities.Velocities.of_study(key, given, tuple(labels))
 
-    def _at_velocities(self, combinations: list[tuple], found: velocities.Velocities) -> list[tuple]:
+    def _at_velocities(self, combinations: list[tuple], interval: velocities.Velocities) -> list[tuple]:
         """Every combination at every velocity."""
-        choices = [Option(label, short(label), {found.key: label}) for label in found.labels]
+        choices = [Option(label, short(label), {interval.key: label}) for label in interval.labels]
         return [(*combination, choice) for combination in combinations for choice in choices]
 
-    def _check_impacts(self, cases: list[Planned], found: velocities.Velocities) -> None:
+    def _check_impacts(self, cases: list[Planned], interval: velocities.Velocities) -> None:
         """Raises StudyError if the velocity of the search is not the impact velocity."""
-        for case in cases[:: len(found.labels)]:
-            fault = velocities.fault(decks.loads(case.text), found.key, found.labels[0]) if case.text else None
+        for case in cases[:: len(interval.labels)]:
+            fault = velocities.fault(decks.loads(case.text), interval.key, interval.labels[0]) if case.text else None
             if fault and not self.wrong:
                 self._say(("transition", "key"), f"transition.key: {fault}")
         self._raise()
@@ -345,7 +345,7 @@ class _Planner:
                 yield from ((_place(place, key, table), key) for key in settings if key != DECK)
 
     def _repeated(self, name: str, labels: dict, base: str, overrides: list[str], files: dict[str, Path]) -> list[Planned]:
-        """A case, or its members if there is an ensemble; of a wrong deck the first alone, so that it is reported once."""
+        """A case, or its members if there is an ensemble; of a wrong deck only the first, so that it is reported once."""
         deck, message = _read(files[base], overrides)
         if deck and self.size.cells:
             try:
@@ -369,7 +369,7 @@ class _Planner:
 
 
 def _read(file: Path, overrides: list[str]) -> tuple[decks.Deck | None, str]:
-    """A deck, or None and why there is none."""
+    """A deck, or None and the reason."""
     try:
         return decks.load(file, overrides), ""
     except DeckError as error:
@@ -379,8 +379,8 @@ def _read(file: Path, overrides: list[str]) -> tuple[decks.Deck | None, str]:
 def _changed(case: Planned, deck: decks.Deck, file: Path) -> Planned:
     """A member with its own deck; ``deck`` is that of its case, which must allow the changes, else DeckError."""
     overrides = [*case.overrides, *members.overrides(deck, case.changed)]
-    found, message = _read(file, overrides)
-    return replace(case, overrides=overrides, text=found.to_toml() if found else "", message=message)
+    changed, message = _read(file, overrides)
+    return replace(case, overrides=overrides, text=changed.to_toml() if changed else "", message=message)
 
 
 def _place(table: tuple, key: str, given: dict) -> tuple:
@@ -396,10 +396,10 @@ def short(label: str) -> str:
 
 def distinct(names: list[str]) -> list[str]:
     """The names, with -2, -3 and so on added to repeated ones."""
-    found: dict[str, None] = {}
+    unique: dict[str, None] = {}
     for name in names:
         number, given = 2, name
-        while given in found:
+        while given in unique:
             given, number = f"{name}-{number}", number + 1
-        found[given] = None
-    return list(found)
+        unique[given] = None
+    return list(unique)

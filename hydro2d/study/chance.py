@@ -1,4 +1,4 @@
-"""Numbers of a sample: the Wilson interval of a fraction, the spread of values, the probability that a count suggests."""
+"""Numbers of a sample: the Wilson interval of a fraction, the spread of values, the probability estimated from a count."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ LEVEL, LOW, HIGH = 0.9, 0.1, 0.9
 
 
 class Share(NamedTuple):
-    """How often something happened: successes of trials, their fraction, and the ends of its Wilson interval."""
+    """The frequency of an event: successes of trials, their fraction, and the ends of its Wilson interval."""
 
     successes: int
     trials: int
@@ -27,7 +27,7 @@ class Share(NamedTuple):
 
 
 class Spread(NamedTuple):
-    """Median of a sample, its 10 % and 90 % quantiles, and how many values it has."""
+    """Median of a sample, its 10 % and 90 % quantiles, and the number of values."""
 
     median: float
     low: float
@@ -55,8 +55,8 @@ def spread(values: Sequence[float]) -> Spread | None:
 
 
 def probability(successes: int, trials: int) -> float:
-    """Probability of an outcome that was seen in some of the trials: (successes + 1/2) / (trials + 1), Jeffreys' estimate.
+    """Probability of an outcome from its frequency in trials: (successes + 1/2) / (trials + 1), Jeffreys' estimate.
 
-    Unlike the fraction it is never 0 or 1, so that a score by logarithms does not end with the first miss.
+    Unlike the fraction it is never 0 or 1, so that a logarithmic score stays finite after a miss.
     """
     return (successes + 0.5) / (trials + 1.0)

@@ -21,37 +21,37 @@ CSV, PICTURE = "transition.csv", "transition.png"
 COLUMNS, SIZE, POINTS, APART = 3, (5.2, 3.6), 300, 0.035
 
 
-def write(study: Study, found: Sequence[Transitions]) -> list[Path]:
+def write(study: Study, results: Sequence[Transitions]) -> list[Path]:
     """Writes both files into the directory of a study and returns them. Raises OSError, FigureError."""
     files = [own(study.directory / name) for name in (CSV, PICTURE)]
-    rows = [row for each in found for row in v50.rows(each.values, each.estimate, _draws(study, each))]
+    rows = [row for each in results for row in v50.rows(each.values, each.estimate, _draws(study, each))]
     write_text(files[0], table.to_csv(rows))
-    figures.save(draw(found), files[1])
+    figures.save(draw(results), files[1])
     return files
 
 
-def _draws(study: Study, found: Transitions) -> list[dict]:
-    """What every shot differs in, by column; None in those of one that has not begun."""
+def _draws(study: Study, result: Transitions) -> list[dict]:
+    """The changes of every shot by column; None for one that has not begun."""
     cases = {case.name: case for case in study.cases}
-    begun = [cases[shot.case].deck or {} for shot in found.estimate.shots]
+    begun = [cases[shot.case].deck or {} for shot in result.estimate.shots]
     keys = {column: key.split(".") for column, key in draws.KEYS.items()}
     return [{column: deck.get(section, {}).get(name) for column, (section, name) in keys.items()} for deck in begun]
 
 
-def draw(found: Sequence[Transitions]):
+def draw(results: Sequence[Transitions]):
     """A figure with a panel for each combination: shots as dots, probability of the outcome of fast shots, its 90 % band."""
-    columns = min(len(found), COLUMNS)
-    rows = -(-len(found) // columns)
+    columns = min(len(results), COLUMNS)
+    rows = -(-len(results) // columns)
     figure, axes = figures.new_figure(SIZE[0] * columns, SIZE[1] * rows, rows, columns)
-    for place, each in zip(axes.flat, found, strict=False):
+    for place, each in zip(axes.flat, results, strict=False):
         _panel(place, each)
-    for place in axes.flat[len(found) :]:
+    for place in axes.flat[len(results) :]:
         place.set_visible(False)
     return figure
 
 
-def _panel(axes, found: Transitions) -> None:
-    each = found.estimate
+def _panel(axes, result: Transitions) -> None:
+    each = result.estimate
     slow, fast = each.outcomes
     _dots(axes, each)
     if each.fit is not None:
@@ -68,7 +68,7 @@ def _panel(axes, found: Transitions) -> None:
     axes.set_ylim(-0.22, 1.22)
     axes.set_yticks([0.0, 0.5, 1.0], [f"{slow}  0", "0.5", f"{fast}  1"], fontsize=7)
     axes.set_xlabel("impact velocity [m/s]", fontsize=8)
-    axes.set_title(verbatim(f"{found.title}: {each.name}"), fontsize=8)
+    axes.set_title(verbatim(f"{result.title}: {each.name}"), fontsize=8)
     axes.tick_params(labelsize=7)
     axes.grid(alpha=0.3)
     if axes.get_legend_handles_labels()[0]:

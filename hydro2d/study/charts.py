@@ -1,4 +1,4 @@
-"""The drawn figures of a report, by Plotly: responses against what was varied, and histories.
+"""The drawn figures of a report, by Plotly: responses against varied quantities, and histories.
 
 Text, grid and experiments have stand-in colours, which the page's style replaces by those of the light or the dark scheme;
 saved pictures keep the stand-ins, which are those of paper.
@@ -20,27 +20,27 @@ from hydro2d.study.record import Record, Setup
 from hydro2d.study.responses import DEPTH, RESIDUAL, Response, Variable, readers, title
 from hydro2d.study.series import Series, style
 
-#: stand-ins for text and experiments, for models and axes, for the grid and for the paper
+#: stand-ins for text and experiments, for models and axes, for the grid, and for the paper
 INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"
-#: heights in pixels: of a panel, of what is below it, of a line of the legend; letters in such a line
+#: heights in pixels: of a panel, of the space below it, of a line of the legend; letters in such a line
 PANEL, BELOW, LINE, LETTERS = 300, 74, 19, 40
 #: pixels between the words of two rows of a strip
 GAP = 14
-#: how far a strip reaches for the line of a model, in largest depths of runs and experiments
+#: largest extent of a strip for the line of a model, in largest depths of runs and experiments
 FARTHEST = 1.5
-#: entries of a legend beyond which the rest is left to the values that a pointer shows
+#: largest number of entries in a legend; a pointer shows the rest
 MOST_ENTRIES = 24
-#: runs beyond which histories are told apart by series only
+#: largest number of runs whose histories have a style each; beyond it, only series have
 MOST_LINES = 12
 #: words on an x axis beyond which they stand upright
 MOST_ACROSS = 4
 #: markers of measurements: qualifier -> marker and word
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
             AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
-#: columns of the history that a model of a rod gives as well, and what they are called there
+#: columns of the history that a model of a rod also gives, and their names there
 OF_MOTION = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
 THEORY_DASHES = ("solid", "dash", "dashdot", "dot", "8px,2px,2px,2px,2px,2px")
-#: how strong the line of a model is for the slowest of several impacts
+#: opacity of the line of a model for the slowest of several impacts
 FAINTEST = 0.45
 
 
@@ -87,10 +87,10 @@ def _finished(figure, rows: int = 1, labels: int = 0, panel: float = PANEL):
 def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
              shots: Sequence[Measurement], curves: Sequence[theory.Curve],
              left: Sequence[residual.Curve]):  # fmt: skip
-    """A response against what was varied: ended runs have filled marks, unfinished runs open ones, bounds triangles.
+    """A response against a varied quantity: ended runs have filled marks, unfinished runs open ones, bounds triangles.
 
     setup : of a panel of one projectile and target, whose rear a line shows in a panel of depths
-    measured : experiments by case, drawn where x is not the velocity;  shots : all experiments of the setup, where it is
+    measured : experiments by case, drawn if x is not the velocity;  shots : all experiments of the setup, drawn if it is
     curves, left : analytic models, of the depth and of the residual velocity
     """
     figure = _figure()
@@ -134,7 +134,7 @@ def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[
     order = [word for word in rows.order if word in there]
     highest = _highest(figure)
     shown = max([highest, *(values[0] for *_, values in drawn if values[0] < FARTHEST * highest)])
-    for trace in figure.data:  # what was drawn over the words is turned
+    for trace in figure.data:  # traces over the words are turned
         values, places = trace.y, [order.index(word) if word in order else None for word in trace.x]
         if trace.meta == "model":
             values, places = trace.y[:1] * 2, [-0.5, len(order) - 0.5]
@@ -151,7 +151,7 @@ def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[
 
 
 def _words_below(figure, order: Sequence[str]) -> int:
-    """Words on the x axis in their order, wrapped, upright where they are many; pixels that they take beyond one line."""
+    """Words on the x axis in their order, wrapped, upright if they are many; returns their pixels beyond one line."""
     upright = len(order) > MOST_ACROSS
     wrapped = [textwrap.wrap(word, LETTERS // (2 if upright else len(order) + 1)) or [""] for word in order]
     figure.update_xaxes(type="category", categoryorder="array", categoryarray=order, tickmode="array", tickvals=order,
@@ -162,7 +162,7 @@ def _words_below(figure, order: Sequence[str]) -> int:
 
 
 def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y: Response) -> None:
-    """Lines by name, colour (grey where none is given), impact velocity and value."""
+    """Lines by name, colour (default: grey), impact velocity and value."""
     for number, (name, colour, velocity, value) in enumerate(lines):
         values = [None if np.isnan(one) else float(f"{one:.5g}") for one in value]
         shape = {"color": colour or MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
@@ -221,27 +221,28 @@ def _depths(figure, series: Sequence[Series], x: Variable, y: Response, measured
         places = [(x.value(each), measured[each.case.name]) for each in records if each.case.name in measured]
         places = list(dict.fromkeys(entry for entry in places if entry[0] is not None))
     for qualifier in MEASURED:
-        found = [(place, entry.velocity, entry.depth, entry.source) for place, entry in places if entry.qualifier == qualifier]
-        _experiments(figure, qualifier, y, found)
+        entries = [(place, entry.velocity, entry.depth, entry.source) for place, entry in places
+                   if entry.qualifier == qualifier]
+        _experiments(figure, qualifier, y, entries)
 
 
 def _residuals(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
     """Measured residual velocities, at the places of the runs with these shots in their decks."""
     records = [record for each in series for record in each.records]
-    found = [(x.value(each), each.velocity, each.measured_residual, each.deck["experiment"]["source"])
-             for each in records if each.measured_residual is not None]  # fmt: skip
-    _experiments(figure, "measured", y, [entry for entry in dict.fromkeys(found) if entry[0] is not None])
+    entries = [(x.value(each), each.velocity, each.measured_residual, each.deck["experiment"]["source"])
+               for each in records if each.measured_residual is not None]  # fmt: skip
+    _experiments(figure, "measured", y, [entry for entry in dict.fromkeys(entries) if entry[0] is not None])
 
 
-def _experiments(figure, qualifier: str, y: Response, found: Sequence[tuple[float | str, float | None, float, str]]) -> None:
+def _experiments(figure, qualifier: str, y: Response, entries: Sequence[tuple[float | str, float | None, float, str]]) -> None:
     """Marks of experiments by place on the x axis, impact velocity in m/s, value in SI and source."""
-    if not found:
+    if not entries:
         return
     marker, word = MEASURED[qualifier]
-    told = [f"<b>{word}</b><br>{verbatim(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
-            + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in found]  # fmt: skip
-    figure.add_scatter(x=[place for place, *_ in found], y=[value * y.factor for _, _, value, _ in found], mode="markers",
-                       name=word, text=told, hovertemplate="%{text}<extra></extra>", meta="experiment",
+    labels = [f"<b>{word}</b><br>{verbatim(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
+              + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in entries]  # fmt: skip
+    figure.add_scatter(x=[place for place, *_ in entries], y=[value * y.factor for _, _, value, _ in entries], mode="markers",
+                       name=word, text=labels, hovertemplate="%{text}<extra></extra>", meta="experiment",
                        marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
 
 
@@ -253,7 +254,7 @@ def _rear(figure, setup: Setup, y: Response) -> None:
 
 
 def _highest(figure) -> float:
-    """The largest value of runs and experiments, which models may exceed."""
+    """The largest value of runs and experiments; models may exceed it."""
     shown = [value for trace in figure.data if trace.meta != "model" for value in trace.y if value is not None]
     return max(shown, default=0.0) or 1.0
 
@@ -264,7 +265,7 @@ def few_lines(drawn: Sequence[tuple[Series, Record]]) -> bool:
 
 
 def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]], names: Sequence[str]) -> None:
-    """What models give of the columns, from the touch in s on, by impact velocity in m/s and name.
+    """Columns by analytic models, from the first touch in s on, by impact velocity in m/s and name.
 
     A model has its dashes, and the fastest impact the strongest line.
     """
@@ -287,14 +288,14 @@ def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]]
 
 def histories(series: Sequence[Series],
               motions: Mapping[float, tuple[float, Mapping[str, Motion]]] = MappingProxyType({})):  # fmt: skip
-    """Columns of the history against time, one panel each. Few runs each have a line style; many have that of their series.
+    """Columns of the history against time, one panel each. Few runs have a line style each; many have that of their series.
 
-    So have members of ensembles; all but the first are thin. motions : of models beside them, by impact velocity in m/s: the
-    time of the first touch in s, and the motions by name
+    Members of ensembles have that of their series too; all but the first are thin. motions : of models, by impact velocity in
+    m/s: the time of the first touch in s, and the motions by name
     """
     drawn = [(each, record) for each in series for record in each.records if record.history]
     names = list(dict.fromkeys(name for _, record in drawn for name in record.history if name != "time"))
-    few, told = few_lines(drawn), set()
+    few, in_legend = few_lines(drawn), set()
     figure = _figure(len(names))
     for number, (each, record) in enumerate(drawn):
         how = style(number) if few else each.style
@@ -308,11 +309,11 @@ def histories(series: Sequence[Series],
                 opacity=0.4 if record.case.member else 1.0,
                 line={"color": how.colour, "width": 0.9 if record.case.member else 1.4, "dash": how.dash},
                 name=label, legendgroup=label,
-                showlegend=label not in told, row=row, col=1,
+                showlegend=label not in in_legend, row=row, col=1,
                 hovertemplate=f"<b>{verbatim(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
                               "<extra></extra>",
             )  # fmt: skip
-            told.add(label)
+            in_legend.add(label)
     _motions(figure, motions, names)
     for row, name in enumerate(names, 1):
         figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)

@@ -1,4 +1,4 @@
-"""Which cases a study has and which of them run next: here all, in their order; `transition` has the other choice."""
+"""The cases of a study and which of them run next: here all, in their order; `transition` has the other choice."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class Choice:
 
     Cases that are up to date in the rows that the study keeps are not run.
 
-    Dask is given no more cases at a time than there are workers. It would assign more to the workers at once, and when a worker
-    dies, it blames every case that waits there.
+    Dask is given no more cases at a time than there are workers. It would assign more to the workers at once, and if a worker
+    dies, it blames every case waiting there.
     """
 
     def __init__(self, plan: Plan, only: Sequence[str] = (), skip: Sequence[str] = (), again: bool = False):
@@ -62,20 +62,20 @@ class Choice:
 
     @cached_property
     def complete(self) -> bool:
-        """Whether the rows that the study keeps have all that it is run for, as it begins."""
+        """Whether, at the start, the rows that the study keeps already have all its results."""
         return not self.selected
 
     def kept(self) -> str:
-        """How many of its cases are up to date in the rows that the study keeps; empty if it keeps none."""
+        """The number of cases up to date in the rows that the study keeps, in words; empty if it keeps none."""
         return "" if self.keeper is None else self.keeper.told([*self.fresh, *(case.name for case in self.selected)])
 
     def keep(self, cases: Iterable[Case]) -> None:
-        """Adds those that have ended to the rows that the study keeps. Raises OSError."""
+        """Adds the ended ones to the rows that the study keeps. Raises OSError."""
         if self.keeper is not None:
             self.keeper.add(cases, self.plan.cases)
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
-        """Names of cases to run now, at most `room`, besides those in `busy`. They need not be in the study yet."""
+        """Names of cases to run now, at most `room`, in addition to those in `busy`. They need not be in the study yet."""
         passed = self.given | self.left_out
         left = (case.name for case in cases if case.status not in ENDED and case.name not in passed)
         names = list(islice(left, room))
@@ -91,5 +91,5 @@ class Choice:
         return 0
 
     def news(self, cases: Sequence[Case], name: str) -> str:
-        """What a case that has ended means for the whole study; may be empty."""
+        """News from an ended case for the whole study; may be empty."""
         return ""

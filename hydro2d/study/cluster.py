@@ -15,9 +15,9 @@ from hydro2d.deck.base import Section
 from hydro2d.errors import DeckError, Sources
 from hydro2d.study.definition import StudyError, explained
 
-#: where a sweep on this machine listens
+#: address at which a sweep on this machine listens
 HERE = "127.0.0.1"
-#: times that the workers of this machine are started before that is given up
+#: attempts to start the workers of this machine
 STARTS = 3
 #: seconds to wait for the scheduler of --scheduler
 ANSWER = 15
@@ -72,14 +72,14 @@ def default_workers(threads: int) -> int:
 
 
 def needed(workers: int | None, threads: int, cases: int) -> int:
-    """Number of workers on this machine: as many as asked for, or as use all cores, but no more than there are cases."""
+    """Number of workers on this machine: as requested, or as many as use all cores, but at most one per case."""
     return min(workers or default_workers(threads), cases)
 
 
 def environment(threads: int) -> dict[str, str]:
     """Variables of a worker process."""
-    found = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads), children.SAFE: "1"}
-    return {**found, **{name: os.environ[name] for name in ("HYDRO2D_CACHE_DIR", "HYDRO2D_TARGET") if name in os.environ}}
+    variables = {"NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads), children.SAFE: "1"}
+    return {**variables, **{name: os.environ[name] for name in ("HYDRO2D_CACHE_DIR", "HYDRO2D_TARGET") if name in os.environ}}
 
 
 @contextmanager
@@ -94,7 +94,7 @@ def local(workers: int, threads: int) -> Iterator:
 
 
 def _begun(stack: ExitStack, workers: int, threads: int):
-    """The client of `local`, which ends with the stack. A worker that dies before all are there ends all; they begin anew.
+    """The client of `local`, which ends with the stack. If a worker dies before all have started, all are started anew.
 
     Raises StudyError.
     """
@@ -147,10 +147,10 @@ def _check_workers(client, address: str) -> None:
     from hydro2d.study import worker
 
     try:
-        found = client.run(worker.introduce)
+        workers = client.run(worker.introduce)
     except Exception as error:
         raise StudyError(f"--scheduler {address}: its workers cannot import hydro2d {__version__} ({error})") from None
-    for place, about in found.items():
+    for place, about in workers.items():
         has = f"--scheduler {address}: {place} has"
         if about["version"] != __version__:
             raise StudyError(f"{has} hydro2d {about['version']}, not {__version__}")

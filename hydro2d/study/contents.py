@@ -18,7 +18,7 @@ class Contents:
     """The cases of a study, as read.
 
     groups, measurements : by setup;  belonging : the measurement of each case by its name;  rows : of the table, in SI
-    notes : what could not be used
+    notes : on data that could not be used
     """
 
     study: Study
@@ -31,7 +31,7 @@ class Contents:
 
     @property
     def ensembles(self) -> list[Ensemble]:
-        """The ensembles of the study; a run that is no member is one by itself."""
+        """The ensembles of the study; a run outside ensembles is one by itself."""
         return grouped(self.records, self.belonging)
 
     @cached_property
@@ -60,9 +60,9 @@ def collect(study: Study, trust: bool = False) -> Contents:
         placed = [each for each in members if _key(each) not in unplaced]
         known[setup] = experiments.measured(setup, placed)
         for each in members:
-            found = experiments.belonging(each, known[setup])
-            if found is not None:
-                belonging[each.case.name] = found
+            measurement = experiments.belonging(each, known[setup])
+            if measurement is not None:
+                belonging[each.case.name] = measurement
             elif _key(each) in unplaced and not any(experiments.same_depth(each, entry) for entry in known[setup]):
                 lost.add(_key(each))
     notes += [_said(key, unplaced[key]) for key in unplaced if key in lost]

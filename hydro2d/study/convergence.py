@@ -1,4 +1,4 @@
-"""`hydro2d converge`: the members of an ensemble on several meshes, scatter within a mesh apart from change between meshes."""
+"""`hydro2d converge`: an ensemble on several meshes; scatter within a mesh is separated from change between meshes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ HEADS = ("cells", "members", "mean", "scatter", "error of the mean", "change", "
 class Meshes:
     """A response on several meshes, from the coarsest to the finest.
 
-    regimes : on each mesh, in words;  limit : the value for cells of no size, or why none is given
+    regimes : on each mesh, in words;  limit : the value for cells of zero size, or why there is none
     """
 
     response: Response
@@ -39,7 +39,7 @@ class Meshes:
     limit: Limit
 
     def lines(self) -> list[str]:
-        """The table of the meshes, and what follows from it."""
+        """The table of the meshes, and the conclusions."""
         means = [each.mean for each in self.levels]
         changes = ["", *(f"{fine - coarse:+.3g}" for coarse, fine in itertools.pairwise(means))][: len(means)]
         rows = [(f"{each.cells:g}", str(each.count), f"{each.mean:.4g}", f"{each.scatter:.2g}", f"{each.error:.2g}", change,
@@ -52,13 +52,13 @@ class Meshes:
             return [f"it does not extrapolate: {self.limit.words}"]
         within = math.sqrt(sum(each.scatter**2 for each in self.levels) / len(self.levels))
         between = max(each.mean for each in self.levels) - min(each.mean for each in self.levels)
-        told = [f"scatter within a mesh {within:.2g}, change between the meshes {between:.2g} {self.response.unit}".rstrip()]
-        found = self.limit
-        if found.value is None:
-            return [*told, f"it does not extrapolate: {found.words}"]
+        words = [f"scatter within a mesh {within:.2g}, change between the meshes {between:.2g} {self.response.unit}".rstrip()]
+        limit = self.limit
+        if limit.value is None:
+            return [*words, f"it does not extrapolate: {limit.words}"]
         unit = f" {self.response.unit}" if self.response.unit else ""
-        return [*told, f"extrapolated: {found.value:.4g}{unit}, {found.low:.4g} to {found.high:.4g} (90 %), order "
-                       f"{found.order:.2g}; {found.words}"]  # fmt: skip
+        return [*words, f"extrapolated: {limit.value:.4g}{unit}, {limit.low:.4g} to {limit.high:.4g} (90 %), order "
+                       f"{limit.order:.2g}; {limit.words}"]  # fmt: skip
 
     def data(self) -> dict:
         """For programs; values in SI."""
@@ -96,35 +96,35 @@ def sequences(contents: Contents, names: Sequence[str] = ()) -> list[Meshes]:
     shown = list(choice.y)
     if not names and any(each.value("rod_length_m") is not None for each in contents.records):
         shown = [shown[0], responses.response(LENGTH_RATIO), *shown[1:]]
-    found = sorted(contents.ensembles, key=_cells)
-    return [_sequence(found, y) for y in shown]
+    by_cells = sorted(contents.ensembles, key=_cells)
+    return [_sequence(by_cells, y) for y in shown]
 
 
 def _cells(each: Ensemble) -> float:
     return float(each.members[0].case.values[AXIS])
 
 
-def _sequence(found: Sequence[Ensemble], y: Response) -> Meshes:
+def _sequence(ensembles: Sequence[Ensemble], y: Response) -> Meshes:
     samples = [(_cells(each), [value * y.factor for record in each.ended if (value := raw(record, y.name)) is not None])
-               for each in found]  # fmt: skip
+               for each in ensembles]  # fmt: skip
     known = [(cells, values) for cells, values in samples if len(values) > 1]
     levels = [extrapolation.level(cells, values) for cells, values in known]
-    regimes = [each.regimes for each, (_, values) in zip(found, samples, strict=True) if len(values) > 1]
+    regimes = [each.regimes for each, (_, values) in zip(ensembles, samples, strict=True) if len(values) > 1]
     said = [", ".join(f"{regime} {share.successes} of {share.trials}" for regime, share in each.items()) for each in regimes]
     kinds = {regime for each in regimes for regime in each}
-    if len(known) < len(found):
+    if len(known) < len(ensembles):
         few = ", ".join(f"{cells:g}" for cells, values in samples if len(values) < 2)
         limit = Limit(None, None, None, None, f"fewer than two members have ended on {few} cells")
     elif len(kinds) > 1:
-        limit = Limit(None, None, None, None, f"runs end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean of them "
-                                              "is the depth of none")  # fmt: skip
-    elif y.name == DEPTH and any(each.bound is not None for each in found):
+        limit = Limit(None, None, None, None, f"runs end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean "
+                                              "describes none of them")  # fmt: skip
+    elif y.name == DEPTH and any(each.bound is not None for each in ensembles):
         limit = Limit(None, None, None, None, "some depths are lower bounds, since the projectile perforated or left the mesh")
     else:
         limit = extrapolation.limit(levels, [values for _, values in known])
     return Meshes(y, levels, said, limit)
 
 
-def write(directory: Path, found: Sequence[Meshes]) -> None:
+def write(directory: Path, meshes: Sequence[Meshes]) -> None:
     """Writes convergence.json. Raises OSError."""
-    write_json(directory / FILE, {"version": __version__, "responses": [each.data() for each in found]})
+    write_json(directory / FILE, {"version": __version__, "responses": [each.data() for each in meshes]})

@@ -16,7 +16,7 @@ from hydro2d.files import plain, read_text
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
 
-#: the key of a variant that names another base deck, that which lists the deck keys that it removes, and the table of a search
+#: keys of a variant for another base deck and for the deck keys that it removes; the table of a search
 DECK, REMOVE, SEARCH = "deck", "remove", "transition"
 
 
@@ -57,7 +57,7 @@ Keys = Annotated[dict[str, Any], AfterValidator(_flat), AfterValidator(_removing
 
 
 class Range(Section):
-    """Values from one number to another, by a step, which may end before `to`, or by a count, which ends at `to`."""
+    """Values from one number to another, by a step, which may stop before `to`, or by a count, which ends at `to`."""
 
     from_: float | int | str = Field(alias="from", description="first value")
     to: float | int | str = Field(description="last value")
@@ -92,9 +92,9 @@ class Axis(Section):
         return self
 
 
-#: runs of a round of a search with a budget where the study does not say, and fewest runs
+#: default and least number of runs in a round of a search with a budget
 ROUND, FEWEST = 4, 3
-#: largest width of a bracket, where the study does not say, m/s
+#: default of the largest width of a bracket, m/s
 TOLERANCE = 25.0
 
 
@@ -108,7 +108,7 @@ class Transition(Section):
     tolerance: PositiveSpeed | None = Field(
         None, description="largest width of a bracket; velocities are this far apart, from `from`; default 25 m/s"
     )
-    key: str | None = Field(None, description="deck key that is varied; default: the velocity of the deck's projectile")
+    key: str | None = Field(None, description="deck key to vary; default: the velocity of the deck's projectile")
     of: Literal["regime", "erosion", "length", "perforation", "deeper", "shallower"] = Field(
         "regime",
         description="what changes: the regime of the projectile; whether it erodes; whether it loses a third of its length; "
@@ -121,10 +121,10 @@ class Transition(Section):
         "without it the search is a bisection",
     )
     round: int | None = Field(
-        None, ge=FEWEST, le=1000, description="with `budget`: runs that are chosen at a time; default 4"
+        None, ge=FEWEST, le=1000, description="with `budget`: runs chosen at a time; default 4"
     )
     seed: int | None = Field(
-        None, ge=0, le=2**32, description="with `budget`: seed of what is changed from run to run; default 0"
+        None, ge=0, le=2**32, description="with `budget`: seed of the changes from run to run; default 0"
     )
 
     @model_validator(mode="after")
@@ -160,23 +160,23 @@ def _different(values: tuple) -> tuple:
 
 
 class Ensemble(Section):
-    """Repeats of every case that differ in what should not matter, so that they show how sure its result is."""
+    """Repeats of every case with changes that should not matter; they show how certain its result is."""
 
-    repeats: int = Field(ge=2, le=1000, description="number of members of each case; the first is its deck as it stands")
+    repeats: int = Field(ge=2, le=1000, description="number of members of each case; the first is its deck unchanged")
     by: Annotated[tuple[Literal["mesh offset", "flank offset", "first step"], ...], AfterValidator(_different)] = Field(
         ("mesh offset", "first step"),
-        description="what the members differ in: the mesh shifted along z by up to half a cell; the flank of the projectile "
+        description="the changes between members: the mesh shifted along z by up to half a cell; the flank of the projectile "
         "moved by up to a quarter of a cell; the first time step reduced by up to four thousandths",
     )
-    seed: int = Field(0, ge=0, le=2**32, description="which sequence of changes; another seed makes other members")
+    seed: int = Field(0, ge=0, le=2**32, description="seed of the sequence of changes; another seed makes other members")
 
 
 class Part(Section):
     """A study of a large one, or some of its cases."""
 
-    study: str = Field(min_length=1, description="study file, beside this one")
+    study: str = Field(min_length=1, description="study file, in the folder of this one")
     name: str | None = Field(None, min_length=1, description="name of its directory; default: that of its file, and the cells")
-    about: str = Field("", description="what it is run for")
+    about: str = Field("", description="its purpose")
     members: int | None = Field(None, ge=1, le=1000, description="members of each case; default: as in its file")
     cells: float | None = Field(None, gt=0.0, le=1000.0, description="cells across the radius of the projectile; default: as "
                                 "in its decks")
@@ -188,16 +188,16 @@ class Definition(Section):
     """A study file: a sweep with axes, an ensemble, or both; a search for a transition, with or without axes; or parts."""
 
     title: str = Field("", description="title for tables and reports")
-    deck: str | None = Field(None, description="base deck: beside the study file, or as `hydro2d run` finds decks")
+    deck: str | None = Field(None, description="base deck: in the folder of the study file, or as `hydro2d run` finds decks")
     out: str | None = Field(None, description="directory of the study; default: runs/<name of the study file>")
     set: Keys = Field({}, description="deck keys and values for every case; `remove` lists keys to take out")
-    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="what is varied, the first axis slowest")
+    axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="axes, the first one slowest")
     transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
     ensemble: Ensemble | None = Field(None, description="repeats of every case")
     exclude: tuple[dict[str, Any], ...] = Field((), description="combinations to leave out")
     keep: str | None = Field(
-        None, min_length=1, description="CSV file, beside this one, with a row for every run that has ended; a run is not made "
-        "again while the file has a row of its deck and of this version of the method",
+        None, min_length=1, description="CSV file, in the folder of this one, with a row for every run that has ended; a run "
+        "is not repeated while the file has a row of its deck and of this version of the method",
     )
     part: Annotated[tuple[Part, ...], AfterValidator(_filled)] = Field((), description="studies that make up this one, in turn")
 
@@ -237,7 +237,7 @@ def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sourc
 
 
 def of_tables(data: dict, name: str, overrides: Overrides) -> tuple[Definition, str, dict, Sources]:
-    """The same for nested dicts and lists, as a study file would give them; name : name of the study in messages."""
+    """`read` for nested dicts and lists, as a study file would give them; name : name of the study in messages."""
     sources = Sources()
     sources.add(name, {}, "")
     data = _with(data, overrides) if overrides else data
@@ -274,18 +274,18 @@ def _validated(data: dict, sources: Sources) -> Definition:
     """The study; numbers of its search need their units, as those of its decks do, unless [set] has numbers = "SI"."""
     in_si = _settings(data).get("numbers") == toml.SI
     try:
-        found = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
+        study = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
-    if not (found.axis or found.transition or found.ensemble or found.part):
+    if not (study.axis or study.transition or study.ensemble or study.part):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
-    if found.transition and found.ensemble:
-        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(found.transition)}")
-    return found
+    if study.transition and study.ensemble:
+        raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(study.transition)}")
+    return study
 
 
 def _instead(search: Transition) -> str:
-    """Why a search takes no ensemble, and what to do instead."""
+    """Why a search takes no ensemble, and the alternative."""
     if search.budget is not None:
         return ("a search with a budget takes no [ensemble], since every run is another draw already; leave it out. `seed` in "
                 "[transition] makes other draws, and a larger `budget` more of them")
@@ -295,7 +295,7 @@ def _instead(search: Transition) -> str:
 
 
 def explained(error: ValidationError, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:
-    """Our words for pydantic's errors, a line each; ``tables`` are the sections by the path of their keys."""
+    """hydro2d's messages for pydantic's errors, a line each; ``tables`` are the sections by the path of their keys."""
     return "\n".join(dict.fromkeys(_explained(entry, data, sources, tables) for entry in error.errors()))
 
 

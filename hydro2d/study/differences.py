@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-#: keys that every run has for itself
+#: keys that are particular to each run
 OWN = ("name", "output.directory")
 #: sections whose tables have names
 NAMED = ("body", "materials", "tracer", "gauge", "source")
@@ -19,11 +19,11 @@ def flatten(value, prefix: str = "") -> dict[str, object]:
         entries = [(entry.get("name", number), entry) for number, entry in enumerate(value)]
     else:
         return {prefix: tuple(value) if isinstance(value, (list, tuple)) else value}
-    found: dict[str, object] = {}
+    flat: dict[str, object] = {}
     for key, entry in entries:
         if not (prefix and key == "name"):
-            found.update(flatten(entry, f"{prefix}.{key}" if prefix else str(key)))
-    return found
+            flat.update(flatten(entry, f"{prefix}.{key}" if prefix else str(key)))
+    return flat
 
 
 def text(value, exact: bool = False) -> str:

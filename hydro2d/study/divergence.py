@@ -1,10 +1,10 @@
-"""`hydro2d diverge`: where and when two runs of nearly the same deck part, and how fast their difference grows.
+"""`hydro2d diverge`: where and when two runs of nearly the same deck diverge, and how fast their difference grows.
 
 The difference of a column of the history is its absolute value; that of a field is the largest over all cells that are at
 least half filled. Each is divided by the largest magnitude that the quantity has in either run. Columns of the second run are
 interpolated to the times of the first. Fields are compared cell by cell, in dumps of nearly the same time, while the meshes
-lie within a tenth of a cell of each other. What the small difference of the times makes by itself is estimated from the change
-since the dump before, and told.
+lie within a tenth of a cell of each other. The effect of the small difference of the times alone is estimated from the change
+since the dump before, and reported.
 
 A difference that grows by chance grows like exp(t / T): T, the growth time, is the time in which it becomes e times as large.
 It is fitted to the largest difference so far, from a thousandth of the stated size up to that size. Source of the measure:
@@ -32,10 +32,10 @@ from hydro2d.results.reading import Results, ResultsError
 from hydro2d.study import differences
 from hydro2d.study.table import to_csv
 
-#: columns of the history that are compared: of a projectile; those of every body are added where there is none
+#: columns of the history that are compared: of a projectile; without one, those of every body
 COLUMNS = ("penetration_depth_m", "rod_length_m", "rod_tail_velocity_m_s")
 OF_BODY = ("velocity_m_s", "kinetic_energy_J")
-#: fields that are compared where the dumps have them
+#: fields that are compared if the dumps have them
 FIELDS = ("velocity", "pressure", "density", "plastic_strain")
 #: largest distance of two meshes, in cells; largest difference of the times of two dumps, relative to their interval
 APART, SAME_TIME = 0.1, 0.05
@@ -64,7 +64,7 @@ class Curve:
     name : of the column or field;  kind : "history" or "field";  scale : its largest magnitude, SI
     time : s, shape (n,);  difference : relative to the scale, shape (n,)
     places : for a field, the cell with the largest difference at each time
-    by_time : what the difference of the times of the dumps alone makes at most, relative to the scale
+    by_time : largest effect of the difference of the times of the dumps alone, relative to the scale
     """
 
     name: str
@@ -77,11 +77,11 @@ class Curve:
 
     def first_beyond(self, size: float) -> int | None:
         """Number of the first time at which the difference exceeds a size; None if it never does."""
-        (found,) = np.nonzero(self.difference > size)
-        return int(found[0]) if len(found) else None
+        (beyond,) = np.nonzero(self.difference > size)
+        return int(beyond[0]) if len(beyond) else None
 
     def growth(self, size: float) -> Growth | None:
-        """The growth from a thousandth of a size up to it; None if the difference does not grow so, or is one of the times."""
+        """The growth from a thousandth of a size up to it; None if the difference does not grow so, or comes from the times."""
         largest = np.maximum.accumulate(self.difference)
         kept = (largest >= max(FROM * size, self.by_time)) & (largest <= size)
         if kept.sum() < FEWEST or math.log(largest[kept][-1] / largest[kept][0]) < GROWTH:
@@ -106,7 +106,7 @@ class Growth(NamedTuple):
 
 @dataclass(frozen=True)
 class Divergence:
-    """Two runs, the keys in which their decks differ, and the curves of all quantities; notes : what was not compared."""
+    """Two runs, the keys in which their decks differ, and the curves of all quantities; notes : on quantities not compared."""
 
     runs: tuple[Results, Results]
     keys: dict[str, tuple[str, str]]
@@ -116,16 +116,16 @@ class Divergence:
     def lines(self, size: float) -> list[str]:
         """The results as lines of text."""
         one, other = (run.label for run in self.runs)
-        told = [f"{one} and {other}", ""]
-        told += [f"  {key}: {values[0]} and {values[1]}" for key, values in self.keys.items()] or ["  their decks are the same"]
+        text = [f"{one} and {other}", ""]
+        text += [f"  {key}: {values[0]} and {values[1]}" for key, values in self.keys.items()] or ["  their decks are the same"]
         rows = [("quantity", "difference at the end", f"beyond {size:g} of its largest", "growth time"),
                 *(self._row(curve, size) for curve in self.curves)]  # fmt: skip
-        told += ["", *columns(rows)]
-        found = self.first(size)
-        told += ["", f"  {found}" if found else f"  no field differs by more than {size:g} of its largest value"]
+        text += ["", *columns(rows)]
+        first = self.first(size)
+        text += ["", f"  {first}" if first else f"  no field differs by more than {size:g} of its largest value"]
         by_time = [f"{curve.by_time:.2g} of {curve.name}" for curve in self.curves if curve.by_time > 0.1 * size]
-        told += [f"  the times of the dumps differ, which alone makes up to {', '.join(by_time)}"] if by_time else []
-        return [*told, *(f"  {note}" for note in self.notes)]
+        text += [f"  the times of the dumps differ, which alone makes up to {', '.join(by_time)}"] if by_time else []
+        return [*text, *(f"  {note}" for note in self.notes)]
 
     def _row(self, curve: Curve, size: float) -> tuple[str, str, str, str]:
         number, grown = curve.first_beyond(size), curve.growth(size)
@@ -136,10 +136,10 @@ class Divergence:
     def first(self, size: float) -> str:
         """The time and the cell at which a field first differs by more than a size, in words; empty if none does."""
         of_fields = [(curve, curve.first_beyond(size)) for curve in self.curves if curve.places]
-        found = [(curve.time[number], curve, number) for curve, number in of_fields if number is not None]
-        if not found:
+        beyond = [(curve.time[number], curve, number) for curve, number in of_fields if number is not None]
+        if not beyond:
             return ""
-        time, curve, number = min(found, key=lambda entry: (entry[0], -entry[1].difference[entry[2]]))
+        time, curve, number = min(beyond, key=lambda entry: (entry[0], -entry[1].difference[entry[2]]))
         place = curve.places[number]
         before = f", not yet in the dump of {curve.time[number - 1] * 1e6:.4g} us" if number else ""
         return (
@@ -160,9 +160,9 @@ def _place(curve: Curve, number: int) -> tuple:
     return curve.places[number] if curve.places else (None,) * len(Place._fields)
 
 
-def write_csv(found: Divergence, path: Path) -> None:
+def write_csv(divergence: Divergence, path: Path) -> None:
     """Writes the rows. Raises OSError."""
-    write_text(path, to_csv(found.rows()))
+    write_text(path, to_csv(divergence.rows()))
 
 
 def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Divergence:
@@ -175,8 +175,8 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
     for name in fields:
         if name not in quantities.BY_KEY:
             raise ResultsError(f"--field: {unknown('field', name, quantities.BY_KEY)}")
-    found = differences.compare({"one": one.tables, "other": other.tables}, exact=True)
-    keys = {key: _both(users) for key, users in found.varying.items()}
+    compared = differences.compare({"one": one.tables, "other": other.tables}, exact=True)
+    keys = {key: _both(users) for key, users in compared.varying.items()}
     if alone := [key for key, values in keys.items() if key.startswith("body.") and "not there" in values]:
         raise ResultsError(f"{one.directory} and {other.directory} are not of one shot: only one has {', '.join(alone)}")
     of_history = list(_histories(one, other))
@@ -187,7 +187,7 @@ def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Diverge
 
 
 def _missing(run: Results, fields: Sequence[str]) -> list[str]:
-    """Which of these fields the dumps of a run do not have."""
+    """Those of these fields that the dumps of a run do not have."""
     if not fields or not run.dumps:
         return []
     dump = vtk.read_grid(run.dumps[-1][1])
@@ -212,15 +212,15 @@ def _histories(one: Results, other: Results) -> Iterator[Curve]:
         if name not in second or name not in first:
             continue
         values = first[name][: len(time)].astype(float)
-        apart = np.abs(values - np.interp(time, second["time"], second[name]))
-        known = np.isfinite(apart)
+        difference = np.abs(values - np.interp(time, second["time"], second[name]))
+        known = np.isfinite(difference)
         scale = float(max(np.nanmax(np.abs(first[name]), initial=0.0), np.nanmax(np.abs(second[name]), initial=0.0)))
         if scale > 0.0 and known.any():
-            yield Curve(name, "history", scale, time[known], apart[known] / scale)
+            yield Curve(name, "history", scale, time[known], difference[known] / scale)
 
 
 def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[Curve], list[str]]:
-    """The curves of the fields, and what was not compared."""
+    """The curves of the fields, and notes on what was not compared."""
     second = list(other.dumps)
     rows: dict[str, list[tuple[float, float, Place, float]]] = {}
     scales: dict[str, float] = {}
@@ -233,7 +233,7 @@ def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[C
         if why:
             return _curves(rows, scales), [f"the fields are compared before {time * 1e6:.4g} us: {why}"]
         for name in [name for key in fields for name in _names(key, a) if name in a.fields and name in b.fields]:
-            largest, place = _apart(a, b, name)
+            largest, place = _largest_difference(a, b, name)
             rows.setdefault(name, []).append((time, largest, place, _by_time(a, b, before, name)))
             scales[name] = max(scales.get(name, 0.0), *(float(np.abs(each.fields[name]).max()) for each in (a, b)))
         before = a
@@ -244,7 +244,7 @@ def _fields(one: Results, other: Results, fields: Sequence[str]) -> tuple[list[C
 
 
 def _pairs(first: Sequence[tuple[float, Path]], second: Sequence[tuple[float, Path]]) -> Iterator[tuple[float, Path, Path]]:
-    """Time and file of every dump of the first run that has one of nearly the same time in the second, and that one's file."""
+    """Time and file of every dump of the first run with one of nearly the same time in the second, and that one's file."""
     interval = min((later - time for (time, _), (later, _) in pairwise(first)), default=0.0)
     for time, file in first:
         when, near = min(second, key=lambda entry: abs(entry[0] - time), default=(math.inf, file))
@@ -266,13 +266,14 @@ def _names(key: str, dump: vtk.Dump) -> list[str]:
 
 
 def _curves(rows: dict[str, list[tuple[float, float, Place, float]]], scales: dict[str, float]) -> list[Curve]:
-    found = []
+    curves = []
     for name, entries in rows.items():
         if scales[name] > 0.0:
-            time, apart, places, by_time = zip(*entries, strict=True)
+            time, difference, places, by_time = zip(*entries, strict=True)
             shown, scale = name.partition(" [")[0].lower(), scales[name]
-            found.append(Curve(shown, "field", scale, np.array(time), np.array(apart) / scale, places, max(by_time) / scale))
-    return found
+            curves.append(Curve(shown, "field", scale, np.array(time), np.array(difference) / scale, places,
+                                max(by_time) / scale))
+    return curves
 
 
 def _meshes_apart(a: vtk.Dump, b: vtk.Dump) -> str:
@@ -288,25 +289,25 @@ def _meshes_apart(a: vtk.Dump, b: vtk.Dump) -> str:
     return ""
 
 
-def _apart(dump: vtk.Dump, other: vtk.Dump, name: str) -> tuple[float, Place]:
+def _largest_difference(dump: vtk.Dump, other: vtk.Dump, name: str) -> tuple[float, Place]:
     """The largest difference of a field in cells that are half filled in both dumps, and its cell; a vector's magnitude."""
-    apart = np.nan_to_num(np.abs(dump.fields[name].astype(float) - other.fields[name].astype(float)))
-    if apart.ndim == 3:
-        apart = np.sqrt((apart**2).sum(axis=-1))
-    apart[(dump.filling().fraction < 0.5) | (other.filling().fraction < 0.5)] = 0.0
-    j, i = (int(n) for n in np.unravel_index(np.argmax(apart), apart.shape))
+    difference = np.nan_to_num(np.abs(dump.fields[name].astype(float) - other.fields[name].astype(float)))
+    if difference.ndim == 3:
+        difference = np.sqrt((difference**2).sum(axis=-1))
+    difference[(dump.filling().fraction < 0.5) | (other.filling().fraction < 0.5)] = 0.0
+    j, i = (int(n) for n in np.unravel_index(np.argmax(difference), difference.shape))
     share = quantities.BY_KEY["volume_fraction"]
     body = max(dump.bodies, key=lambda name: dump.fields[share.name(name)][j, i])
-    return float(apart[j, i]), Place(j, i, float(dump.z_centres[j]), float(dump.r_centres[i]), body)
+    return float(difference[j, i]), Place(j, i, float(dump.z_centres[j]), float(dump.r_centres[i]), body)
 
 
-def figure(found: Divergence, size: float):
+def figure(divergence: Divergence, size: float):
     """The differences against time on a logarithmic scale: histories to the left, fields to the right, with fitted growth."""
     from hydro2d.results import figures
 
     drawn, (axes,) = figures.new_figure(10.5, 4.2, 1, 2)
     for place, kind in zip(axes, ("history", "field"), strict=True):
-        for number, curve in enumerate(curve for curve in found.curves if curve.kind == kind):
+        for number, curve in enumerate(curve for curve in divergence.curves if curve.kind == kind):
             _draw(place, curve, size, f"C{number}", figures.verbatim(curve.name))
         place.axhline(size, color="black", linestyle=":", linewidth=1.0, label=f"{size:g} of the largest value")
         place.set_yscale("log")
@@ -320,7 +321,7 @@ def figure(found: Divergence, size: float):
 
 
 def _draw(axes, curve: Curve, size: float, colour: str, label: str) -> None:
-    """One curve and, dashed, the growth that was fitted to it."""
+    """One curve and, dashed, its fitted growth."""
     grown = curve.growth(size)
     said = label if grown is None else f"{label}: e times in {grown.time * 1e6:.3g} us"
     kept = curve.difference > 0.0

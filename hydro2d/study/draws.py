@@ -1,6 +1,6 @@
-"""A draw: what makes one run of a search another sample of chance than the next, and nothing else.
+"""A draw: the change that makes each run of a search a different sample of chance, and nothing else.
 
-It changes what the members of an ensemble differ in by default, as far as the deck allows it (explanation/how-sure).
+It makes the default changes of the members of an ensemble, as far as the deck allows them (explanation/how-sure).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ KEYS = {"first_step_factor": members.KNOBS["first step"].key, "z_start_m": membe
 
 
 def overrides(text: str, seed: int, number: int) -> list[str]:
-    """What a draw changes in a deck, as ``key=value``.
+    """The changes of a draw in a deck, as ``key=value``.
 
     text : resolved deck;  seed : of the search;  number : of the draw, from 1
 

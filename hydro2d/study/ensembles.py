@@ -1,4 +1,4 @@
-"""The results of ensembles: for each case the median and the spread of its members, and how often each regime came."""
+"""The results of ensembles: for each case the median and the spread of its members, and the frequency of each regime."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Ensemble:
 
     @property
     def ended(self) -> tuple[Record, ...]:
-        """The members whose results are final; if there is none, those that were cut at the end time of the deck."""
+        """The members whose results are final; if there are none, those cut off at the end time of the deck."""
         final = tuple(each for each in self.members if not each.unfinished)
         return final or tuple(each for each in self.members if each.cut)
 
     @property
     def cut(self) -> bool:
-        """Whether its numbers are those at the end time of the deck, while the projectile still moved."""
+        """Whether its numbers are those at the end time of the deck, with the projectile still moving."""
         return any(each.cut for each in self.ended)
 
     def spread(self, name: str) -> Spread | None:
@@ -54,32 +54,32 @@ class Ensemble:
     @cached_property
     def regimes(self) -> dict[str, Share]:
         """The share of each regime among the ended members, the most frequent first."""
-        found = Counter(str(regime) for each in self.ended if (regime := each.value("regime")))
-        return {regime: wilson(number, found.total()) for regime, number in found.most_common()}
+        counts = Counter(str(regime) for each in self.ended if (regime := each.value("regime")))
+        return {regime: wilson(number, counts.total()) for regime, number in counts.most_common()}
 
     @cached_property
     def outcome(self) -> tuple[str, Share] | None:
         """The outcome of the experiment, and the share of the members with it; None without an experiment."""
-        found = [pair for each in self.members if (pair := outcomes.pair(each, self.measurement))]
-        return (found[0][1], wilson(sum(run == shot for run, shot in found), len(found))) if found else None
+        pairs = [pair for each in self.members if (pair := outcomes.pair(each, self.measurement))]
+        return (pairs[0][1], wilson(sum(run == shot for run, shot in pairs), len(pairs))) if pairs else None
 
 
 def grouped(records: Sequence[Record], measurements: Mapping[str, Measurement] | None = None) -> list[Ensemble]:
-    """The ensembles of runs, in their order; a run that is no member is one by itself. ``measurements`` by case."""
-    found: dict[str, list[Record]] = {}
+    """The ensembles of runs, in their order; a run outside ensembles is one by itself. ``measurements`` by case."""
+    groups: dict[str, list[Record]] = {}
     for record in records:
-        found.setdefault(record.case.group, []).append(record)
+        groups.setdefault(record.case.group, []).append(record)
     known = measurements or {}
-    return [Ensemble(name, tuple(members), known.get(members[0].case.name)) for name, members in found.items()]
+    return [Ensemble(name, tuple(members), known.get(members[0].case.name)) for name, members in groups.items()]
 
 
-def score(found: Sequence[Ensemble]) -> outcomes.Score | None:
-    """How probable the outcomes of the experiments are; None if no ensemble has one."""
-    return outcomes.score([each.outcome[1] for each in found if each.outcome])
+def score(ensembles: Sequence[Ensemble]) -> outcomes.Score | None:
+    """The probability of the outcomes of the experiments; None if no ensemble has one."""
+    return outcomes.score([each.outcome[1] for each in ensembles if each.outcome])
 
 
-def rows(study: Study, found: Sequence[Ensemble], runs: Sequence[Row], choice: Choice | None = None) -> list[Row]:
-    """One row for each ensemble: what its members share, then medians, ends of the spreads, shares of the regimes.
+def rows(study: Study, ensembles: Sequence[Ensemble], runs: Sequence[Row], choice: Choice | None = None) -> list[Row]:
+    """One row for each ensemble: the values that its members share, then medians, ends of the spreads, shares of the regimes.
 
     runs : the rows of the runs;  choice : drawn responses, whose columns are added
     """
@@ -87,8 +87,8 @@ def rows(study: Study, found: Sequence[Ensemble], runs: Sequence[Row], choice: C
     left_out = {*OF_RUNS, *(name for each in study.ensembles for name in each.by)}
     kept = [name for name in (runs[0] if runs else ()) if not (name in left_out or name.startswith("sink_"))]
     names = [*RESULTS, *(y.name for y in choice.y if y.name not in (DEPTH, *RESULTS))] if choice else RESULTS
-    regimes = sorted({regime for each in found for regime in each.regimes})
-    return [_row(each, {name: of_case[each.members[0].case.name][name] for name in kept}, names, regimes) for each in found]
+    regimes = sorted({regime for each in ensembles for regime in each.regimes})
+    return [_row(each, {name: of_case[each.members[0].case.name][name] for name in kept}, names, regimes) for each in ensembles]
 
 
 def _row(each: Ensemble, shared: Row, names: Sequence[str], regimes: Sequence[str]) -> Row:
@@ -123,15 +123,15 @@ def _share(name: str, share: Share | None) -> Row:
             f"{name}_fraction_high": share and share.high}  # fmt: skip
 
 
-def table(found: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def table(ensembles: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads and rows of text, one row for each ensemble; columns without an entry are left out.
 
-    drawn : further numbers of which medians and spreads are given
+    drawn : further numbers, with medians and spreads
     """
     others = [y for y in drawn if y.name not in (DEPTH, LENGTH_RATIO)]
     shown = [*map(response, (DEPTH, LENGTH_RATIO)), *others]
     heads = ("case", "ended", *(f"{y.title}: median, 10 to 90 %" for y in shown), "regimes, 90 % interval", "as the experiment")
-    rows = [_cells(each, shown) for each in found]
+    rows = [_cells(each, shown) for each in ensembles]
     used = [n for n in range(len(heads)) if n < 2 or any(cells[n] for cells in rows)]
     return tuple(heads[n] for n in used), [tuple(cells[n] for n in used) for cells in rows]
 
@@ -154,8 +154,8 @@ def _in_words(each: Ensemble, y: Response) -> str:
     return f"{at_least}{median}, {low} to {high}"
 
 
-def report(found: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> list[str]:
+def report(ensembles: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> list[str]:
     """The results as lines of text; ``drawn`` as for `table`."""
-    heads, rows = table(found, drawn)
-    scored = score(found)
+    heads, rows = table(ensembles, drawn)
+    scored = score(ensembles)
     return lines(rows, heads) + (["", f"experiments: {scored.words}"] if scored else [])

@@ -55,17 +55,17 @@ def measured(setup: Setup, records: Sequence[Record]) -> list[Measurement]:
 
     An experiment without a velocity is assigned to the velocity of the run; see ``unplaced``.
     """
-    found = [
+    measurements = [
         Measurement(shot.velocity, shot.depth, shot.depth_is, f"shot {shot.number} of the CTH nose-shape study")
         for shot in of_materials(setup)
         if same_geometry(shot, setup)
     ]
     for record in records:
         data = record.experiment
-        if data and not any(same_depth(record, entry) for entry in found):
+        if data and not any(same_depth(record, entry) for entry in measurements):
             velocity = data.get("velocity") or record.velocity
-            found.append(Measurement(velocity, data["penetration"], data.get("qualifier", "measured"), data["source"]))
-    return sorted(found, key=lambda entry: entry.velocity)
+            measurements.append(Measurement(velocity, data["penetration"], data.get("qualifier", "measured"), data["source"]))
+    return sorted(measurements, key=lambda entry: entry.velocity)
 
 
 def same_depth(record: Record, measurement: Measurement) -> bool:

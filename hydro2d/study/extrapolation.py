@@ -1,8 +1,8 @@
-"""Means on several meshes, each with its scatter, extrapolated to cells of no size where the sequence allows it.
+"""Means on several meshes, each with its scatter, extrapolated to cells of zero size if the sequence allows it.
 
-Richardson's extrapolation, y = y0 + C h^p with the size h of the cells (Roache, J. Fluids Eng. 116 (1994) 405), takes the
-difference between two meshes for an effect of the mesh. Here part of it is chance, so that the means are drawn anew many times
-within their errors, and only a fit that succeeds for most draws is believed.
+Richardson's extrapolation, y = y0 + C h^p with the size h of the cells (Roache, J. Fluids Eng. 116 (1994) 405), assumes
+that the difference between two meshes is an effect of the mesh. Here part of it is chance, so the means are drawn anew many
+times within their errors, and only a fit that succeeds for most draws is accepted.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-#: orders p that a fit may have; beyond them a sequence does not converge, or not in a way that a few meshes can show
+#: orders p that a fit may have; outside them a sequence does not converge, or a few meshes cannot show it
 ORDERS = np.linspace(0.5, 3.0, 251)
 #: draws of the means, their seed, and the share of them that must converge
 DRAWS, SEED, ENOUGH = 4000, 0, 0.9
-#: smallest error of a mean that a fit takes seriously, as a share of the change between meshes
+#: smallest error of a mean in a fit, as a share of the change between meshes
 EXACT = 3e-3
-#: largest probability of chance alone at which a change between meshes is believed; chi^2 of one degree that a fit may have
+#: largest probability of chance alone at which a change between meshes is accepted; chi^2 of one degree that a fit may have
 CHANCE, MISFIT = 0.1, 3.84
 
 
@@ -37,10 +37,10 @@ class Level(NamedTuple):
 
 
 class Limit(NamedTuple):
-    """What a sequence of meshes says of the value without a mesh.
+    """The value that a sequence of meshes gives for cells of zero size.
 
-    value, low, high : extrapolated, with a 90 % interval, and the order of convergence; None where it cannot be extrapolated
-    words : why
+    value, low, high : extrapolated, with a 90 % interval, and the order of convergence; None if it cannot be extrapolated
+    words : the reason
     """
 
     value: float | None
@@ -52,21 +52,21 @@ class Limit(NamedTuple):
 
 def level(cells: float, values: Sequence[float]) -> Level:
     """The mean and scatter of the members on a mesh."""
-    found = np.asarray(values, dtype=float)
-    return Level(cells, len(found), float(found.mean()), float(found.std(ddof=1)) if len(found) > 1 else 0.0)
+    members = np.asarray(values, dtype=float)
+    return Level(cells, len(members), float(members.mean()), float(members.std(ddof=1)) if len(members) > 1 else 0.0)
 
 
 def alike(samples: Sequence[Sequence[float]]) -> float:
     """Probability that means differ as much or more by chance alone (Alexander and Govern's test, for unequal scatter)."""
     from scipy.stats import alexandergovern
 
-    if any(np.ptp(sample) == 0.0 for sample in samples):  # a mesh without scatter: nothing there is chance
+    if any(np.ptp(sample) == 0.0 for sample in samples):  # a mesh without scatter: no chance there
         return 1.0 if np.ptp(np.concatenate(samples)) == 0.0 else 0.0
     return float(alexandergovern(*samples).pvalue)
 
 
 def limit(levels: Sequence[Level], samples: Sequence[Sequence[float]]) -> Limit:
-    """The value for cells of no size; ``samples``: the values of the members on each mesh, at least two on each."""
+    """The value for cells of zero size; ``samples``: the values of the members on each mesh, at least two on each."""
     if len(levels) < 3:
         return Limit(None, None, None, None, "an order needs three meshes or more")
     chance = alike(samples)
@@ -89,7 +89,7 @@ def _common(samples: Sequence[Sequence[float]]) -> str:
 
 
 def _errors(levels: Sequence[Level]) -> np.ndarray:
-    """Standard errors of the means; a little more than zero where the members differ little or not."""
+    """Standard errors of the means; a little more than zero if the members hardly differ."""
     return np.maximum([each.error for each in levels], EXACT * np.ptp([each.mean for each in levels]))
 
 

@@ -1,8 +1,8 @@
-"""The rows that a study keeps beside its file: a CSV with one row for every run that has ended, whichever machine ran it.
+"""The rows that a study keeps in the folder of its file: a CSV with one row for every run that has ended, on any machine.
 
-A row says which run it is of: the labels of the case, cells across the projectile, and member; the set-up, which is a hash of
-whatever in the deck can change a result; and the version of the method. A run with a row of its set-up and of this method is up
-to date, and a sweep does not make it again. The row of another set-up or method is stale. It stays until its run has been made.
+A row identifies its run by the labels of the case, cells across the projectile, and member; by the set-up, a hash of everything
+in the deck that can change a result; and by the version of the method. A run with a row of its set-up and of this method is up
+to date, and a sweep does not repeat it. The row of another set-up or method is stale. It stays until its run has been made.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ Row = dict[str, str]
 
 
 def setup(deck: decks.Deck) -> str:
-    """A hash of what can change the results of a deck, in which keys with their default values do not count.
+    """A hash of everything in a deck that can change its results, without keys that have their default values.
 
     Titles, outputs, tracers and the experiment are left out. A new key of a later version leaves the hash alone.
     """
@@ -59,7 +59,7 @@ def setup(deck: decks.Deck) -> str:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A case of a plan: what its row must say to be up to date."""
+    """A case of a plan, with the entries that its row must have to be up to date."""
 
     case: Planned
     axes: tuple[str, ...]
@@ -74,35 +74,36 @@ class Wanted:
 
     @cached_property
     def about(self) -> Row:
-        """The columns that say which run it is."""
+        """The columns that identify the run."""
         radius = projectile(self.deck)[1]
         cells = "" if radius is None else f"{cells_across(self.deck, radius):.4g}"
         return {**{name: cell(self.case.values[name]) for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
 
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
-        told = case.summary
-        origin = told.get("provenance") or {}
+        summary = case.summary
+        origin = summary.get("provenance") or {}
         commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
-        found = {**_results(told), SETUP: self.setup, OF_METHOD: told.get("method", ""), "commit": commit,
-                 "date": (origin.get("written") or "")[:10]}  # fmt: skip
-        return self.about | {name: _text(value) for name, value in found.items()}
+        entries = {**_results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
+                   "date": (origin.get("written") or "")[:10]}  # fmt: skip
+        return self.about | {name: _text(value) for name, value in entries.items()}
 
 
-def _results(told: Mapping) -> dict[str, object]:
-    audit = told.get("conservation") or {}
+def _results(summary: Mapping) -> dict[str, object]:
+    audit = summary.get("conservation") or {}
     dropped = (audit.get("sinks") or {}).get("advection", {}).get("energy_J")
-    found = {
-        "status": told["status"], "stop_reason": told.get("stop_reason"), "trustworthy": told.get("trustworthy"),
-        "depth_m": told.get("penetration_depth_m"), "tail_velocity_m_s": told.get("rod_tail_velocity_m_s"),
-        "residual_velocity_m_s": told.get("rod_residual_velocity_m_s"), "regime": told.get("regime"),
-        "hole_m3": (told.get("crater") or {}).get("volume_m3"), "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
-        "time_s": told.get("time_s"), "cycles": told.get("cycles"), "wall_s": told.get("wall_s"),
-        "length_ratio": ratio(told.get("rod_length_m"), told.get("rod_initial_length_m")),
-        "radius_ratio": ratio(told.get("rod_max_radius_m"), told.get("rod_initial_radius_m")),
-        "mass_ratio": ratio(told.get("rod_mass_kg"), told.get("rod_initial_mass_kg")),
+    results = {
+        "status": summary["status"], "stop_reason": summary.get("stop_reason"), "trustworthy": summary.get("trustworthy"),
+        "depth_m": summary.get("penetration_depth_m"), "tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
+        "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"), "regime": summary.get("regime"),
+        "hole_m3": (summary.get("crater") or {}).get("volume_m3"),
+        "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
+        "time_s": summary.get("time_s"), "cycles": summary.get("cycles"), "wall_s": summary.get("wall_s"),
+        "length_ratio": ratio(summary.get("rod_length_m"), summary.get("rod_initial_length_m")),
+        "radius_ratio": ratio(summary.get("rod_max_radius_m"), summary.get("rod_initial_radius_m")),
+        "mass_ratio": ratio(summary.get("rod_mass_kg"), summary.get("rod_initial_mass_kg")),
     }  # fmt: skip
-    return {name: found[name] for name in RESULTS}
+    return {name: results[name] for name in RESULTS}
 
 
 def _text(value) -> str:
@@ -122,7 +123,7 @@ def read(path: Path) -> list[Row]:
 
 
 def of_directory(directory: Path) -> list[Row]:
-    """The same for the runs of a study directory that have ended. Raises StudyError, DeckError."""
+    """The rows of the ended runs of a study directory. Raises StudyError, DeckError."""
     study = layout.read(directory)
     axes = tuple(axis.name for axis in study.axes)
     rows = []
@@ -141,17 +142,17 @@ def labels(row: Row) -> Row:
 
 
 def methods(versions: Iterable[str]) -> str:
-    """What a table must say of the versions of its runs: nothing if all are of this method, else which are not."""
-    found = Counter(version or "unknown" for version in versions)
-    others = {name: number for name, number in found.items() if name != METHOD}
+    """A note for a table on the versions of its runs: empty if all are of this method, else those that are not."""
+    counts = Counter(version or "unknown" for version in versions)
+    others = {name: number for name, number in counts.items() if name != METHOD}
     if not others:
         return ""
-    told = ", ".join(f"{number} of {name}" for name, number in sorted(others.items()))
-    return f"Not all runs are of the method of {METHOD}: {told}."
+    listed = ", ".join(f"{number} of {name}" for name, number in sorted(others.items()))
+    return f"Not all runs are of the method of {METHOD}: {listed}."
 
 
 class Keeper:
-    """The kept rows of a plan: which of its cases are up to date, and the rows of those that end.
+    """The kept rows of a plan: those of its cases that are up to date, and new ones as cases end.
 
     plan : with `keep`;  cases that a search adds later are found by their decks
     """
@@ -175,13 +176,13 @@ class Keeper:
         return {each.case.name for each in wanted if each.setup in known} if known else set()
 
     def stale(self, names: Sequence[str]) -> int:
-        """How many of the cases have a row, and none that is up to date."""
+        """The number of cases that have a row, but none that is up to date."""
         fresh, known = self.fresh(names), {self._identity(row) for row in self.rows}
         return sum(self._identity(self.wanted[name].about) in known for name in names
                    if name in self.wanted and name not in fresh)  # fmt: skip
 
     def told(self, names: Sequence[str]) -> str:
-        """How many of the cases are up to date, stale, or without a row."""
+        """The numbers of cases that are up to date, stale, or without a row, in words."""
         fresh, stale = self.fresh(names), self.stale(names)
         missing = len(names) - len(fresh) - stale
         return f"{self.path}: {several(len(fresh), 'run')} up to date, {stale} stale, {missing} not made"

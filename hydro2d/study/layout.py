@@ -56,7 +56,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Ensemble:
-    """How the members of every case of a study are made: their number, what they differ in, and the seed."""
+    """How the members of every case of a study are made: their number, their changes, and the seed."""
 
     repeats: int
     by: tuple[str, ...]
@@ -76,7 +76,7 @@ class Case:
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
     summary : contents of summary.json; empty until the run has ended
     progress : contents of progress.json; empty while the case does not run
-    of, member, changed, ensemble : in an ensemble the case that it repeats, its number, what is changed, by name, and how its
+    of, member, changed, ensemble : in an ensemble the case that it repeats, its number, the changes by name, and how its
         members are made
     """
 
@@ -112,7 +112,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Interval:
-    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, what changes.
+    """The velocities of a search for a transition: deck key, velocities and largest width of a bracket in m/s, and outcome.
 
     depth : threshold of a depth, m;  budget : of a search for an outcome that is partly chance, else None
     """
@@ -147,7 +147,7 @@ class Study:
 
     @property
     def ensembles(self) -> tuple[Ensemble, ...]:
-        """How the members of ensembles are made, each way once; more than one only where several studies are combined."""
+        """How the members of ensembles are made, each way once; more than one only if several studies are combined."""
         return tuple(dict.fromkeys(case.ensemble for case in self.cases if case.ensemble))
 
     def case(self, number: int) -> Case:
@@ -156,7 +156,7 @@ class Study:
 
 
 def make(directory: Path) -> None:
-    """Makes the missing folders of a study. Raises OSError, StrangeFile if a file of the study is no file."""
+    """Makes the missing folders of a study. Raises OSError, StrangeFile if a file of the study is not a regular file."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     own_folder(directory / CASES)
@@ -178,10 +178,11 @@ def of_plan(plan, directory: Path) -> Study:
 
 def _data(plan) -> dict:
     """The contents of study.json for a plan."""
-    found = plan.search
-    search = found and {
-        "key": found.key, "speeds_m_s": [velocities.speed(label) for label in found.labels], "tolerance_m_s": found.tolerance,
-        "of": found.of, "depth_m": found.depth, "budget": found.budget and asdict(found.budget),
+    interval = plan.search
+    search = interval and {
+        "key": interval.key, "speeds_m_s": [velocities.speed(label) for label in interval.labels],
+        "tolerance_m_s": interval.tolerance, "of": interval.of, "depth_m": interval.depth,
+        "budget": interval.budget and asdict(interval.budget),
     }  # fmt: skip
     return {
         "title": plan.title,
@@ -222,12 +223,12 @@ def read(directory: Path | str) -> Study:
         raise StudyError(f"{directory} is not a study directory: it has no {STUDY}")
     data = table_of(directory / STUDY, StudyError)
     try:
-        found = _study(directory, data)
+        study = _study(directory, data)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise StudyError(f"{directory / STUDY} is not a valid study file: {error!r}") from None
-    if not found.cases:
+    if not study.cases:
         raise StudyError(f"{directory / STUDY}: the study has no cases")
-    return found
+    return study
 
 
 def _study(directory: Path, data: dict) -> Study:
@@ -237,30 +238,30 @@ def _study(directory: Path, data: dict) -> Study:
     repeated = data.get("ensemble")
     ensemble = Ensemble(repeated["repeats"], tuple(repeated["by"]), repeated["seed"]) if repeated else None
     cases = tuple(_case(directory, entry, ensemble) for entry in entries)
-    found = data.get("search")
-    search = _interval(found) if found else None
+    stored = data.get("search")
+    search = _interval(stored) if stored else None
     return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search)
 
 
-def _interval(found: dict) -> Interval:
+def _interval(stored: dict) -> Interval:
     """The search in study.json; one of an earlier version has neither depth nor budget."""
-    budget = found.get("budget")
-    return Interval(found["key"], tuple(found["speeds_m_s"]), found["tolerance_m_s"], found.get("of", "regime"),
-                    found.get("depth_m"), velocities.Budget(**budget) if budget else None)  # fmt: skip
+    budget = stored.get("budget")
+    return Interval(stored["key"], tuple(stored["speeds_m_s"]), stored["tolerance_m_s"], stored.get("of", "regime"),
+                    stored.get("depth_m"), velocities.Budget(**budget) if budget else None)  # fmt: skip
 
 
 def gather(directories: Sequence[Path | str]) -> Study:
     """Combines the runs of several directories, without axes, with the differing parts of their paths as names.
 
-    The members of the ensembles of a study directory stay members. Raises StudyError if one of them holds no run.
+    The members of the ensembles of a study directory stay members. Raises StudyError if one of them contains no run.
     """
-    found: dict[Path, Case] = {}
+    by_place: dict[Path, Case] = {}
     for directory in map(Path, directories):
         for case in _runs(directory):
-            found.setdefault(case.directory.resolve(), case)
+            by_place.setdefault(case.directory.resolve(), case)
     first = Path(directories[0])
-    base = os.path.commonpath([place.parent for place in found])
-    cases = tuple(_combined(case, place, base) for place, case in found.items())
+    base = os.path.commonpath([place.parent for place in by_place])
+    cases = tuple(_combined(case, place, base) for place, case in by_place.items())
     name = first.resolve().name if len(directories) == 1 else f"{len(cases)} runs"
     return Study(first, name, name, (), cases)
 
@@ -284,10 +285,10 @@ def _runs(directory: Path) -> list[Case]:
     if not directory.is_dir():
         near = nearest(directory.name, (path.name for path in directory.parent.glob("*/")))
         raise StudyError(f"{directory}: there is no such directory" + (f'; did you mean "{near}"?' if near else ""))
-    found = sorted(path.parent for name in (run.DECK, run.SUMMARY) for path in directory.glob(f"*/{name}"))
-    if not found:
+    places = sorted(path.parent for name in (run.DECK, run.SUMMARY) for path in directory.glob(f"*/{name}"))
+    if not places:
         raise StudyError(f"{directory} holds no runs: it has no {STUDY}, no {run.DECK}, and no directory with one")
-    return [_alone(place) for place in dict.fromkeys(found)]
+    return [_alone(place) for place in dict.fromkeys(places)]
 
 
 def _alone(place: Path) -> Case:
@@ -332,7 +333,7 @@ def state(place: Path, deck_sha256: str | None) -> dict:
 
     deck_sha256 : hash of the resolved deck that it should have; None: any
 
-    Nothing else says what a case is: a run that has ended counts, whatever failed before or as its worker died.
+    Nothing else decides the state of a case: a run that has ended counts, even after failures or the death of its worker.
     """
     try:
         return _read_state(place, deck_sha256)

@@ -9,15 +9,15 @@ outcome has probabilities of 10 % and 90 %, 2 ln 9 s. The estimate maximises the
 
     l(v50, s) = sum_i [y_i ln p_i + (1 - y_i) ln(1 - p_i)] + 1/2 ln det I                                   (2)
 
-where I is the information matrix of intercept and slope. Without the correction there is no estimate of s where the outcomes
-do not overlap, that is where every shot below some velocity has one outcome and every shot above it the other.
+where I is the information matrix of intercept and slope. Without the correction there is no estimate of s if the outcomes
+do not overlap, that is, if every shot below some velocity has one outcome and every shot above it the other.
 
-The interval of any quantity is the range of its values where 2 (max l - l) is at most the quantile of chi-squared with one
+The interval of any quantity is the range of its values for which 2 (max l - l) is at most the quantile of chi-squared with one
 degree of freedom: the profile of the penalised likelihood. That region is found on a grid in v50 and ln s. An end that lies
-beyond the grid is open. Where earlier outcomes have chosen the velocities, the interval of the width is too narrow: in
-made-up searches of 40 shots it held the true width in 82 % of 240, that of v50 in 92 %. The width therefore has the quantile of
-97 %, which held it in 94 % of 120 searches. With other seeds than those for which the quantile was chosen, in 1193 searches,
-v50 was held in 90 % and the width in 95 % (how-to/find-a-transition).
+beyond the grid is open. If earlier outcomes have chosen the velocities, the interval of the width is too narrow: in
+240 made-up searches of 40 shots it contained the true width in 82 %, that of v50 in 92 %. The width therefore has the quantile
+of 97 %, whose interval contained it in 94 % of 120 searches. With other seeds than those for which the quantile was chosen, in
+1193 searches, the intervals contained v50 in 90 % and the width in 95 % (how-to/find-a-transition).
 
 Sources: Firth, Bias reduction of maximum likelihood estimates, Biometrika 80 (1993) 27, for (2); Heinze and Schemper, A
 solution to the problem of separation in logistic regression, Statistics in Medicine 21 (2002) 2409, for the intervals.
@@ -75,8 +75,8 @@ class Fit:
     def band(self, speeds) -> tuple[np.ndarray, np.ndarray]:
         """Ends of the 90 % interval of the probability at each of these velocities, shapes (n,)."""
         v50, scale = self.region.T
-        found = _logistic((np.asarray(speeds, float)[:, None] - v50) / scale)
-        return found.min(axis=1), found.max(axis=1)
+        probabilities = _logistic((np.asarray(speeds, float)[:, None] - v50) / scale)
+        return probabilities.min(axis=1), probabilities.max(axis=1)
 
 
 def _logistic(x: np.ndarray) -> np.ndarray:
@@ -110,8 +110,8 @@ def information(eta: np.ndarray, speeds: np.ndarray) -> np.ndarray:
 def fit(speeds: Sequence[float], outcomes: Sequence[bool]) -> Fit | None:
     """The estimate and its 90 % intervals; outcomes : whether a shot had the outcome of fast ones.
 
-    None where the shots do not tell: they have one outcome, or one velocity, or the outcome of fast shots is not the more
-    frequent one at high velocities.
+    None if the shots do not determine it: they have one outcome, or one velocity, or the outcome of fast shots is not the
+    more frequent one at high velocities.
     """
     v, y = np.asarray(speeds, float), np.asarray(outcomes, bool)
     if y.all() or not y.any() or v.min() == v.max() or np.mean(v[y]) <= np.mean(v[~y]):
@@ -142,13 +142,13 @@ def _highest(limits, v: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, float]:
 def _climbed(v50: float, scale: float, limits, v: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, float]:
     """The maximum near v50 and s."""
     simplex = np.array([[v50, math.log(scale)], [v50 + scale, math.log(scale)], [v50, math.log(scale) + 1.0]])
-    found = optimize.minimize(lambda x: -float(penalised(x[0], math.exp(x[1]), v, y)), simplex[0], method="Nelder-Mead",
-                              bounds=limits, options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": simplex})  # fmt: skip
-    return found.x, -float(found.fun)
+    result = optimize.minimize(lambda x: -float(penalised(x[0], math.exp(x[1]), v, y)), simplex[0], method="Nelder-Mead",
+                               bounds=limits, options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": simplex})  # fmt: skip
+    return result.x, -float(result.fun)
 
 
 def _box(best: np.ndarray, limits, top: float, v: np.ndarray, y: np.ndarray) -> list[tuple[float, float]]:
-    """Ends in v50 and ln s of a box that just holds the region: widened from the estimate, then narrowed."""
+    """Ends in v50 and ln s of a box that just contains the region: widened from the estimate, then narrowed."""
     reach = np.array([math.exp(best[1]), 0.5])
     box = [_clipped(at - by, at + by, limit) for at, by, limit in zip(best, reach, limits, strict=True)]
     for _ in range(MOST_STEPS):
@@ -177,20 +177,20 @@ def _around(axis: np.ndarray, inside: np.ndarray, limit: tuple[float, float]) ->
 
 
 def _grid(box, points: tuple[int, int], top: float, v: np.ndarray, y: np.ndarray):
-    """Grid lines in v50 and ln s, and twice how far the likelihood is below its largest, shape (v50, ln s)."""
+    """Grid lines in v50 and ln s, and twice the distance of the likelihood from its largest value, shape (v50, ln s)."""
     where, log_scale = (np.linspace(*ends, count) for ends, count in zip(box, points, strict=True))
     return where, log_scale, 2.0 * (top - penalised(where[:, None], np.exp(log_scale), v, y))
 
 
 def _region(box, top: float, v: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The points (v50, ln s) of a fine grid in the wider region, shape (n, 2), and how far each is below, shape (n,)."""
+    """The points (v50, ln s) of a fine grid in the wider region, shape (n, 2), and the third result of `_grid`, (n,)."""
     where, log_scale, below = _grid(box, FINE, top, v, y)
     i, j = np.nonzero(below <= CHI2_WIDTH)
     return np.column_stack([where[i], log_scale[j]]), below[i, j]
 
 
 def _ends(values: np.ndarray, limit: tuple[float, float]) -> tuple[float | None, float | None]:
-    """Smallest and largest value; None where the limit of the grid is reached."""
+    """Smallest and largest value; None if the limit of the grid is reached."""
     low, high = float(values.min()), float(values.max())
     small = 1e-9 * (limit[1] - limit[0])
     return None if low <= limit[0] + small else low, None if high >= limit[1] - small else high

@@ -11,26 +11,26 @@ from hydro2d.study.responses import DEPTH, Response, Variable
 from hydro2d.study.series import Series
 from hydro2d.terminal import shown
 
-#: sizes of marks and of dots in pixels; how far the dots are seen through
+#: sizes of marks and of dots in pixels; opacity of the dots
 SIZE, DOT, FAINT = 9, 7, 0.4
 
 
 def verbatim(text: object) -> str:
-    """A name from a file as Plotly shows it letter by letter: none of it is markup."""
+    """A name from a file, escaped so that Plotly shows it literally."""
     return html.escape(shown(text), quote=False)
 
 
 def _hover(record: Record, x: Variable, y: Response) -> str:
     """The text that a pointer shows for a run."""
     there, value = x.value(record), y.value(record)
-    told = [f"<b>{verbatim(record.case.name)}</b>",
-            f"{verbatim(x.title)}: {verbatim(there) if isinstance(there, str) else f'{there:.5g}'}",
-            f"{verbatim(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
+    lines = [f"<b>{verbatim(record.case.name)}</b>",
+             f"{verbatim(x.title)}: {verbatim(there) if isinstance(there, str) else f'{there:.5g}'}",
+             f"{verbatim(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
     if record.value("regime"):
-        told.append(verbatim(record.value("regime")))
+        lines.append(verbatim(record.value("regime")))
     if record.unfinished:
-        told.append(verbatim(record.unfinished))
-    return "<br>".join(told)
+        lines.append(verbatim(record.unfinished))
+    return "<br>".join(lines)
 
 
 def points(figure, records: Sequence[Record], x: Variable, y: Response, how, name: str = "", **options) -> None:
@@ -47,7 +47,7 @@ def points(figure, records: Sequence[Record], x: Variable, y: Response, how, nam
 
 
 def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
-    """The ensembles of a series: members as dots, and before them the median with a bar from 10 to 90 %.
+    """The ensembles of a series: members as dots, and in front of them the median with a bar from 10 to 90 %.
 
     Returns whether there are unfinished members, which are open dots.
     """
@@ -58,39 +58,39 @@ def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
     options = {"mode": "markers", "legendgroup": series.label}
     points(figure, ended, x, y, dot, meta="member", **options)
     points(figure, rest, x, y, dot | {"symbol": "circle-open", "opacity": 1.0}, meta="unfinished", **options)
-    found = [(place, each, values) for each in grouped(series.records)
+    drawn = [(place, each, values) for each in grouped(series.records)
              if (place := _place(each, x)) is not None and (values := each.spread(y.name)) is not None]  # fmt: skip
     if x.order is None:
-        found.sort(key=lambda entry: entry[0])
-    if found:
+        drawn.sort(key=lambda entry: entry[0])
+    if drawn:
         middle, above, below = ([part * y.factor for part in parts] for parts in zip(*(
-            (values.median, values.high - values.median, values.median - values.low) for _, _, values in found), strict=True))
+            (values.median, values.high - values.median, values.median - values.low) for _, _, values in drawn), strict=True))
         figure.add_scatter(
-            x=[place for place, _, _ in found], y=middle, name=f"{series.label}: median, 10 to 90 %, members",
+            x=[place for place, _, _ in drawn], y=middle, name=f"{series.label}: median, 10 to 90 %, members",
             mode="markers" if x.order is not None else "lines+markers", legendgroup=series.label,
             marker={"symbol": series.style.marker, "size": SIZE, "color": colour},
             line={"color": colour, "width": 1.0, "dash": series.style.dash},
             error_y={"type": "data", "symmetric": False, "array": above, "arrayminus": below, "color": colour, "thickness": 1.2,
                      "width": 5},
-            text=[_told(place, each, x, y) for place, each, _ in found], hovertemplate="%{text}<extra></extra>",
+            text=[_hover_of_ensemble(place, each, x, y) for place, each, _ in drawn], hovertemplate="%{text}<extra></extra>",
         )  # fmt: skip
     return bool(rest)
 
 
 def _place(each: Ensemble, x: Variable) -> float | str | None:
-    """Where an ensemble stands on the x axis: at the place of its members, or in the middle of them if they differ."""
+    """Place of an ensemble on the x axis: that of its members, or their middle if they differ."""
     places = [place for record in each.members if (place := x.value(record)) is not None]
     if not places or isinstance(places[0], str):
         return places[0] if places else None
     return sorted(places)[len(places) // 2]
 
 
-def _told(place: float | str, each: Ensemble, x: Variable, y: Response) -> str:
+def _hover_of_ensemble(place: float | str, each: Ensemble, x: Variable, y: Response) -> str:
     """The text that a pointer shows for an ensemble."""
     values = each.spread(y.name)
     low, median, high = (part * y.factor for part in (values.low, values.median, values.high))
     at_least = "≥ " * (y.name == DEPTH and each.bound is not None and values.median >= each.bound)
-    told = [f"<b>{verbatim(each.name)}</b>: {values.count} of {len(each.members)} members",
-            f"{verbatim(x.title)}: {verbatim(place) if isinstance(place, str) else f'{place:.5g}'}",
-            f"{verbatim(y.title)}: {at_least}{median:.5g}, 10 to 90 %: {low:.5g} to {high:.5g}"]  # fmt: skip
-    return "<br>".join([*told, *(f"{verbatim(regime)}: {share.words}" for regime, share in each.regimes.items())])
+    lines = [f"<b>{verbatim(each.name)}</b>: {values.count} of {len(each.members)} members",
+             f"{verbatim(x.title)}: {verbatim(place) if isinstance(place, str) else f'{place:.5g}'}",
+             f"{verbatim(y.title)}: {at_least}{median:.5g}, 10 to 90 %: {low:.5g} to {high:.5g}"]  # fmt: skip
+    return "<br>".join([*lines, *(f"{verbatim(regime)}: {share.words}" for regime, share in each.regimes.items())])

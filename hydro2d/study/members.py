@@ -1,9 +1,9 @@
-"""The members of an ensemble: one deck, changed where a change should not matter, each time by another amount.
+"""The members of an ensemble: one deck with changes that should not matter, each time by another amount.
 
-Member 0 is the deck as it stands. Member n has the n-th point of Roberts' additive sequence: its k-th coordinate is the
+Member 0 is the deck unchanged. Member n has the n-th point of Roberts' additive sequence: its k-th coordinate is the
 fractional part of s + n / phi^k, where phi is the root above 1 of x^(d + 1) = x + 1 in d dimensions and s a number that follows
-from the seed. The points cover the unit cube evenly for any number of members, and the n-th does not depend on how many there
-are: an ensemble can be enlarged, and its runs are kept.
+from the seed. The points cover the unit cube evenly for any number of members, and the n-th does not depend on their number:
+an ensemble can be enlarged, and its runs are kept.
 Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018).
 """
 
@@ -23,9 +23,9 @@ from hydro2d.study.definition import Ensemble
 
 #: largest shift of the mesh and of the flank of the projectile, as fractions of a cell; largest reduction of the first step
 SHIFT, FLANK, STEP = 0.5, 0.25, 0.004
-#: digits of the values, so that a record says all of them
+#: digits of the values, so that a record has all of them
 DIGITS = 6
-#: what to do where a deck does not allow a change
+#: advice if a deck does not allow a change
 OTHER = 'repeat it by another change, such as "first step"'
 #: keys of a segment of the mesh that are positions, and that are sizes
 POSITIONS, SIZES = ("to",), ("size", "first", "last")
@@ -35,8 +35,8 @@ POSITIONS, SIZES = ("to",), ("size", "first", "last")
 class Knob:
     """A change that should not matter.
 
-    name : as in `by`;  key : what an axis must not set as well, unless it sets the whole mesh under the key `unless`
-    value : from a point in 0 to 1 to the amount that a record keeps
+    name : as in `by`;  key : one that an axis must not also set, unless it sets the whole mesh under the key `unless`
+    value : function from a point in 0 to 1 to the amount that a record keeps
     overrides : of the deck for an amount; raises DeckError if the deck does not allow the change
     """
 
@@ -49,14 +49,14 @@ class Knob:
 
 def _segments(deck: decks.Deck, axis: str, changed: Callable[[str, float], float]) -> list[str]:
     """Overrides of the lengths of the segments of an axis."""
-    found = []
+    settings = []
     for number, segment in enumerate(getattr(deck.mesh, axis)):
         for key in (*POSITIONS, *SIZES, "cells_across"):
             value = getattr(segment, key)
             if value is not None and (new := changed(key, value)) != value:
                 written = new if key == "cells_across" else units.exact(new, "m")
-                found.append(f"mesh.{axis}.{number}.{key}={toml.inline(written)}")
-    return found
+                settings.append(f"mesh.{axis}.{number}.{key}={toml.inline(written)}")
+    return settings
 
 
 def _free(deck: decks.Deck, what: str, edges: tuple[str, ...]) -> None:
@@ -113,7 +113,7 @@ KNOBS = {knob.name: knob for knob in (
 
 
 def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:
-    """What is changed in a member, by name: fractions of a cell and the factor of the first step; empty for member 0."""
+    """The changes of a member by name: fractions of a cell and the factor of the first step; empty for member 0."""
     if number == 0:
         return {}
     dimensions, start = len(ensemble.by), random.Random(ensemble.seed).random()
@@ -126,14 +126,14 @@ def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:
 
 def allowed(deck: decks.Deck) -> tuple[str, ...]:
     """The default changes, without those that a deck does not allow."""
-    found = []
+    changes = []
     for each in Ensemble.model_fields["by"].default:
         try:
             KNOBS[each].overrides(deck, KNOBS[each].value(1.0))
         except DeckError:
             continue
-        found.append(each)
-    return tuple(found)
+        changes.append(each)
+    return tuple(changes)
 
 
 def overrides(deck: decks.Deck, changed: Mapping[str, float]) -> list[str]:
@@ -141,9 +141,9 @@ def overrides(deck: decks.Deck, changed: Mapping[str, float]) -> list[str]:
 
     Raises DeckError if the deck does not allow a change.
     """
-    found = [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]
-    segments = decks.written_segments(deck) if any(text.startswith("mesh.") for text in found) else {}
-    return [*(f"{key}={toml.inline(value)}" for key, value in segments.items()), *found]
+    settings = [text for name, amount in changed.items() for text in KNOBS[name].overrides(deck, amount)]
+    segments = decks.written_segments(deck) if any(text.startswith("mesh.") for text in settings) else {}
+    return [*(f"{key}={toml.inline(value)}" for key, value in segments.items()), *settings]
 
 
 def name(case: str, number: int) -> str:
@@ -154,7 +154,7 @@ def name(case: str, number: int) -> str:
 
 
 def conflict(by: Iterable[str], settings: Iterable[str]) -> tuple[str, str] | None:
-    """The change and the key that an axis sets as well, of the keys that one of its values sets; None if there is none.
+    """A change whose key a value of an axis also sets, and that key; None if there is none.
 
     An axis over the whole mesh may be combined with an offset, which is then a fraction of a cell of each mesh.
     """

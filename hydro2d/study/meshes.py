@@ -14,7 +14,7 @@ from hydro2d.study.members import cells_across, projectile
 
 
 def settings(deck: decks.Deck, cells: float) -> dict[str, Any]:
-    """Segments in r and z for so many cells across the radius of the projectile, by deck key; all cells change by one factor.
+    """Segments in r and z for ``cells`` cells across the radius of the projectile, by deck key; all cells change by one factor.
 
     The first segment in r then has exactly this number; in the others a number of cells is rounded, and their ends stay. Graded
     segments keep the growth of their cells over a length: ratio becomes ratio^(1 / factor). Raises DeckError.

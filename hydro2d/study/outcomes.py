@@ -1,4 +1,4 @@
-"""Whether a projectile did what it did in the experiment: in words that both a run and an experiment have."""
+"""Whether a projectile ended as in the experiment: by words that apply to both a run and an experiment."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hydro2d.study.regimes import DEEPER, NOT_DEEPER, PERFORATED, STOPPED
 
 
 def _limit(record: Record) -> float | None:
-    """Depth that a rod that is used up at a constant rate reaches, L sqrt(rho_p / rho_t), m; None where it means nothing."""
+    """Depth that a rod that is used up at a constant rate reaches, L sqrt(rho_p / rho_t), m; None if it has no meaning."""
     shot, setup = record.shot, record.setup
     return hydrodynamic_limit(setup.length, shot.rod, shot.target) if shot and setup and setup.shape == "rod" else None
 
@@ -36,10 +36,10 @@ def pair(record: Record, measurement: Measurement | None) -> tuple[str, str] | N
 
 
 class Score(NamedTuple):
-    """How probable the outcomes of the experiments are by the members of each shot.
+    """The probability of the experiments' outcomes by the members of each shot.
 
     shots : with an experiment and ended members;  agreeing, members : of all of them
-    most : shots of which most members agree;  probability : geometric mean over the shots of that of the experiment's outcome
+    most : shots of which most members agree;  probability : of the experiment's outcome, geometric mean over the shots
     """
 
     shots: int
@@ -50,13 +50,13 @@ class Score(NamedTuple):
 
     @property
     def words(self) -> str:
-        """In one line."""
+        """The score in one line."""
         return (f"{self.agreeing} of {self.members} members end as the experiment, most of them in {self.most} of {self.shots} "
                 f"shots; an outcome has the probability {self.probability:.2f} (geometric mean of the shots)")
 
 
 def score(shares: Sequence[Share]) -> Score | None:
-    """The score of shots, of each of which a share of the members ends as the experiment; None without shots.
+    """The score of shots from the share of members that end as in the experiment, for each; None without shots.
 
     The probability of an outcome is (k + 1/2) / (n + 1) with k of n members. Its logarithm is a proper score: on average no
     other number than the true probability gives a better one (Gneiting and Raftery, J. Am. Stat. Assoc. 102 (2007) 359).

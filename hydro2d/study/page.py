@@ -1,4 +1,4 @@
-"""The page of a report: one self-contained HTML file, from the templates beside this module."""
+"""The page of a report: one self-contained HTML file, from the templates in this folder."""
 
 from __future__ import annotations
 
@@ -75,19 +75,19 @@ def download(text: str, kind: str) -> str:
 
 
 def _transitions(contents: Contents) -> dict:
-    """The brackets of a search, one row for each combination of the axes; what is open; the criteria.
+    """The brackets of a search, one row for each combination of the axes; open questions; the criteria.
 
-    What a picture says of the estimate from a budget is not among the notes.
+    Notes on an estimate from a budget that a picture already states are left out.
     """
-    found, chance = contents.transitions, contents.study.search.budget is not None
-    names = list(dict.fromkeys(bracket.name for each in found for bracket in each.brackets))
-    told = [(each, each.estimate.notes if is_drawn(each) else ()) for each in found]
+    combinations, chance = contents.transitions, contents.study.search.budget is not None
+    names = list(dict.fromkeys(bracket.name for each in combinations for bracket in each.brackets))
+    with_notes = [(each, each.estimate.notes if is_drawn(each) else ()) for each in combinations]
     return {
         "caption": ("90 % intervals of the impact velocity at which half of the shots end either way" if chance else
                     "Impact velocities between which the regime changes"),
         "heads": ["Combination", *(f"{name}: v50" if chance else name for name in names), "Known", "Models", "Runs"],
-        "rows": [_of_combination(each, names) for each in found],
-        "notes": [f"{each.title}: {note}" for each, known in told for note in each.notes if note not in known],
+        "rows": [_of_combination(each, names) for each in combinations],
+        "notes": [f"{each.title}: {note}" for each, known in with_notes for note in each.notes if note not in known],
         "criteria": regimes.criteria(contents.study),
         "of_rods": contents.study.search.of in regimes.OF_ROD,
         "file": regimes.FILE,
@@ -95,21 +95,21 @@ def _transitions(contents: Contents) -> dict:
 
 
 def _ensembles(contents: Contents, choice: Choice) -> dict:
-    """Medians, spreads and shares of regimes, one row for each case; the score; what the members differ in; the file."""
-    found = contents.ensembles
-    heads, rows = ensembles.table(found, choice.y)
-    scored = ensembles.score(found)
+    """Medians, spreads and shares of regimes, one row for each case; the score; the changes between members; the file."""
+    groups = contents.ensembles
+    heads, rows = ensembles.table(groups, choice.y)
+    scored = ensembles.score(groups)
     return {
         "heads": [head[0].upper() + head[1:] for head in heads], "rows": rows, "score": scored and scored.words,
-        "made": _made(found),
+        "made": _made(groups),
         "file": ensembles.FILE, "csv": to_csv(contents.rows_of_ensembles(choice)),
     }  # fmt: skip
 
 
-def _made(found: Sequence[ensembles.Ensemble]) -> str:
-    """How many members the cases have, and what these differ in."""
+def _made(groups: Sequence[ensembles.Ensemble]) -> str:
+    """The number of members of the cases, and their changes."""
     said = []
-    for made, number in Counter(each.members[0].case.ensemble for each in found).items():
+    for made, number in Counter(each.members[0].case.ensemble for each in groups).items():
         cases, apiece = ("1 case", "") if number == 1 else (f"{number} cases", " each")
         what = f"{made.repeats} members{apiece}, by {', '.join(made.by)}, seed {made.seed}" if made else "one run" + apiece
         said.append(f"{cases} with {what}")
@@ -127,9 +127,10 @@ def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str
 def _decks(contents: Contents) -> dict:
     """The keys in which the decks differ, with the cases of each value, and the keys that all share."""
     decks = {each.case.name: each.deck for each in contents.records if each.deck}
-    found = differences.compare(decks) if decks else differences.Differences({}, {})
-    varying = {key: [(value, _who(contents, names)) for value, names in users.items()] for key, users in found.varying.items()}
-    return {"number": len(decks), "varying": varying, "common": found.common, "own": ", ".join(differences.OWN)}
+    compared = differences.compare(decks) if decks else differences.Differences({}, {})
+    varying = {key: [(value, _who(contents, names)) for value, names in users.items()]
+               for key, users in compared.varying.items()}
+    return {"number": len(decks), "varying": varying, "common": compared.common, "own": ", ".join(differences.OWN)}
 
 
 def _who(contents: Contents, names: tuple[str, ...]) -> str:
@@ -144,18 +145,18 @@ def _who(contents: Contents, names: tuple[str, ...]) -> str:
 
 def _origin(each: Record) -> dict:
     """Name, deck as a file, version, machine and command of one case."""
-    found = each.case.summary.get("provenance") or {}
-    dirty = {True: ", with local changes", False: "", None: ""}[found.get("git_dirty")]
-    packages = ", ".join(f"{name} {version}" for name, version in (found.get("packages") or {}).items())
+    origin = each.case.summary.get("provenance") or {}
+    dirty = {True: ", with local changes", False: "", None: ""}[origin.get("git_dirty")]
+    packages = ", ".join(f"{name} {version}" for name, version in (origin.get("packages") or {}).items())
     entries = {
         "status": each.case.status + (f": {each.case.message}" if each.case.message else ""),
         "directory": str(each.case.directory),
-        "version": found.get("version"),
-        "commit": f"{found['git_commit']}{dirty}" if found.get("git_commit") else "no repository" if found else None,
-        "command": found.get("command"),
-        "written": found.get("written"),
-        "machine": ", ".join(str(found[key]) for key in ("host", "cpu", "system") if found.get(key)),
-        "threads": found.get("threads"),
+        "version": origin.get("version"),
+        "commit": f"{origin['git_commit']}{dirty}" if origin.get("git_commit") else "no repository" if origin else None,
+        "command": origin.get("command"),
+        "written": origin.get("written"),
+        "machine": ", ".join(str(origin[key]) for key in ("host", "cpu", "system") if origin.get(key)),
+        "threads": origin.get("threads"),
         "packages": packages,
         "deck, SHA-256": each.case.summary.get("deck_sha256"),
     }

@@ -17,7 +17,7 @@ from hydro2d.study.responses import CASE, DEPTH, RESIDUAL, Choice, Response, Var
 
 #: fraction by which lines of models extend beyond the velocities of runs and experiments
 BEYOND = 0.05
-#: largest number of impact velocities whose histories stand beside those of a model
+#: largest number of impact velocities whose histories are shown with those of a model
 MOST_MOTIONS = 4
 #: largest number of runs in the text for readers who cannot see a figure
 MOST_WORDS = 12
@@ -79,13 +79,13 @@ def _drawn(each: Record, choice: Choice, y: Response) -> bool:
 
 
 def panels(contents: Contents, choice: Choice) -> list[Panel]:
-    """The runs of each figure: of one projectile and target, or of several where their series tell these apart.
+    """The runs of each figure: of one projectile and target, or of several if their series distinguish them.
 
-    All runs are in one figure where there is no projectile, or where x varies projectile or target.
+    All runs are in one figure if there is no projectile, or if x varies projectile or target.
     """
     groups, axes = contents.groups, contents.study.axes
-    apart = choice.x.impact or any(len({choice.x.value(each) for each in members}) > 1 for members in groups.values())
-    if not groups or not apart:
+    by_setup = choice.x.impact or any(len({choice.x.value(each) for each in members}) > 1 for members in groups.values())
+    if not groups or not by_setup:
         title = contents.study.title
         common = next(iter(groups)) if len(groups) == 1 else None
         shots = contents.measurements[common] if common else []
@@ -95,12 +95,12 @@ def panels(contents: Contents, choice: Choice) -> list[Panel]:
     alike: dict[tuple, list[Setup]] = {}
     for setup in groups:
         alike.setdefault((setup.target, setup.nose, setup.shape), []).append(setup)
-    found = []
+    chosen = []
     for setups in alike.values():
         together = _panel(contents, choice, setups)
-        apart = [_panel(contents, choice, [setup]) for setup in setups]
-        found += [together] if _tells_setups_apart(together, setups) else apart
-    return found
+        separate = [_panel(contents, choice, [setup]) for setup in setups]
+        chosen += [together] if _tells_setups_apart(together, setups) else separate
+    return chosen
 
 
 def _tells_setups_apart(panel: Panel, setups: Sequence[Setup]) -> bool:
@@ -149,25 +149,25 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
         measured = [f"{shot.velocity:.0f} m/s {'at least ' * (shot.qualifier == experiments.AT_LEAST)}{shot.depth * 100:.1f} cm"
                     for shot in panel.shots]  # fmt: skip
         alt += f" Experiments: {'; '.join(measured) or 'none known'}."
-    if y.name == RESIDUAL and (found := {each.velocity: each.measured_residual for each in members
-                                         if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
-        alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(found.items()))}."
+    if y.name == RESIDUAL and (residuals := {each.velocity: each.measured_residual for each in members
+                                             if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
+        alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(residuals.items()))}."
     return Chart(name, charts.markup(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
 
 
 def _rows(contents: Contents, choice: Choice, panel: Panel) -> Variable | None:
-    """What the rows of a strip of final depths are: the combinations of the axes, if the runs have one velocity.
+    """The rows of a strip of final depths: the combinations of the axes, if the runs have one velocity.
 
-    None where a figure against the only axis, or against the cases, is such a strip already.
+    None if a figure against the only axis, or against the cases, is such a strip already.
     """
-    found = responses.combinations(contents.study, panel.members)
+    combinations = responses.combinations(contents.study, panel.members)
     depth = responses.response(DEPTH)
-    if found is None or depth not in choice.y or panel.members[0].velocity is None or not _one_velocity(panel):
+    if combinations is None or depth not in choice.y or panel.members[0].velocity is None or not _one_velocity(panel):
         return None
     if not any(depth.value(each) is not None for each in panel.members):
         return None
-    already = choice.x.order is not None and len(choice.x.order) == len(found.order or ())
-    return None if already else found
+    already = choice.x.order is not None and len(choice.x.order) == len(combinations.order or ())
+    return None if already else combinations
 
 
 def _grey_lines(curves: Sequence[theory.Curve], panel: Panel) -> str:
@@ -192,9 +192,9 @@ def _strip(contents: Contents, rows: Variable, panel: Panel, name: str) -> Chart
 
 def _ensembles(shown: Sequence[Record], y: Response) -> list[str]:
     """A response of ensembles in words."""
-    found = [(each, values) for each in grouped(shown) if (values := each.spread(y.name))]
+    spreads = [(each, values) for each in grouped(shown) if (values := each.spread(y.name))]
     return [f"{each.name} {values.median * y.factor:.4g} {y.unit} ({values.low * y.factor:.4g} to {values.high * y.factor:.4g})"
-            for each, values in found]  # fmt: skip
+            for each, values in spreads]  # fmt: skip
 
 
 def _value(each: Record, y: Response) -> str:
@@ -215,7 +215,7 @@ def _one_velocity(panel: Panel) -> bool:
 
 
 def _models(x: Variable, y: Response, panel: Panel):
-    """Depths and residual velocities by analytic models, where x is the impact velocity, and notes on them.
+    """Depths and residual velocities by analytic models, if x is the impact velocity, and notes on them.
 
     In a strip of cases at one velocity, depths at that velocity.
     """
@@ -237,17 +237,17 @@ def _models(x: Variable, y: Response, panel: Panel):
         return curves, [], [f"{curve.title}: {curve.note}." for curve in curves if curve.note]
     left, notes = [], []
     for each in panel.series:
-        found, said = residual.curves(each.records, low, high)
+        fitted, said = residual.curves(each.records, low, high)
         several = f"{each.label}: " if len(panel.series) > 1 else ""
         colour = each.style.colour if several else ""
-        left += [residual.Curve(several + curve.title, curve.velocity, curve.residual, colour) for curve in found]
+        left += [residual.Curve(several + curve.title, curve.velocity, curve.residual, colour) for curve in fitted]
         notes += [f"{several}{note}." for note in said]
     return [], left, notes
 
 
 def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, dict[str, Motion]]]:
-    """When the rod touches the target, s, and its motion by each analytic model, by impact velocity; none of many."""
-    first, found = _modelled(panel), {}
+    """Time in s at which the rod touches the target, and its motion by each model, by impact velocity; empty if many."""
+    first, by_speed = _modelled(panel), {}
     speeds = {each.velocity: each for each in reversed(drawn) if each.velocity is not None and responses.DEPTH in each.history}
     if first is None or panel.setup is None or len(speeds) > MOST_MOTIONS:
         return {}
@@ -258,8 +258,8 @@ def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, 
             deep = each.history[responses.DEPTH] > 0.0
             row = int(deep.argmax())
             touch = each.history["time"][row] - each.history[responses.DEPTH][row] / speed if deep.any() else 0.0
-            found[speed] = max(float(touch), 0.0), motions
-    return found
+            by_speed[speed] = max(float(touch), 0.0), motions
+    return by_speed
 
 
 def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
@@ -269,11 +269,11 @@ def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> C
     figure = charts.histories(lines, motions)
     ends = [each.history["time"][-1] * 1e6 for each in drawn]
     few = charts.few_lines([(each, record) for each in lines for record in each.records])
-    told = "one line style a run" if few else "one line style a series of runs"
-    told += "; thin: members of ensembles but the first" if any(each.repeated for each in lines) else ""
+    styles = "one line style a run" if few else "one line style a series of runs"
+    styles += "; thin: members of ensembles but the first" if any(each.repeated for each in lines) else ""
     columns = ", ".join(axis.title.text.split("<br>")[0] for axis in figure.select_yaxes())
     runs = f"{len(drawn)} run{'s' * (len(drawn) > 1)}, {panel.words}"
-    caption = f"Histories of {columns}: {runs}; {told}, at most {record.POINTS} points of each history."
+    caption = f"Histories of {columns}: {runs}; {styles}, at most {record.POINTS} points of each history."
     if motions:
         named = ", ".join(dict.fromkeys(name for _, by in motions.values() for name in by))
         fainter = "; the slower the impact, the fainter" if len(motions) > 1 else ""

@@ -1,4 +1,4 @@
-"""A study of parts: studies that are run in turn, each in a directory of its own, with one summary of what all of them take."""
+"""A study of parts: studies that are run in turn, each in a directory of its own, with one summary of their cost."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
     """The parts of a study, with all decks resolved.
 
     overrides : of all decks, over those of [set];  size : replaces members and cells of all parts
-    only : patterns of the names of parts;  again : whether cases are chosen that are up to date
+    only : patterns of the names of parts;  again : whether to choose cases that are up to date
 
     Raises StudyError.
     """
@@ -73,12 +73,12 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
               if not only or any(fnmatchcase(name, pattern) for pattern in only)]  # fmt: skip
     if not chosen:
         raise StudyError(f"only {' '.join(only)}: matches no part; parts: {', '.join(_names(definition))}")
-    found = []
+    parts = []
     for part, name in chosen:
         of_part = Size(size.members or part.members, size.cells or part.cells)
         plan = cases.plan(path.parent / part.study, definition.set, quiet=quiet, size=of_part)
-        found.append(Chosen(part, name, plan, again))
-    return found
+        parts.append(Chosen(part, name, plan, again))
+    return parts
 
 
 def _names(definition: Definition) -> list[str]:
@@ -86,10 +86,10 @@ def _names(definition: Definition) -> list[str]:
     return cases.distinct(given)
 
 
-def show(found: Sequence[Chosen], workers: int) -> int:
-    """Prints what each part and all together take. Returns 0, or 2 if a case is invalid."""
+def show(parts: Sequence[Chosen], workers: int) -> int:
+    """Prints the cost of each part and of all together. Returns 0, or 2 if a case is invalid."""
     rows, wrong, hours, size, left = [], [], 0.0, 0.0, 0
-    for each in found:
+    for each in parts:
         runs, fresh, stale = each.states
         seconds, space, problems = _cost(each)
         wrong += problems
@@ -99,19 +99,19 @@ def show(found: Sequence[Chosen], workers: int) -> int:
         rows.append((each.name, str(runs), str(fresh), str(stale), str(to_run), f"{part_hours:.1f}", f"{part_size:.0f}"))
     sums = (str(sum(int(row[column]) for row in rows)) for column in (1, 2, 3, 4))
     rows.append(("all", *sums, f"{hours:.1f}", f"{size:.0f}"))
-    for told in lines(rows, HEADS):
-        say(told)
-    for each in found:
+    for line in lines(rows, HEADS):
+        say(line)
+    for each in parts:
         if each.part.about:
             say(wrapped(f"{each.name}: {each.part.about}"))
     say(wrapped(f"{left} runs, about {hours / workers:.1f} hours on {workers} workers (a guess), at most {size:.0f} MB"))
-    for told in wrong:
-        say(told)
+    for line in wrong:
+        say(line)
     return 2 if wrong else 0
 
 
 def _cost(each: Chosen) -> tuple[float, float, list[str]]:
-    """Mean seconds on one thread and bytes of a run, and the mistakes of cases: the first member of each case is looked at."""
+    """Mean seconds on one thread and bytes of a run, and the mistakes of cases, from the first member of each case."""
     selected = each.plan.cases if each.plan.search else each.choice.selected
     first = {case.of or case.name: case for case in reversed(selected)}
     checks, wrong = [], []
@@ -130,8 +130,8 @@ def _checked(case: Planned) -> check.Check:
     return check.check(decks.loads(case.text))
 
 
-def mixed(found: Sequence[Chosen]) -> Iterator[str]:
-    """What must be said of kept rows that are not all of this method."""
-    for path in dict.fromkeys(each.plan.keep for each in found if each.plan.keep):
-        if told := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
-            yield f"{path.name}: {told}"
+def mixed(parts: Sequence[Chosen]) -> Iterator[str]:
+    """Notes on kept rows that are not all of this method."""
+    for path in dict.fromkeys(each.plan.keep for each in parts if each.plan.keep):
+        if sentence := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
+            yield f"{path.name}: {sentence}"

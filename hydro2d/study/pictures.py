@@ -19,7 +19,7 @@ from hydro2d.study.layout import INVALID, WAITING
 from hydro2d.study.record import Record
 from hydro2d.study.regimes import Transitions
 
-#: names of pictures and films, to remove those of earlier reports and versions
+#: patterns of the names of pictures and films, to remove those of earlier reports and versions
 NAMES = re.compile(r"(rods|transition|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
 #: largest number of pages of rods; the caption says how many runs are left out
 MOST_PAGES = 8
@@ -30,7 +30,7 @@ KINDS = {".png": "image/png", ".gif": "image/gif", ".mp4": "video/mp4"}
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture or a film: its file, its heading, its caption, and a text for readers who cannot see it."""
+    """A picture or a film: file, heading, caption, and a text for readers who cannot see it."""
 
     file: Path
     heading: str
@@ -84,9 +84,9 @@ def _shape_in_words(each: Record) -> str:
     return f"{each.case.name}, {length / first * 100:.0f} % of its length" if length and first else each.case.name
 
 
-def is_drawn(found: Transitions) -> bool:
+def is_drawn(combination: Transitions) -> bool:
     """Whether a combination of a search has a picture: the search has a budget, and some shot has an outcome."""
-    return found.estimate is not None and bool(found.estimate.known)
+    return combination.estimate is not None and bool(combination.estimate.known)
 
 
 def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:
@@ -96,13 +96,13 @@ def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:
             continue
         file = folder / f"transition_{number:02d}.png"
         figures.save(chance_figure.draw([each]), file)
-        found, fast = each.estimate, each.estimate.outcomes[1]
+        estimate, fast = each.estimate, each.estimate.outcomes[1]
         drawn = "Dots: shots"
-        if found.fit:
+        if estimate.fit:
             drawn += f"; line: fitted probability of \"{fast}\" with its 90 % band; bar at one half: 90 % interval of v50"
-        said = "; ".join(found.notes)
-        yield Picture(file, f"{each.title}: {found.name}", f"{drawn}. {said[0].upper()}{said[1:]}.",
-                      f"Outcome of {len(found.known)} shots against impact velocity. {said}.")  # fmt: skip
+        said = "; ".join(estimate.notes)
+        yield Picture(file, f"{each.title}: {estimate.name}", f"{drawn}. {said[0].upper()}{said[1:]}.",
+                      f"Outcome of {len(estimate.known)} shots against impact velocity. {said}.")  # fmt: skip
 
 
 def check_field(field: str) -> None:

@@ -14,12 +14,12 @@ def _split(value, key: str) -> tuple[Decimal, str]:
     """Number and unit."""
     number, _, unit = str(value).strip().partition(" ")
     try:
-        found = Decimal(number)
+        decimal = Decimal(number)
     except InvalidOperation:
-        found = Decimal("nan")
-    if isinstance(value, bool) or not found.is_finite():
+        decimal = Decimal("nan")
+    if isinstance(value, bool) or not decimal.is_finite():
         raise ValueError(f'{key} = {value!r}: expected a number, or a string with number and unit such as "900 m/s"')
-    return found, unit.strip()
+    return decimal, unit.strip()
 
 
 def values(given: Range) -> list[int | float | str]:

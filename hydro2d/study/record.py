@@ -31,7 +31,7 @@ DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
 #: stop reasons of runs that were cut short; fraction of the impact velocity above which a projectile still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
-#: speed from which it is told in whole m/s
+#: speed above which it is given in whole m/s
 WHOLE_SPEED = 10.0
 
 
@@ -89,7 +89,7 @@ class Place(NamedTuple):
 
 @dataclass
 class Record:
-    """One case as read; ``problems`` lists what could not be. Outlines are radius and depth below the surface, (n, 2) in m.
+    """One case as read; ``problems`` lists unreadable parts. Outlines are radius and depth below the surface, (n, 2) in m.
 
     text, deck : the resolved deck as its file has it, and as tables, SI
     setup, velocity : setup and impact velocity in m/s; None without a projectile and a target
@@ -97,7 +97,7 @@ class Record:
     shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
     history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
     start, rod : outlines of the projectile at the start and at the end
-    unread : which models of the deck were not run, in words
+    unread : models of the deck that were not run, in words
     """
 
     case: Case
@@ -124,8 +124,8 @@ class Record:
     @property
     def bodies(self) -> list[str]:
         """Names of the bodies of the deck."""
-        found = self.deck.get("body")
-        entries = [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else []
+        tables = self.deck.get("body")
+        entries = [entry for entry in tables if isinstance(entry, dict)] if isinstance(tables, list) else []
         return [str(entry["name"]) for entry in entries if "name" in entry]
 
     @property
@@ -135,7 +135,7 @@ class Record:
 
     @property
     def unfinished(self) -> str:
-        """Why the results are not final: the run has not ended, or was cut short while the projectile moved; else empty."""
+        """Why the results are not final: the run has not ended, or was cut short with the projectile moving; else empty."""
         if not self.done:
             return self.case.status
         if not self.case.summary:
@@ -147,7 +147,7 @@ class Record:
 
     @property
     def cut(self) -> bool:
-        """Whether the run ended by its end time or number of cycles while the core of the projectile still moved."""
+        """Whether the run ended by its end time or number of cycles with the core of the projectile still moving."""
         ended = self.done and self.case.summary.get("stop_reason") in CUT
         return ended and self.velocity is not None and self._speed > MOVING * self.velocity
 
@@ -158,20 +158,20 @@ class Record:
     @cached_property
     def numbers(self) -> dict[str, float]:
         """Every number of the summary by dotted name, SI, or of the last row of the history without a summary; and ratios."""
-        found = {self._as_in_summary(name): value for name, value in self.last.items()}
-        found |= flatten({key: value for key, value in self.case.summary.items() if key != "provenance"})
-        found = {name: value for name, value in found.items() if is_number(value)}
+        values = {self._as_in_summary(name): value for name, value in self.last.items()}
+        values |= flatten({key: value for key, value in self.case.summary.items() if key != "provenance"})
+        values = {name: value for name, value in values.items() if is_number(value)}
         for what, of in (("length", "rod_length_m"), ("radius", "rod_max_radius_m")):
-            first = found.get(f"rod_initial_{what}_m")
-            if first and of in found:
-                found[f"rod_{what}_ratio"] = found[of] / first
-        return found
+            first = values.get(f"rod_initial_{what}_m")
+            if first and of in values:
+                values[f"rod_{what}_ratio"] = values[of] / first
+        return values
 
     @property
     def derived(self) -> list[str]:
         """Names of the quantities that [derived] of the deck defines."""
-        found = self.deck.get("derived")
-        return [str(name) for name in found] if isinstance(found, dict) else []
+        formulas = self.deck.get("derived")
+        return [str(name) for name in formulas] if isinstance(formulas, dict) else []
 
     def _as_in_summary(self, name: str) -> str:
         """The name in summary.json of a column of the history."""
@@ -185,14 +185,14 @@ class Record:
     @cached_property
     def experiment(self) -> dict:
         """The experiment in the deck, if it has a depth."""
-        found = self.deck.get("experiment") or {}
-        return found if found.get("penetration") else {}
+        table = self.deck.get("experiment") or {}
+        return table if table.get("penetration") else {}
 
     @property
     def measured_residual(self) -> float | None:
         """Residual velocity of the experiment in the deck, m/s; 0 if the projectile did not perforate."""
-        found = (self.deck.get("experiment") or {}).get("residual_velocity")
-        return float(found) if is_number(found) else None
+        velocity = (self.deck.get("experiment") or {}).get("residual_velocity")
+        return float(velocity) if is_number(velocity) else None
 
     @property
     def perforated(self) -> bool:
@@ -224,8 +224,8 @@ class Record:
 
     def value(self, name: str):
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
-        found = self.case.summary.get(name)
-        return found if found is not None else self.last.get(name)
+        result = self.case.summary.get(name)
+        return result if result is not None else self.last.get(name)
 
 
 def is_number(value) -> bool:
@@ -234,7 +234,7 @@ def is_number(value) -> bool:
 
 
 def read(case: Case, trust: bool = False) -> Record:
-    """Reads a case; what cannot be read is left out and listed in its problems. Raises StrangeFile.
+    """Reads a case; unreadable parts are left out and listed in its problems. Raises StrangeFile.
 
     trust : whether the code of models from outside that its deck carries may be run
     """
@@ -324,8 +324,8 @@ def _read_history(record: Record) -> None:
     if any(name in columns for name in drawn):
         record.history = {name: columns[name][chosen] for name in ("time", *drawn) if name in columns}
     record.deepest = float(np.nanmax(columns.get("penetration_depth_m", 0.0), initial=0.0))
-    for row, found in ((0, record.first), (-1, record.last)):
-        found.update((name, float(column[row])) for name, column in columns.items() if np.isfinite(column[row]))
+    for row, values in ((0, record.first), (-1, record.last)):
+        values.update((name, float(column[row])) for name, column in columns.items() if np.isfinite(column[row]))
     if "regime" in record.last:
         number = int(record.last.pop("regime"))
         if 0 <= number < len(REGIMES):

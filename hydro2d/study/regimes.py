@@ -1,4 +1,4 @@
-"""The results of a search: transitions by regime and by depth, beside experiments, the CTH study and analytic models."""
+"""The results of a search: transitions by regime and by depth, with experiments, the CTH study and analytic models."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FILE = "transition.json"
 
 @dataclass(frozen=True)
 class Scheme:
-    """What a search distinguishes: regimes in the order of velocity, and names of transitions by the regime they lead to."""
+    """Outcomes of a search: regimes in the order of velocity, and names of transitions by the regime they lead to."""
 
     order: tuple[str, ...]
     names: Mapping[str, str]
@@ -40,7 +40,7 @@ SCHEMES = {
     "deeper": Scheme((SHALLOW, DEEP), {DEEP: "depth reached"}),
     "shallower": Scheme((DEEP, SHALLOW), {SHALLOW: "depth no longer reached"}),
 }
-#: searches whose transitions the analytic models and the experiments have as well
+#: searches with transitions that analytic models and experiments also have
 OF_ROD = ("regime", "erosion", "length")
 FALL, LIMIT = "depth falls", "hydrodynamic limit"
 DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
@@ -49,7 +49,7 @@ _BY_DEPTH = {
     LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
 }
 _OF_DEPTH = {DEEP: "the largest depth of the run is at least `depth` of the study", SHALLOW: "it is less"}
-#: what the terms of a search mean
+#: meanings of the terms of a search
 CRITERIA = {
     "regime": RULE | _BY_DEPTH,
     "length": {
@@ -69,10 +69,10 @@ def criteria(study: Study) -> dict[str, str]:
     """The definitions of the terms of a search."""
     if study.search is None:
         return CRITERIA["regime"]
-    found = CRITERIA[study.search.of]
+    terms = CRITERIA[study.search.of]
     if study.search.budget is None:
-        return found
-    kept = {name: words for name, words in found.items() if name not in (FALL, LIMIT, "ballistic limit")}
+        return terms
+    kept = {name: words for name, words in terms.items() if name not in (FALL, LIMIT, "ballistic limit")}
     return kept | v50.CRITERIA | (v50.MILITARY_CRITERION if study.search.of == "perforation" else {})
 
 
@@ -126,43 +126,43 @@ def _at_least(run: Run) -> str:
     return "at least " if run.record.at_least else ""
 
 
-def judge(found: Record, of: str = "regime", depth: float | None = None) -> Run:
-    """The outcome of a case: its regime at the end, or what `of` of a study file names; depth : threshold in m.
+def judge(record: Record, of: str = "regime", depth: float | None = None) -> Run:
+    """The outcome of a case: its regime at the end, or the outcome that `of` of a study file names; depth : threshold in m.
 
     None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
-    without this regime, such a rod is recognised by the mass that it has lost.
+    without this regime, such a rod is recognised by its loss of mass.
     """
-    case = found.case
-    velocity = found.velocity if found.velocity is not None else velocities.speed(case.values[velocities.AXIS])
-    if not found.done:
+    case = record.case
+    velocity = record.velocity if record.velocity is not None else velocities.speed(case.values[velocities.AXIS])
+    if not record.done:
         reason = case.message.splitlines()[0] if case.message else ""
-        return Run(found, velocity, None, f"{case.status}: {reason}" if reason else case.status)
-    if of == "perforation" and (found.perforated or not found.left):
-        return Run(found, velocity, PERFORATED if found.perforated else STOPPED)
+        return Run(record, velocity, None, f"{case.status}: {reason}" if reason else case.status)
+    if of == "perforation" and (record.perforated or not record.left):
+        return Run(record, velocity, PERFORATED if record.perforated else STOPPED)
     if depth is not None:
-        return _by_threshold(found, velocity, depth)
-    first, mass = found.first.get("rod_mass_kg"), found.value("rod_mass_kg")
-    if found.perforated and (found.left or (first and mass < (1.0 - ERODED_MASS) * first)):
+        return _by_threshold(record, velocity, depth)
+    first, mass = record.first.get("rod_mass_kg"), record.value("rod_mass_kg")
+    if record.perforated and (record.left or (first and mass < (1.0 - ERODED_MASS) * first)):
         why = "the projectile went through the target and left the mesh; stop.perforation = true ends a run before that"
-        return Run(found, velocity, None, why)
-    if found.left:
-        return Run(found, velocity, None, "the projectile left the mesh before it came to rest")
+        return Run(record, velocity, None, why)
+    if record.left:
+        return Run(record, velocity, None, "the projectile left the mesh before it came to rest")
     if of == "length":
-        kept = found.value("rod_length_m") >= LEAST_KEPT * found.value("rod_initial_length_m")
-        return Run(found, velocity, KEPT if kept else USED_UP)
+        kept = record.value("rod_length_m") >= LEAST_KEPT * record.value("rod_initial_length_m")
+        return Run(record, velocity, KEPT if kept else USED_UP)
     regime = case.summary.get("regime")
     if of == "erosion":
-        return Run(found, velocity, ERODES if regime == ERODING else HOLDS)
-    return Run(found, velocity, regime)
+        return Run(record, velocity, ERODES if regime == ERODING else HOLDS)
+    return Run(record, velocity, regime)
 
 
-def _by_threshold(found: Record, velocity: float, depth: float) -> Run:
-    """Whether a case reached a depth in m; not known for a rod that left the mesh, or the target, before it."""
-    if found.depth is None:
-        return Run(found, velocity, None, "it has no depth")
-    if found.depth < depth and found.at_least:
-        return Run(found, velocity, None, f"the projectile left the target or the mesh before a depth of {100 * depth:g} cm")
-    return Run(found, velocity, DEEP if found.depth >= depth else SHALLOW)
+def _by_threshold(record: Record, velocity: float, depth: float) -> Run:
+    """Whether a case reached a depth in m; unknown for a rod that left the mesh, or the target, before it."""
+    if record.depth is None:
+        return Run(record, velocity, None, "it has no depth")
+    if record.depth < depth and record.at_least:
+        return Run(record, velocity, None, f"the projectile left the target or the mesh before a depth of {100 * depth:g} cm")
+    return Run(record, velocity, DEEP if record.depth >= depth else SHALLOW)
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ class Transitions:
 
     values : labels of the axes except the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
     settled : by name of a bracket of regimes, whether no further run could narrow it
-    notes : what is open and why, what is out of order, which runs did not end at rest
+    notes : open questions with reasons, regimes out of order, runs that did not end at rest
     comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
     estimate : of a search with a budget, whose bracket is the interval of v50
     """
@@ -197,13 +197,13 @@ class Transitions:
 
     def lines(self) -> list[str]:
         """The results as lines of text."""
-        told = [self.title, *columns((each.name, extent(each), each.source) for each in self.brackets)]
-        told += [f"  {note}" for note in self.notes]
-        told += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
+        lines = [self.title, *columns((each.name, extent(each), each.source) for each in self.brackets)]
+        lines += [f"  {note}" for note in self.notes]
+        lines += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
         if self.comparison is not None:
             heading, _, *rest = self.comparison.lines(inputs=False)
-            told += ["", f"  {heading}", *rest]
-        return told
+            lines += ["", f"  {heading}", *rest]
+        return lines
 
     def data(self) -> dict:
         """For programs, SI."""
@@ -224,11 +224,11 @@ def label(values: Mapping[str, str]) -> str:
     return ", ".join(f"{name} = {value}" for name, value in values.items() if name != velocities.AXIS)
 
 
-def so_far(found: Mapping[float, str], of: str = "regime") -> list[str]:
+def so_far(outcomes: Mapping[float, str], of: str = "regime") -> list[str]:
     """The transitions of regimes by velocity in m/s, in words."""
     scheme = SCHEMES[of]
     return [
-        f"{name} {extent(Bracket(name, *bisection.bracket(found, regime, scheme.order), ''))}"
+        f"{name} {extent(Bracket(name, *bisection.bracket(outcomes, regime, scheme.order), ''))}"
         for regime, name in scheme.names.items()
     ]
 
@@ -265,14 +265,14 @@ def _by_bisection(search: Interval, runs: Sequence[Run],
                   known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:  # fmt: skip
     """Brackets, which of them are settled, and notes."""
     scheme = SCHEMES[search.of]
-    found = {run.velocity: run.regime for run in known}
+    outcomes = {run.velocity: run.regime for run in known}
     brackets, settled, notes = [], {}, []
     for regime, name in scheme.names.items():
-        bracket = Bracket(name, *bisection.bracket(found, regime, scheme.order), "")
-        brackets.append(replace(bracket, source=_ends(bracket, found)))
+        bracket = Bracket(name, *bisection.bracket(outcomes, regime, scheme.order), "")
+        brackets.append(replace(bracket, source=_ends(bracket, outcomes)))
         settled[name], why = _settled(bracket, search, runs)
         notes += [f"{name}: {why}"] if why else []
-    notes += _disordered(found, scheme.order)
+    notes += _disordered(outcomes, scheme.order)
     if search.of in OF_ROD:
         limit, disordered = _limit(known)
         brackets += [*_fall(known), *limit]
@@ -280,9 +280,9 @@ def _by_bisection(search: Interval, runs: Sequence[Run],
     return brackets, settled, notes
 
 
-def _ends(bracket: Bracket, found: Mapping[float, str]) -> str:
+def _ends(bracket: Bracket, outcomes: Mapping[float, str]) -> str:
     """The regimes at both ends."""
-    return ", ".join(f"{found[end]} at {end:g} m/s" for end in (bracket.low, bracket.high) if end is not None)
+    return ", ".join(f"{outcomes[end]} at {end:g} m/s" for end in (bracket.low, bracket.high) if end is not None)
 
 
 def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple[bool, str]:
@@ -300,7 +300,7 @@ def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple
 
 
 def _fall(known: Sequence[Run]) -> list[Bracket]:
-    """Where the depth falls with the velocity: from the deepest run to the next faster one."""
+    """The velocities between which the depth falls: from the deepest run to the next faster one."""
     deep = [run for run in known if run.record.depth is not None]
     if not deep:
         return []
@@ -314,30 +314,31 @@ def _fall(known: Sequence[Run]) -> list[Bracket]:
 def by_depth(depths: Mapping[float, float], limit: float) -> Mapping[float, str]:
     """Whether rods went deeper than the hydrodynamic limit, ``DEEPER`` or ``NOT_DEEPER``, by velocity.
 
-    Slow rods, which stop before they reach it, are left out; so are all if none is deeper, for whether those were too slow or
-    were used up is not told by their depth.
+    Slow rods, which stop before they reach it, are left out; so are all if none is deeper, since the
+    depth does not show whether they were too slow or used up.
     """
     first = min((speed for speed, depth in depths.items() if depth > limit), default=math.inf)
     return {speed: DEEPER if depth > limit else NOT_DEEPER for speed, depth in depths.items() if speed >= first}
 
 
 def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
-    """Where the depth is no longer above the hydrodynamic limit, if a run is deeper; and what is out of order."""
+    """Velocities from which the depth is no longer above the hydrodynamic limit, if a run is deeper; and notes on order."""
     deep = [run for run in known if run.record.depth is not None and run.record.shot]
     if not deep:
         return [], []
     shot, setup = deep[0].record.shot, deep[0].record.setup
     limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
-    found = by_depth({run.velocity: run.record.depth for run in deep}, limit)
-    if not found:
+    outcomes = by_depth({run.velocity: run.record.depth for run in deep}, limit)
+    if not outcomes:
         return [], []
-    return [Bracket(LIMIT, *bisection.bracket(found, NOT_DEEPER, DEPTHS), f"{100 * limit:.2f} cm")], _disordered(found, DEPTHS)
+    return ([Bracket(LIMIT, *bisection.bracket(outcomes, NOT_DEEPER, DEPTHS), f"{100 * limit:.2f} cm")],
+            _disordered(outcomes, DEPTHS))
 
 
-def _disordered(found: Mapping[float, str], order: Sequence[str]) -> list[str]:
-    """What is out of order, in words."""
-    return [f"out of order: {found[slow]} at {slow:g} m/s, {found[fast]} at {fast:g} m/s; the slowest change is given"
-            for slow, fast in bisection.disordered(found, order)]  # fmt: skip
+def _disordered(outcomes: Mapping[float, str], order: Sequence[str]) -> list[str]:
+    """Notes on regimes out of order."""
+    return [f"out of order: {outcomes[slow]} at {slow:g} m/s, {outcomes[fast]} at {fast:g} m/s; the slowest change is given"
+            for slow, fast in bisection.disordered(outcomes, order)]  # fmt: skip
 
 
 def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
@@ -349,28 +350,29 @@ def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None
         return None, f"nothing to compare with: {why if known else 'no run is done'}"
     shot = first.shot
     try:
-        found = model_transition.compare(models.Request(rod=shot.rod, target=shot.target, geometry=shot.values), shot.nose)
+        comparison = model_transition.compare(models.Request(rod=shot.rod, target=shot.target, geometry=shot.values), shot.nose)
     except InputError as error:
         return None, f"the analytic models: {error}"
     shots = experiments.of_materials(first.setup)
     other = shots and not any(experiments.same_geometry(each, first.setup) for each in shots)
     problem = f"the experiments' rods were {shots[0].length * 1e3:.4g} x {shots[0].diameter * 1e3:.4g} mm" if other else ""
-    return replace(found, brackets=[*found.brackets, replace(bracket, name="hydro2d")]), problem
+    return replace(comparison, brackets=[*comparison.brackets, replace(bracket, name="hydro2d")]), problem
 
 
-def write(study: Study, found: Sequence[Transitions]) -> None:
+def write(study: Study, combinations: Sequence[Transitions]) -> None:
     """Writes transition.json. Raises OSError."""
     interval = study.search
     data = {
         "title": study.title, "version": __version__, "key": interval.key, "from_m_s": interval.speeds[0],
         "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "of": interval.of,
         "depth_m": interval.depth, "budget": interval.budget and asdict(interval.budget), "criteria": criteria(study),
-        "complete": all(all(each.settled.values()) for each in found), "combinations": [each.data() for each in found],
+        "complete": all(all(each.settled.values()) for each in combinations),
+        "combinations": [each.data() for each in combinations],
     }  # fmt: skip
     write_json(study.directory / FILE, data)
 
 
-def lines(study: Study, found: Sequence[Transitions]) -> list[str]:
+def lines(study: Study, combinations: Sequence[Transitions]) -> list[str]:
     """The transitions of a study in words, and the criteria."""
-    told = [line for each in found for line in (*each.lines(), "")]
-    return [*told, "criteria", *columns(criteria(study).items())]
+    text = [line for each in combinations for line in (*each.lines(), "")]
+    return [*text, "criteria", *columns(criteria(study).items())]

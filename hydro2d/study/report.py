@@ -22,8 +22,8 @@ from hydro2d.terminal import say
 
 
 def _views(contents: Contents, folder: Path, make: bool, say: Callable[[str], None]) -> dict[str, str]:
-    """Links from a folder to the pages that show runs, by case; ``make``: those of runs with dumps are made first."""
-    found = {}
+    """Links from a folder to the pages of runs, by case; ``make``: those of runs with dumps are made first."""
+    links = {}
     for each in contents.records:
         file = own(each.case.directory / viewer.PAGE)
         if make:
@@ -34,8 +34,8 @@ def _views(contents: Contents, folder: Path, make: bool, say: Callable[[str], No
             except (ResultsError, ViewError, VtkError, HistoryError) as error:
                 say(f"warning: {each.case.name} has no page of its own: {error}")
         if file.is_file():
-            found[each.case.name] = quote(Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix())
-    return found
+            links[each.case.name] = quote(Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix())
+    return links
 
 
 def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = say, *, x: str | None = None,
@@ -47,12 +47,12 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     say : receives one line for everything that could not be read, and for every file written
     x, y, by : axes and series of the figures, see responses.choose
     movie : a field; a film of it is made for every run with dumps
-    view : whether the page of `hydro2d view` is made for every run with dumps; the report links to those that there are
+    view : whether the page of `hydro2d view` is made for every run with dumps; the report links to existing ones
     trust : whether the code of models from outside that the decks of the runs carry may be run
 
     Returns the path of the page. Raises MissingPackage, StudyError, FigureError, OSError.
     """
-    charts_script()  # what cannot be drawn is refused before the pictures are
+    charts_script()  # refuses charts that cannot be drawn, before the pictures are made
     study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
     folder = Path(out or own(Path(directories[0]) / "report"))
     if folder.exists() and not folder.is_dir():

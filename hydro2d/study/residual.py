@@ -1,4 +1,4 @@
-"""Recht-Ipson and Lambert-Jonas beside the residual velocities of a series of runs."""
+"""Recht-Ipson and Lambert-Jonas models for the residual velocities of a series of runs."""
 
 from __future__ import annotations
 
@@ -38,35 +38,35 @@ class Shots:
     @property
     def limit(self) -> tuple[float, float] | None:
         """Velocities of the fastest stopped run and the slowest perforation, m/s; None if one of them is missing."""
-        held = [v for v, left in zip(self.velocity, self.residual, strict=True) if left == 0.0]
+        stopped = [v for v, left in zip(self.velocity, self.residual, strict=True) if left == 0.0]
         through = [v for v, left in zip(self.velocity, self.residual, strict=True) if left > 0.0]
-        return (max(held), min(through)) if held and through and max(held) < min(through) else None
+        return (max(stopped), min(through)) if stopped and through and max(stopped) < min(through) else None
 
 
 def shots(records: Sequence[Record]) -> Shots:
-    """Of the runs that have ended, sorted by the impact velocity."""
+    """The runs that have ended, sorted by impact velocity."""
     pairs = [(record.velocity, raw(record, RESIDUAL)) for record in records if not record.unfinished]
     known = sorted((v, max(left, 0.0)) for v, left in pairs if v is not None and left is not None)
     return Shots(tuple(v for v, _ in known), tuple(left for _, left in known))
 
 
 def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Curve], list[str]]:
-    """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is not drawn."""
-    found, velocity = shots(records), np.linspace(low, high, POINTS)
+    """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is missing."""
+    ended, velocity = shots(records), np.linspace(low, high, POINTS)
     drawn, notes, fit = [], [], None
     try:
-        fit = _fit(found)
+        fit = _fit(ended)
     except InputError as error:
         notes.append(f"Lambert-Jonas is not drawn: {error}")
     else:
         left = [lambert_jonas.residual_velocity(v, limit_velocity=fit.limit_velocity, a=fit.a, p=fit.p) for v in velocity]
         drawn.append(Curve("Lambert-Jonas", velocity, np.array(left)))
-        fixed = " (p = 2 taken, there are two perforations)" if _perforations(found) == 2 else ""
+        fixed = " (p = 2 taken, there are two perforations)" if _perforations(ended) == 2 else ""
         notes.append(f"Lambert-Jonas, fitted to these runs: a = {fit.a:.3f}, p = {fit.p:.3g}{fixed}, ballistic limit "
                      f"{fit.limit_velocity:.0f} m/s, standard error {fit.standard_error:.1f} m/s")  # fmt: skip
-    if found.limit:
-        limit = 0.5 * sum(found.limit)
-        origin = f"midway between {found.limit[0]:.0f} m/s, stopped, and {found.limit[1]:.0f} m/s, through"
+    if ended.limit:
+        limit = 0.5 * sum(ended.limit)
+        origin = f"midway between {ended.limit[0]:.0f} m/s, stopped, and {ended.limit[1]:.0f} m/s, through"
     elif fit:
         limit, origin = fit.limit_velocity, "of the fit"
     else:
@@ -80,14 +80,14 @@ def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Cur
     return drawn, [*notes, f"Recht-Ipson with a ballistic limit of {limit:.0f} m/s, {origin}; {why}"]
 
 
-def _perforations(found: Shots) -> int:
-    return len({v for v, left in zip(found.velocity, found.residual, strict=True) if left > 0.0})
+def _perforations(ended: Shots) -> int:
+    return len({v for v, left in zip(ended.velocity, ended.residual, strict=True) if left > 0.0})
 
 
-def _fit(found: Shots) -> lambert_jonas.Fit:
+def _fit(ended: Shots) -> lambert_jonas.Fit:
     """Three constants, or two with p = 2 if there are two perforations. Raises InputError."""
-    p = 2.0 if _perforations(found) == 2 else None
-    return lambert_jonas.fit(found.velocity, found.residual, p=p)
+    p = 2.0 if _perforations(ended) == 2 else None
+    return lambert_jonas.fit(ended.velocity, ended.residual, p=p)
 
 
 def _plug(record: Record) -> tuple[float | None, str]:

@@ -1,4 +1,4 @@
-"""The axes of a report's figures: responses of the runs, and what was varied, by name and in the reader's units."""
+"""The axes of a report's figures: responses of the runs, and varied quantities, by name and in the reader's units."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ class Response:
 
     def value(self, record: Record) -> float | None:
         """The value for a run in the reader's unit; None if it has none."""
-        found = raw(record, self.name)
-        return None if found is None else found * self.factor
+        number = raw(record, self.name)
+        return None if number is None else number * self.factor
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Choice:
-    """What is drawn: responses ``y`` against ``x``, a series for each combination of ``by``; None: of all else that varies."""
+    """Choice of figures: responses ``y`` over ``x``, a series for each combination of ``by``, None: of all else that varies."""
 
     x: Variable
     y: tuple[Response, ...]
@@ -80,7 +80,7 @@ class Choice:
 
 def choose(study: Study, records: Sequence[Record], x: str | None = None, y: Sequence[str] = (),
            by: Sequence[str] = ()) -> Choice:  # fmt: skip
-    """Finds what the names refer to, with sensible defaults. Raises StudyError for an unknown name."""
+    """Resolves the names, with sensible defaults. Raises StudyError for an unknown name."""
     names = y or _usual_responses(records)
     known = numbers(records)
     for name in y:
@@ -115,8 +115,8 @@ def raw(record: Record, name: str) -> float | None:
         return record.depth
     if name == RESIDUAL and record.depth is not None and not record.unfinished and not record.at_least:
         return 0.0
-    found = record.numbers.get(name)
-    return found if found is not None and math.isfinite(found) else None
+    number = record.numbers.get(name)
+    return number if number is not None and math.isfinite(number) else None
 
 
 def numbers(records: Sequence[Record]) -> list[str]:
@@ -146,7 +146,7 @@ def is_velocity(axis: Axis) -> bool:
 def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
     """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes the case.
 
-    At one velocity the cases side by side are a strip of results, where all marks would stand above one another.
+    At one velocity the cases are drawn side by side, since all marks would otherwise lie above one another.
     """
     speeds = {record.velocity for record in records} - {None}
     axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1]
@@ -171,9 +171,9 @@ def variable(study: Study, records: Sequence[Record], name: str, option: str) ->
         return _of_key(name, {case: deck[name] for case, deck in flat.items() if deck.get(name) is not None})
     known = numbers(records)
     if name in known:
-        found = response(name)
-        values = {each.case.name: found.value(each) for each in records}
-        return Variable(name, found.title, {case: value for case, value in values.items() if value is not None})
+        quantity = response(name)
+        values = {each.case.name: quantity.value(each) for each in records}
+        return Variable(name, quantity.title, {case: value for case, value in values.items() if value is not None})
     allowed = [*axes, *([IMPACT] if with_velocity else []), *known, *keys]
     raise StudyError(f"{option}: {unknown('axis, deck key or number of the runs', name, dict.fromkeys(allowed))}")
 
@@ -205,28 +205,28 @@ def of_axis(axis: Axis, study: Study) -> Variable:
     parsed = _in_one_unit(axis.values)
     if parsed is None:
         return Variable(axis.name, axis.name, labels, axis.values)
-    word, found = parsed
-    values = {case: found[label] for case, label in labels.items() if label in found}
+    word, numbers = parsed
+    values = {case: numbers[label] for case, label in labels.items() if label in numbers}
     return Variable(axis.name, axis.name + (f" [{word}]" if word else ""), values)
 
 
 def _in_one_unit(labels: Sequence[str]) -> tuple[str, dict[str, float]] | None:
     """Unit and numbers of labels such as "2 mm", in their own unit if it is the same for all, else in SI; None for words."""
-    found = {label: _QUANTITY.match(label) for label in labels}
-    if not all(found.values()):
+    matches = {label: _QUANTITY.match(label) for label in labels}
+    if not all(matches.values()):
         return None
-    words = {match[2] or "" for match in found.values()}
+    words = {match[2] or "" for match in matches.values()}
     if len(words) == 1 and (words <= {""} or words <= set(COMMON)):
-        return words.pop(), {label: float(match[1]) for label, match in found.items()}
+        return words.pop(), {label: float(match[1]) for label, match in matches.items()}
     si = {COMMON[word][0] if word in COMMON else None for word in words}
     if len(si) > 1 or None in si:
         return None
-    return si.pop(), {label: float(f"{float(match[1]) * COMMON[match[2]][1]:.12g}") for label, match in found.items()}
+    return si.pop(), {label: float(f"{float(match[1]) * COMMON[match[2]][1]:.12g}") for label, match in matches.items()}
 
 
-def _of_key(key: str, found: Mapping[str, object]) -> Variable:
+def _of_key(key: str, values: Mapping[str, object]) -> Variable:
     """A deck key: numbers in SI, else words in the order in which they occur."""
-    if all(is_number(value) for value in found.values()):
-        return Variable(key, f"{key} (SI)", {case: float(value) for case, value in found.items()})
-    words = {case: text(value) for case, value in found.items()}
+    if all(is_number(value) for value in values.values()):
+        return Variable(key, f"{key} (SI)", {case: float(value) for case, value in values.items()})
+    words = {case: text(value) for case, value in values.items()}
     return Variable(key, key, words, tuple(dict.fromkeys(words.values())))

@@ -15,13 +15,13 @@ from hydro2d.study.record import Record
 
 #: width in inches, narrow enough for a phone, and size of letters in points
 WIDTH, FONT = 5.0, 10.0
-#: heights in inches: of a label above a rod, and of a row at least
+#: heights in inches: of a label above a rod, and least height of a row
 LABEL, LOWEST = 1.1, 2.2
 COLUMNS, ROWS = 6, 3
 PER_PAGE = COLUMNS * ROWS
 #: rods are drawn at their depths if these span less than this many rod lengths, else tip beside tip
 MOST_LENGTHS = 2.5
-#: half the width of a panel, at least, over its height
+#: least half width of a panel over its height
 SLOT = 0.1
 #: letters in a line of a label, and lines
 LETTERS, LINES = 12, 4
@@ -57,7 +57,7 @@ def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], sca
          others: Mapping[str, Sequence[Record]] = MappingProxyType({})):  # fmt: skip
     """One page of rods, each mirrored about its axis if its mesh has one; z points down, as the rods fly.
 
-    measurements : by case; a dashed line at the depth, where rods are drawn at their depths
+    measurements : by case; a dashed line at the depth, if rods are drawn at their depths
     scale : everything that is drawn on all pages, which share limits and scale
     others : by case, further members of its ensemble, drawn as thin outlines
     """
@@ -97,7 +97,7 @@ def _tidy(axes, *, first: bool) -> None:
 
 
 def _radius(record: Record) -> float:
-    """Largest distance from r = 0 of what is shown of the rod, m."""
+    """Largest distance from r = 0 of the drawn part of the rod, m."""
     points = np.concatenate(record.rod)
     return float(np.abs(points[points[:, 1] >= extent(record)[0], 0]).max())
 

@@ -1,4 +1,4 @@
-"""The size of a study: how many members of each case, and how many cells across the radius of the projectile."""
+"""The size of a study: members of each case, and cells across the radius of the projectile."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydro2d.study.definition import Definition, Ensemble
 
 @dataclass(frozen=True)
 class Size:
-    """What replaces the numbers of a study file; None leaves them.
+    """Replacements of the numbers of a study file; None leaves them.
 
     members : members of each case; 1 leaves the first, whose deck is that of the case
     cells : cells across the radius of the projectile of every deck
@@ -22,14 +22,14 @@ class Size:
     cells: float | None = None
 
     def ensemble(self, definition: Definition) -> Ensemble | None:
-        """How the members are made. Without [ensemble] in the study they are made in the usual way."""
-        found = definition.ensemble
-        if self.members is None or (found is None and self.members == 1):
-            return found
-        return (found or Ensemble(repeats=2)).model_copy(update={"repeats": self.members})
+        """How the members are made; without [ensemble] in the study, by its defaults."""
+        given = definition.ensemble
+        if self.members is None or (given is None and self.members == 1):
+            return given
+        return (given or Ensemble(repeats=2)).model_copy(update={"repeats": self.members})
 
     def overrides(self, deck: Deck) -> list[str]:
-        """Overrides that give a deck these cells. Raises DeckError."""
+        """Overrides that set these cells in a deck. Raises DeckError."""
         if self.cells is None:
             return []
         return [toml.assigned(key, value) for key, value in meshes.settings(deck, self.cells).items()]

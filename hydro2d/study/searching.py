@@ -1,4 +1,4 @@
-"""What the searches of `hydro2d transition` share: the record and the outcome of a case, and how idle workers are served."""
+"""Common part of the searches of `hydro2d transition`: record and outcome of a case, and the next cases for idle workers."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from hydro2d.study.layout import DONE, Case
 
 
 class Searching(Choice, ABC):
-    """A choice of cases that looks at what has become of earlier ones."""
+    """A choice of cases that depends on the outcomes of earlier ones."""
 
     def __init__(self, plan: Plan, again: bool = False):
-        super().__init__(plan, again=True)  # a search needs the runs themselves, also those that have their rows
+        super().__init__(plan, again=True)  # a search needs the runs themselves, even those with rows
         self.anew = again
         self.records: dict[str, record.Record] = {}
 
     @cached_property
     def complete(self) -> bool:
-        """A bisection does not know beforehand how many runs it needs."""
+        """False: the number of runs of a bisection is not known beforehand."""
         return False
 
     def kept(self) -> str:
@@ -37,7 +37,7 @@ class Searching(Choice, ABC):
         return self.records[case.name]
 
     def outcome(self, case: Case) -> str | None:
-        """The regime of a case, or what the search distinguishes in its place; None where it has none."""
+        """The regime of a case, or another outcome that the search distinguishes; None if it has none."""
         if case.status != DONE:
             return None
         return regimes.judge(self.record(case), self.plan.search.of, self.plan.search.depth).regime
@@ -45,9 +45,9 @@ class Searching(Choice, ABC):
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """As many cases as there are idle workers."""
         names: list[str] = []
-        while len(names) < room and (found := self._next(cases, {*busy, *names})) is not None:
-            names.append(found)
-            self.given.add(found)
+        while len(names) < room and (name := self._next(cases, {*busy, *names})) is not None:
+            names.append(name)
+            self.given.add(name)
         return names
 
     @abstractmethod

@@ -1,4 +1,4 @@
-"""The series of runs in a figure. Colour and marker each distinguish them, so that either is sufficient."""
+"""The series of runs in a figure. Colour and marker each distinguish them, so either is sufficient."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MOST_KEYS = 3
 
 @dataclass(frozen=True)
 class Style:
-    """How a series of runs is drawn."""
+    """The style of a series of runs."""
 
     colour: str
     marker: str
@@ -57,10 +57,10 @@ def grouped(records: Sequence[Record], axes: Sequence[Axis], choice: Choice) -> 
         labels = [", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in kept) for record in records]
     else:
         labels = _labels_from_decks(records)
-    found: dict[str, list[Record]] = {}
+    groups: dict[str, list[Record]] = {}
     for label, record in zip(labels, records, strict=True):
-        found.setdefault(label, []).append(record)
-    return [Series(label or "hydro2d", style(n), tuple(each)) for n, (label, each) in enumerate(found.items())]
+        groups.setdefault(label, []).append(record)
+    return [Series(label or "hydro2d", style(n), tuple(each)) for n, (label, each) in enumerate(groups.items())]
 
 
 def _said(variable: Variable, record: Record) -> str:
@@ -83,7 +83,7 @@ def _tells_apart(axis: Axis, records: Sequence[Record], x: Variable) -> bool:
 def _labels_from_decks(records: Sequence[Record]) -> list[str]:
     """The keys in which the decks of a setup differ, with their values; the name of the run if there are many.
 
-    The members of an ensemble have the label of the first of them, since what they differ in does not matter.
+    The members of an ensemble have the label of the first of them, since their differences do not matter.
     """
     decks: dict[str, dict] = {}
     for record in records:

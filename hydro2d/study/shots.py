@@ -1,4 +1,4 @@
-"""The runs of a search for a transition whose outcome is partly chance: which shots a study has, and which run next.
+"""The runs of a search for a transition whose outcome is partly chance: the shots of a study, and the next ones to run.
 
 Every shot is one case: a velocity that `sequence.next_speed` chooses, and a draw. Shots of a combination of the axes are
 numbered from 1 in the order in which they are chosen, and keep number, velocity and draw when a search is continued.
@@ -37,7 +37,7 @@ class Combination:
 
     @property
     def cases(self) -> list[Planned]:
-        """Its cases; one whose deck is wrong has one that says why."""
+        """Its cases; if its deck is wrong, one that says why."""
         return self.shots if self.valid else [self.ends[0]]
 
 
@@ -148,7 +148,7 @@ class Shots(Searching):
         )
 
     def _next(self, cases: Sequence[Case], under_way: Collection[str]) -> str | None:
-        """That of the combination with the fewest shots under way."""
+        """The next shot of the combination with the fewest shots under way."""
         by_name = {case.name: case for case in cases}
         groups = sorted(self.groups, key=lambda group: sum(shot.name in under_way for shot in group.shots))
         return next((name for group in groups if (name := self._next_of(group, by_name, under_way))), None)
@@ -172,22 +172,22 @@ class Shots(Searching):
         return self._add(group, sequence.next_speed(speeds, outcomes, self.interval, size, self.search.budget.seed)).name
 
     def _ended(self, shot: Planned, cases: dict[str, Case], under_way: Collection[str]) -> bool:
-        """Whether a shot has ended, in whatever way."""
-        found = cases.get(shot.name)
-        return found is not None and shot.name not in under_way and (found.status in ENDED or shot.name in self.given)
+        """Whether a shot has ended in any way."""
+        case = cases.get(shot.name)
+        return case is not None and shot.name not in under_way and (case.status in ENDED or shot.name in self.given)
 
     def _outcomes(self, shots: Sequence[Planned], cases: dict[str, Case]) -> list[bool | None]:
-        """Whether each shot has the outcome of fast ones; None where it has no outcome."""
+        """Whether each shot has the outcome of fast ones; None if it has no outcome."""
         fast = regimes.SCHEMES[self.search.of].order[-1]
-        found = [self.outcome(cases[shot.name]) for shot in shots]
-        return [None if each is None else each == fast for each in found]
+        outcomes = [self.outcome(cases[shot.name]) for shot in shots]
+        return [None if each is None else each == fast for each in outcomes]
 
     def _given_up(self, group: Combination, cases: dict[str, Case], under_way: Collection[str]) -> bool:
         ended = [shot for shot in group.shots if self._ended(shot, cases, under_way)]
         return sum(self.outcome(cases[shot.name]) is None for shot in ended) >= MOST_FAILED
 
     def further(self, cases: Sequence[Case], busy: Collection[str]) -> int:
-        """Number of shots that the budget still allows after those that were chosen."""
+        """Number of shots that the budget still allows."""
         by_name = {case.name: case for case in cases}
         going_on = [group for group in self.groups if group.valid and not self._given_up(group, by_name, busy)]
         return sum(self.search.budget.runs - len(group.shots) for group in going_on)
@@ -199,5 +199,5 @@ class Shots(Searching):
         shots = [v50.Shot(case.name, velocities.speed(case.values[velocities.AXIS]), self.outcome(case), case.status == DONE)
                  for case in cases if case.name in names]  # fmt: skip
         words = regimes.label(group.ends[0].values)
-        found = v50.estimate(self.search, regimes.SCHEMES[self.search.of], shots)
-        return f"  {words + ': ' if words else ''}{found.name}: {found.in_short}"
+        estimate = v50.estimate(self.search, regimes.SCHEMES[self.search.of], shots)
+        return f"  {words + ': ' if words else ''}{estimate.name}: {estimate.in_short}"

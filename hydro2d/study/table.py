@@ -17,7 +17,7 @@ from hydro2d.terminal import cell
 #: largest number of sinks named on the page, and the smallest fraction of the start energy of one that is named
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
 
-#: numbers of a run of which an ensemble has a median and a spread; all but the ratios are names of summary.json
+#: numbers of a run with a median and a spread in an ensemble; all but the ratios are names of summary.json
 LENGTH_RATIO, RADIUS_RATIO = "rod_length_ratio", "rod_radius_ratio"
 RESULTS = (DEPTH, "rod_length_m", LENGTH_RATIO, "rod_max_radius_m", RADIUS_RATIO, "rod_tail_velocity_m_s", "rod_mass_kg",
            RESIDUAL)  # fmt: skip
@@ -27,9 +27,9 @@ Row = dict[str, object]
 
 def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measurement]) -> list[Row]:
     """One row for each case, with values by name and unit; None for missing values. ``measurements`` by case."""
-    found = [_row(study, record, measurements.get(record.case.name)) for record in records]
-    names = list(dict.fromkeys(name for row in found for name in row))
-    return [{name: row.get(name) for name in names} for row in found]
+    all_rows = [_row(study, record, measurements.get(record.case.name)) for record in records]
+    names = list(dict.fromkeys(name for row in all_rows for name in row))
+    return [{name: row.get(name) for name in names} for row in all_rows]
 
 
 def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
@@ -44,7 +44,7 @@ def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
 
 
 def _member(study: Study, record: Record) -> Row:
-    """In an ensemble, the case that a run repeats, its number, the seed and what is changed; None for any other run."""
+    """In an ensemble, the case that a run repeats, its number, the seed and the changes; None for any other run."""
     case = record.case
     changed = {name: case.changed.get(name) for each in study.ensembles for name in each.by}
     if case.ensemble is None:
@@ -91,8 +91,8 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     residual = {"experiment_residual_m_s": measured, "residual_error_m_s": left - measured if compared else None}
     if measurement is None:
         return dict.fromkeys(names) | residual
-    told = not record.unfinished and record.depth is not None
-    error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if told else (None, None)
+    comparable = not record.unfinished and record.depth is not None
+    error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if comparable else (None, None)
     per_cent = None if error is None else 100.0 * error / measurement.depth
     values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
     return dict(zip(names, values, strict=True)) | residual
@@ -137,7 +137,7 @@ def to_csv(table: Sequence[Row]) -> str:
 
 
 def _cell(value):
-    """A value of the table; empty for None and for what is not a number."""
+    """A value of the table; empty for None and NaN."""
     if isinstance(value, str):
         return cell(value)
     return "" if value is None or value != value else value
@@ -162,7 +162,7 @@ def _word(name: str) -> Callable[[Row], str]:
 
 
 def _standing(row: Row) -> str:
-    """The status of a case; of one that is done, but was cut while its projectile moved, that."""
+    """The status of a case, or that it was cut with its projectile still moving."""
     return str(row["status"] == DONE and row.get("unfinished") or row["status"])
 
 
@@ -234,7 +234,7 @@ def columns_of_results(study: Study, table: Sequence[Row], choice: Choice) -> li
 
 
 def _said(name: str) -> str:
-    """The heading of a derived quantity: its name, and its SI unit where the name does not say it."""
+    """The heading of a derived quantity: its name, and its SI unit if the name does not give it."""
     key = name.removeprefix("derived.")
     return key if unit(key) == "1" else f"{key} [{unit(key)}]"
 
@@ -245,8 +245,8 @@ def _of_axis(axis: Axis, row: Row) -> Column:
 
 
 def _of_response(name: str) -> Column:
-    found = response(name)
-    return Column(found.title[0].upper() + found.title[1:], name, _number(name, "{:.4g}", found.factor))
+    quantity = response(name)
+    return Column(quantity.title[0].upper() + quantity.title[1:], name, _number(name, "{:.4g}", quantity.factor))
 
 
 def columns_of_audit() -> list[Column]:

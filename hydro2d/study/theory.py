@@ -13,7 +13,7 @@ from hydro2d.penetration.model import InputError, Motion
 #: models of a rod into a thick target, from rigid to consumed
 MODELS = ("forrestal", "tate", "walker-anderson", "anderson-riegel", "hydrodynamic")
 POINTS = 31
-#: those that give the motion of a rod in time; the first is of a rod that stays rigid
+#: models that give the motion of a rod in time; the first is for a rod that stays rigid
 OF_RIGID, *OF_ERODING = MOVING = ("forrestal", "tate", "walker-anderson")
 
 
@@ -41,10 +41,10 @@ def curves(shot: model_deck.Shot, low: float, high: float) -> list[Curve]:
 def motions(shot: model_deck.Shot, velocity: float, *, eroding: bool, thickness: float | None = None) -> dict[str, Motion]:
     """The motion at an impact velocity in m/s by every model of ``MOVING`` that applies, by its name in words.
 
-    eroding : whether rods of the runs erode, to which the model of a rigid rod does not apply
-    thickness : of the target, m; a motion ends where it reaches the rear, from which on no model here applies
+    eroding : whether rods of the runs erode, so that the model of a rigid rod does not apply
+    thickness : of the target, m; a motion ends when it reaches the rear, beyond which no model here applies
     """
-    found = {}
+    by_name = {}
     for name in OF_ERODING if eroding else MOVING:
         try:
             motion = models.named(name).moves(velocity, beside.case(name, shot).values)
@@ -52,8 +52,8 @@ def motions(shot: model_deck.Shot, velocity: float, *, eroding: bool, thickness:
             continue
         motion = motion if thickness is None else _up_to(motion, thickness)
         if len(motion.time) > 1:
-            found[_title(name)] = motion
-    return found
+            by_name[_title(name)] = motion
+    return by_name
 
 
 def _up_to(motion: Motion, depth: float) -> Motion:

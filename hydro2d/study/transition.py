@@ -66,11 +66,11 @@ class Bisection(Searching):
         )
 
     def _next(self, cases: Sequence[Case], under_way: Collection[str]) -> str | None:
-        """That of the combination with the fewest cases under way."""
+        """The next case of the combination with the fewest cases under way."""
         by_name = {case.name: case for case in cases}
         for group in sorted(self.groups, key=lambda group: sum(case.name in under_way for case in group)):
-            taken = {position for position, case in enumerate(group) if case.name in under_way}
-            position = self._search(group, by_name, under_way).next(taken)
+            busy = {position for position, case in enumerate(group) if case.name in under_way}
+            position = self._search(group, by_name, under_way).next(busy)
             if position is not None:
                 return group[position].name
         return None
@@ -98,14 +98,14 @@ class Bisection(Searching):
         """The transitions of the combination found so far."""
         group = next(group for group in self.groups if any(case.name == name for case in group))
         names = {case.name for case in group}
-        found = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
+        outcomes = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
                  if case.name in names and (regime := self.outcome(case))}  # fmt: skip
         label = regimes.label(group[0].values)
-        return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(found, self.plan.search.of))
+        return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(outcomes, self.plan.search.of))
 
 
 def choice_of(plan: Plan, again: bool = False) -> Shots | Bisection:
-    """The search of a plan; again : it is made anew even if all its rows are kept."""
+    """The search of a plan; again : it is repeated even if all its rows are kept."""
     return Shots(plan, again) if plan.search.budget else Bisection(plan, again)
 
 
@@ -122,12 +122,12 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
     if choice.complete:
         return status
     study = layout.read(directory)
-    found = regimes.of_study(study, [choice.record(case) for case in study.cases])
+    combinations = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:
-        say(wrapped("\n".join(("", *regimes.lines(study, found)))))
-    regimes.write(study, found)
+        say(wrapped("\n".join(("", *regimes.lines(study, combinations)))))
+    regimes.write(study, combinations)
     if study.search.budget:
-        for file in chance_figure.write(study, found):
+        for file in chance_figure.write(study, combinations):
             if not quiet:
                 say(f"wrote {file}")
     return status

@@ -1,4 +1,4 @@
-"""The result of a search with a budget: v50 and width of a transition whose outcome is partly chance, and how sure they are."""
+"""The result of a search with a budget: v50 and width of a transition whose outcome is partly chance, and uncertainties."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MILITARY_CRITERION = {
 
 
 class Shot(NamedTuple):
-    """A run of a search: its case, its velocity in m/s, its outcome (None: it has none), whether it is done."""
+    """A run of a search: its case, its velocity in m/s, its outcome (None if it has none), whether it is done."""
 
     case: str
     velocity: float
@@ -40,12 +40,12 @@ class Shot(NamedTuple):
 
 @dataclass(frozen=True)
 class Estimate:
-    """What the shots of one combination of the axes tell of one transition.
+    """Result of the shots of one combination of the axes for one transition.
 
     name : of the transition;  outcomes : of slow and of fast shots;  shots : in the order of the search
     budget : number of runs allowed;  spent : whether no further run is to be made
-    fit : None where the shots do not tell
-    military : V50 of MIL-STD-662F in m/s, with the number of shots; None where no shots qualify; for a ballistic limit only
+    fit : None if the shots do not determine it
+    military : V50 of MIL-STD-662F in m/s, with the number of shots; None if no shots qualify; for a ballistic limit only
     """
 
     name: str
@@ -72,29 +72,29 @@ class Estimate:
 
     @property
     def notes(self) -> list[str]:
-        """v50, its interval, the width, and what the budget bought, in words."""
+        """v50, its interval, the width, and the runs made of the budget, in words."""
         known, (slow, fast) = self.known, self.outcomes
         number = sum(shot.outcome == fast for shot in known)
         done = sum(shot.done for shot in self.shots)
-        notes = [*self._found(), f"bought with {done} of {self.budget} runs: {number} {fast}, {len(known) - number} {slow}"
+        notes = [*self._in_words(), f"bought with {done} of {self.budget} runs: {number} {fast}, {len(known) - number} {slow}"
                  + (f", {done - len(known)} without an outcome" if done > len(known) else "")]  # fmt: skip
         if self.ballistic:
             notes.append("V50 of MIL-STD-662F: " + (f"{self.military[0]:.1f} m/s from {self.military[1]} shots" if self.military
-                         else "none, for no shots lie as close together as it asks"))  # fmt: skip
+                         else "none, since no shots lie as close together as it requires"))  # fmt: skip
         return notes if self.spent else [*notes, "the budget is not spent; --resume continues"]
 
     @property
     def in_short(self) -> str:
         """v50 and its interval, or why they are not known."""
-        return self._found()[0]
+        return self._in_words()[0]
 
-    def _found(self) -> list[str]:
+    def _in_words(self) -> list[str]:
         if self.fit is None:
             return [self._unknown()]
         fit = self.fit
         width = f"width, 10 to 90 %: {fit.width:.3g} m/s, {_range(fit.width_low or None, fit.width_high, '.3g')}"
-        apart = [] if fit.overlap else ["the outcomes do not overlap: a sudden change fits the shots as well as a gradual one"]
-        return [f"v50 = {fit.v50:.1f} m/s, {_range(fit.v50_low, fit.v50_high, '.1f')}", width, *apart]
+        sudden = [] if fit.overlap else ["the outcomes do not overlap: a sudden change fits the shots as well as a gradual one"]
+        return [f"v50 = {fit.v50:.1f} m/s, {_range(fit.v50_low, fit.v50_high, '.1f')}", width, *sudden]
 
     def _unknown(self) -> str:
         """Why there is no estimate."""
@@ -109,9 +109,9 @@ class Estimate:
     def data(self) -> dict:
         """For programs, SI."""
         names = ("v50", "v50_low", "v50_high", "width", "width_low", "width_high")
-        found = {f"{name}_m_s": getattr(self.fit, name) if self.fit else None for name in names}
+        numbers = {f"{name}_m_s": getattr(self.fit, name) if self.fit else None for name in names}
         return plain({
-            "outcome": self.outcomes[1], "level": logit.LEVEL, **found, "overlap": self.fit and self.fit.overlap,
+            "outcome": self.outcomes[1], "level": logit.LEVEL, **numbers, "overlap": self.fit and self.fit.overlap,
             "runs": sum(shot.done for shot in self.shots), "budget": self.budget,
             "mil_std_662f_m_s": self.military and self.military[0], "mil_std_662f_shots": self.military and self.military[1],
         })  # fmt: skip
@@ -127,41 +127,41 @@ def _range(low: float | None, high: float | None, form: str) -> str:
 
 def estimate(search: Interval | Velocities, scheme, shots: Sequence[Shot]) -> Estimate:
     """v50 and width from the runs of one combination, in the order of the search; scheme : of regimes.SCHEMES."""
-    found = tuple(shots)
+    in_order = tuple(shots)
     slow, fast = scheme.order
-    known = [shot for shot in found if shot.outcome is not None]
-    outcomes = [None if shot.outcome is None else shot.outcome == fast for shot in found]
-    told = [shot.outcome == fast for shot in known]
+    known = [shot for shot in in_order if shot.outcome is not None]
+    outcomes = [None if shot.outcome is None else shot.outcome == fast for shot in in_order]
+    successes = [shot.outcome == fast for shot in known]
     speeds = [shot.velocity for shot in known]
-    all_done = all(shot.done for shot in found)
+    all_done = all(shot.done for shot in in_order)
     return Estimate(
-        name=scheme.names[fast], outcomes=(slow, fast), shots=found, budget=search.budget.runs,
-        spent=all_done and (len(found) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
-        fit=logit.fit(speeds, told) if known else None, ballistic=search.of == "perforation",
-        military=military(speeds, told) if search.of == "perforation" else None,
+        name=scheme.names[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
+        spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
+        fit=logit.fit(speeds, successes) if known else None, ballistic=search.of == "perforation",
+        military=military(speeds, successes) if search.of == "perforation" else None,
     )  # fmt: skip
 
 
 def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float, int] | None:
     """V50 by MIL-STD-662F in m/s and the number of shots in it; None if no shots lie close enough together.
 
-    It is the mean of the highest velocities that were held and of as many of the lowest that perforated; the largest number of
-    shots whose velocities differ by no more than MILITARY allows is taken.
+    It is the mean of the highest velocities that were stopped and of as many of the lowest that perforated, for the largest
+    number of shots whose velocities differ by no more than MILITARY allows.
     """
     v, y = np.asarray(speeds, float), np.asarray(perforated, bool)
-    held, through = np.sort(v[~y])[::-1], np.sort(v[y])
+    stopped, through = np.sort(v[~y])[::-1], np.sort(v[y])
     for count, spread in MILITARY:
-        group = np.concatenate([held[:count], through[:count]])
+        group = np.concatenate([stopped[:count], through[:count]])
         if len(group) == 2 * count and np.ptp(group) <= spread:
             return float(group.mean()), 2 * count
     return None
 
 
-def rows(values: dict[str, str], found: Estimate, draws: Sequence[dict]) -> list[dict]:
-    """Rows of the CSV: one for each shot of a combination, with what it differs in from the others."""
+def rows(values: dict[str, str], estimate: Estimate, draws: Sequence[dict]) -> list[dict]:
+    """Rows of the CSV: one for each shot of a combination, with its changes."""
     return [
-        {**values, "transition": found.name, "shot": number, "case": shot.case, "velocity_m_s": shot.velocity,
+        {**values, "transition": estimate.name, "shot": number, "case": shot.case, "velocity_m_s": shot.velocity,
          "outcome": shot.outcome, **draw,
-         "fitted_probability": float(found.fit.probability([shot.velocity])[0]) if found.fit else None}
-        for number, (shot, draw) in enumerate(zip(found.shots, draws, strict=True), 1)
+         "fitted_probability": float(estimate.fit.probability([shot.velocity])[0]) if estimate.fit else None}
+        for number, (shot, draw) in enumerate(zip(estimate.shots, draws, strict=True), 1)
     ]  # fmt: skip

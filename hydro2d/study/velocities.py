@@ -21,7 +21,7 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class Budget:
-    """Of a search with chance: runs for each combination of the axes, runs of a round, seed of what changes between runs."""
+    """Budget of a search with chance: runs for each combination of the axes, runs of a round, seed of changes between runs."""
 
     runs: int
     round: int
@@ -33,7 +33,7 @@ class Velocities:
     """The velocities that a search may try.
 
     key : deck key;  labels : velocities as in a deck, the slowest first; with a budget only the two ends
-    tolerance : largest width of a bracket, m/s;  of : what changes, as in a study file;  depth : threshold, m
+    tolerance : largest width of a bracket, m/s;  of : the outcome searched, as in a study file;  depth : threshold, m
     budget : None for a bisection
     """
 
@@ -46,7 +46,7 @@ class Velocities:
 
     @classmethod
     def of_study(cls, key: str, given: Transition, names: tuple[str, ...]) -> Velocities:
-        """Those of a study file, with its defaults."""
+        """The velocities of a study file, with its defaults."""
         budget = Budget(given.budget, given.round or ROUND, given.seed or 0) if given.budget is not None else None
         return cls(key, names, given.tolerance or TOLERANCE, given.of, given.depth, budget)
 
@@ -60,8 +60,8 @@ def labels(given: Transition) -> tuple[str, ...]:
     if given.budget is not None:
         return first, last
     step = f"{math.copysign(given.tolerance or TOLERANCE, given.to):.12g} m/s"
-    found = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
-    return (*found, *([] if found[-1] == last else [last]))
+    speeds = ranges.values(Range.model_validate({"from": first, "to": last, "step": step}))
+    return (*speeds, *([] if speeds[-1] == last else [last]))
 
 
 def speed(label: str) -> float:
@@ -92,7 +92,7 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
 
 
 def fault(deck: decks.Deck, key: str, label: str) -> str | None:
-    """Why a deck with this velocity under the key does not have this impact velocity; None if it has."""
+    """Why a deck with this velocity under the key does not have this impact velocity; None if it does."""
     if deck.penetration is None:
         return "the deck has no projectile and target; [penetration] names them"
     impact = decks.impact_velocity(deck)

@@ -19,7 +19,7 @@ from hydro2d.materials import outside
 from hydro2d.study.case import Outcome, run_case
 from hydro2d.study.layout import FAILED_STATUS, WAITING
 
-#: seconds that a worker which must end waits for its case to write a restart file
+#: seconds that an ending worker waits for its case to write a restart file
 PATIENCE = 60.0
 #: exit status of a worker that was ended by SIGTERM
 GONE = 128 + signal.SIGTERM
@@ -67,7 +67,7 @@ def stop(sweep: str, reason: str) -> None:
 
 
 def introduce(dask_worker) -> dict:
-    """What a sweep must know about a worker that someone else has started."""
+    """Data for a sweep about a worker that someone else has started."""
     return {"version": __version__, "threads": dask_worker.state.nthreads}
 
 
@@ -81,10 +81,10 @@ def _on_sigterm(_number, _frame) -> None:
 
 
 class Checkpoint(distributed.WorkerPlugin):
-    """Lets the case of a worker that must end write a restart file. The sweep handles Ctrl-C, not its workers."""
+    """Lets the case of an ending worker write a restart file. The sweep handles Ctrl-C, not its workers."""
 
     def __init__(self, silent: bool, models: Iterable[tuple[str, str, str]] = ()):
-        #: dask tears down a plugin of the same name, and this one would take the running cases of its sweep with it
+        #: own name: dask tears down a plugin of the same name, which would end the running cases of its sweep
         self.name = f"hydro2d-{uuid.uuid4().hex[:12]}"
         self.models = list(models)  # of the whole study: kernels are loaded with the first case
         self.silent = silent  # messages about lost connections at the end are not for the user

@@ -127,7 +127,7 @@ def test_the_third_of_diameter_length_and_mass(missing):
 
 
 def test_an_input_that_nothing_gives_is_named():
-    with pytest.raises(InputError, match="crater.depth is missing"):
+    with pytest.raises(InputError, match="'crater.depth' is missing"):
         models.example(toy(Input("crater.depth", "m", "depth of a crater")))
 
 

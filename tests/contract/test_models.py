@@ -219,8 +219,8 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
     [
         (contract.row, metal(row=lambda values: np.zeros(3)), r"row gives float64 \(3,\), not float64 \(16,\)"),
         (contract.row, metal(row=lambda values: np.full(strength.ROW, np.nan)), "NaN in slot 0"),
-        (contract.wrong_parameters, metal(row=lambda values: np.zeros(strength.ROW)), "unknown parameter 'colour'"),
-        (contract.ranges, metal(PARAMETERS=POSITIVE_YIELD), r"row takes a parameter that is wrong \(yield_stress = 0.0\)"),
+        (contract.wrong_parameters, metal(row=lambda values: np.zeros(strength.ROW)), 'unknown parameter "colour"'),
+        (contract.ranges, metal(PARAMETERS=POSITIVE_YIELD), r"row takes a parameter that is wrong \(yield_stress = 0\)"),
         (contract.eos_is_chosen, gas(p=1.0), "by its ID"),
         (contract.derivatives, gas(slope=1.001), "dp/drho is"),
         (contract.sound_speed, gas(slope=-9.0), r"c\^2 is -"),

@@ -79,7 +79,7 @@ def test_two_of_density_pressure_and_temperature_give_the_third():
 
 
 def test_a_temperature_that_no_density_has_without_pressure_is_reported():
-    with pytest.raises(deck.DeckError, match='body "bar": at no density has copper a pressure of -1e.11 Pa at 718 K'):
+    with pytest.raises(deck.DeckError, match='body "bar": copper has no density with a pressure of -1e.11 Pa at 718 K'):
         state(temperature="718 K", pressure="-100 GPa")
 
 

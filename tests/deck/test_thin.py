@@ -15,7 +15,7 @@ FOLLOWING = '[mesh]\nfollow = "rod"\nr = [{ to = "4 mm", size = "0.1 mm" }]\nz_s
             'z = [{ to = "2 mm", size = "0.1 mm" }, { to = "12 mm", ratio = 1.1 }]\n'
 REST = '[stop]\ntime = "36 us"\n[failure]\ntensile = "none"\n'
 ALWAYS = "; stresses and waves in it need at least 4"
-CLOSED = "; what is beside a gap thinner than a cell may close it"
+CLOSED = "; material beside a gap thinner than a cell may close it"
 
 
 def body(name, rest, velocity=0, material="Al5083"):

@@ -110,7 +110,7 @@ def test_check_model_passes_a_good_one(tmp_path, text):
     [
         (VOCE, "1.0 - math.exp(", "math.exp(", "the flow stress falls from plastic strain 0 to 1e-12"),
         (VOCE, "return par[SHEAR]", "return par[SHEAR] + p", "not slot SHEAR of the row"),
-        (VOCE, "collect(NAME, PARAMETERS, values)", "{**dict(saturation=0.0), **values}", "unknown parameter 'colour'"),
+        (VOCE, "collect(NAME, PARAMETERS, values)", "{**dict(saturation=0.0), **values}", 'unknown parameter "colour"'),
         (GAS, "max(e, 0.0) / 700.0", "300.0", "dT/drho is 0"),
         (STRAIN, "dep / par[0]", "(dep + 1e-9) / par[0]", "without plastic strain"),
     ],

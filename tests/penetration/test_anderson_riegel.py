@@ -128,7 +128,7 @@ def test_fit_finds_a_curve_again():
     x = np.linspace(0.5, 2.5, 15)
     fitted = fit(x, [truth.at(each) for each in x])
     assert vars(fitted) == pytest.approx(vars(truth), rel=1e-6)
-    with pytest.raises(InputError, match="four points"):
+    with pytest.raises(InputError, match="four different points"):
         fit([1.0, 2.0], [1.0, 2.0])
 
 

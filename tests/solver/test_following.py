@@ -59,7 +59,7 @@ def test_check_says_how_far_the_mesh_reaches_and_what_enters():
         "follow    rod: the mesh reaches 8.3 mm (3.77 radii) ahead of it and 2.6 mm behind",
         "          second enters the mesh from 12 us on, over 10 mm of its travel",
     ]
-    assert any('the mesh ends 3.77 radii ahead of "rod"; below 20 its edge is felt' in line for line in lines)
+    assert any('the mesh ends 3.77 radii ahead of "rod"; below 20 its edge matters' in line for line in lines)
 
 
 def test_a_deck_chooses_how_the_mesh_moves():

@@ -118,7 +118,7 @@ def test_a_point_on_the_surface_is_inside(point):
 
 def test_an_explosive_that_nothing_lights():
     loaded = deck.loads(TEXT.replace(TEXT[TEXT.index("[[source]]"): TEXT.index("[numerics]")], ""))
-    said = 'body "charge": an explosive without a source of kind "detonation"; no time lights it'
+    said = 'body "charge": an explosive without a source of kind "detonation"; nothing lights it'
     assert said in deck.warnings(loaded)
     assert said in check(loaded).warnings
     assert said not in deck.warnings(deck.loads(TEXT))

@@ -1,5 +1,5 @@
-"""Edges of the mesh: what lies beyond one, what holds its vertices, what flows through it, and where the audit books it.
+"""Edges of the mesh: ghost cells, constraints on vertices, flow through an edge, and its sink in the audit.
 
-One kind per file, which `base.Edge` says what it must have. A new one is a file in this folder and its class in ``KINDS`` of
-`registry`.
+There is one kind per file, with the members of `base.Edge`. A new one is a file in this folder and its class in ``KINDS``
+of `registry`.
 """

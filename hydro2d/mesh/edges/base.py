@@ -1,4 +1,4 @@
-"""What every edge of the mesh has, whatever its kind."""
+"""The base of all kinds of edges of the mesh."""
 
 from __future__ import annotations
 
@@ -8,20 +8,19 @@ from typing import Any, ClassVar
 #: the edges of the mesh, in the order of every array over them
 EDGES = ("r_min", "r_max", "z_min", "z_max")
 
-#: what ghost cells beyond an edge are: images of the cells inside, or copies of the last one
+#: kinds of ghost cells beyond an edge: images of the cells inside, or copies of the last one
 IMAGES, COPIES = "images", "copies"
-#: what flows through an edge: nothing; bodies leave, and void comes in; bodies leave, and what stands beside comes in
+#: flow through an edge: none; bodies leave and void comes in; bodies leave and the material next to the edge comes in
 NOTHING, OUT, BOTH_WAYS = "", "out", "both ways"
-#: what holds the vertices of an edge from beyond: nothing, the dashpots of an endless plate, or what they cannot enter and may
-#: leave
+#: forces on the vertices of an edge from beyond: none, the dashpots of an endless plate, or a contact that only pushes
 FREE, DASHPOTS, PUSH = "", "dashpots", "push"
 
 
 @dataclass(frozen=True)
 class Key:
-    """A key of the deck that a kind needs: boundaries.EDGE_NAME, required where an edge is of the kind.
+    """A key of the deck that a kind needs: boundaries.EDGE_NAME, required if an edge is of the kind.
 
-    ``over_time`` : a table [[time, value], ...] in the place of one value
+    ``over_time`` : a table [[time, value], ...] in place of one value
     """
 
     name: str
@@ -32,19 +31,19 @@ class Key:
 
 
 class Edge:
-    """One edge of the mesh. A kind overrides what it does otherwise than an edge that is open and holds nothing.
+    """One edge of the mesh. A kind overrides what differs from an open edge that constrains nothing.
 
     Parameters
     ----------
-    values : what the deck gives for its keys, in SI, by their names
+    values : of its keys in the deck, in SI, by their names
     """
 
-    #: its word in decks, the edges that may be of this kind, what it is
+    #: its word in decks, the edges that may be of this kind, its meaning
     name: ClassVar[str]
     edges: ClassVar[tuple[str, ...]] = EDGES
     meaning: ClassVar[str]
     keys: ClassVar[tuple[Key, ...]] = ()
-    #: the sink of the audit that what it takes goes to, and what that is where hydro2d.mesh.sinks has no such sink
+    #: its sink in the audit, and the meaning of that sink if hydro2d.mesh.sinks does not have it
     sink: ClassVar[str] = "outflow"
     sink_meaning: ClassVar[str] = ""
 
@@ -53,21 +52,21 @@ class Edge:
 
     @classmethod
     def ghost(cls) -> str:
-        """What its ghost cells are, IMAGES or COPIES."""
+        """The kind of its ghost cells, IMAGES or COPIES."""
         return COPIES
 
     @classmethod
     def flow(cls) -> str:
-        """What flows through it, NOTHING, OUT or BOTH_WAYS."""
+        """The flow through it, NOTHING, OUT or BOTH_WAYS."""
         return OUT
 
     @classmethod
     def traction(cls) -> str:
-        """What holds its vertices from beyond, FREE, DASHPOTS or PUSH."""
+        """The forces on its vertices from beyond, FREE, DASHPOTS or PUSH."""
         return FREE
 
     def constrain(self, time: float) -> float | None:
-        """The normal velocity of its vertices at a time, m/s, towards higher r or z; None where they are free."""
+        """The normal velocity of its vertices at a time, m/s, towards higher r or z; None if they are free."""
         return None
 
     @classmethod
@@ -76,9 +75,9 @@ class Edge:
         return cls.constrain is not Edge.constrain
 
     def fastest(self, start: float, end: float) -> float:
-        """The greatest size of the velocity that it gives from one time to another, s, in m/s; 0 where it gives none."""
+        """The largest speed that it prescribes from one time to another, s, in m/s; 0 if it prescribes none."""
         return max((abs(velocity) for velocity in self.speeds()), default=0.0)
 
     def speeds(self) -> tuple[float, ...]:
-        """The normal velocities that it may have, m/s, the least and the greatest of them among others."""
+        """The normal velocities that it may have, m/s, including the least and the greatest."""
         return ()

@@ -6,17 +6,17 @@ from hydro2d.mesh.edges.base import BOTH_WAYS, DASHPOTS, Edge
 
 
 class Outflow(Edge):
-    """Copies beyond it, vertices that are free, and bodies that leave."""
+    """Copies beyond it, free vertices, and bodies that leave."""
 
     name = "outflow"
-    meaning = "an open end: bodies leave as if the mesh went on, and nothing but void comes in"
+    meaning = "an open end: bodies leave as if the mesh continued, and only void comes in"
 
 
 class Transmit(Edge):
-    """Copies beyond it and dashpots on its vertices; what stands beside it may come back."""
+    """Copies beyond it and dashpots on its vertices; the material next to it may come back."""
 
     name = "transmit"
-    meaning = "the cut through an endless plate: it lets waves out and holds what they press on"
+    meaning = "the cut through an endless plate: it lets waves out and resists their pressure"
     sink = "transmitted"
 
     @classmethod

@@ -9,10 +9,10 @@ from hydro2d.mesh.edges.velocity import Velocity
 
 
 class Piston(Velocity):
-    """The velocity is straight between the rows of the table, and that of the first and the last row before and after."""
+    """The velocity is linear between the rows of the table, and constant before the first and after the last one."""
 
     name = "piston"
-    meaning = "the normal velocity is a table over time; material crosses the edge as it does where the velocity is constant"
+    meaning = "the normal velocity is a table over time; material crosses the edge as at a constant velocity"
     keys = (Key("piston", "m/s", "normal velocity over time", [["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)
     sink = "piston"
     sink_meaning = "momentum that pistons take, and the work that they do (negative)"

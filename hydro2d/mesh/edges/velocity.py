@@ -9,7 +9,7 @@ class Velocity(Edge):
     """Material crosses the edge at the velocity that the deck gives."""
 
     name = "velocity"
-    meaning = "the normal velocity is prescribed; where it points inward, more of what stands beside the edge comes in"
+    meaning = "the normal velocity is prescribed; where it points inward, more of the material next to the edge comes in"
     keys = (Key("velocity", "m/s", "normal velocity", "100 m/s"),)
     sink = "walls"
 

@@ -6,7 +6,7 @@ from hydro2d.mesh.edges.base import IMAGES, NOTHING, OUT, PUSH, Edge
 
 
 class Wall(Edge):
-    """Images beyond it, no normal velocity, and nothing flows through."""
+    """Images beyond it, no normal velocity, and no flow through it."""
 
     name = "wall"
     meaning = "a rigid wall without friction, or a plane of symmetry"
@@ -28,7 +28,7 @@ class Wall(Edge):
 
 
 class Axis(Wall):
-    """The same, at r = 0 of a cylindrical mesh."""
+    """The axis of symmetry, a wall at r = 0 of a cylindrical mesh."""
 
     name = "axis"
     edges = ("r_min",)
@@ -36,10 +36,10 @@ class Axis(Wall):
 
 
 class Anvil(Edge):
-    """Images beyond it, and a normal velocity that never points beyond; where bodies part from it, void comes in."""
+    """Images beyond it, and a normal velocity that never points outward; where bodies leave it, void comes in."""
 
     name = "anvil"
-    meaning = "a rigid wall without friction that only pushes: what touches it may leave it"
+    meaning = "a rigid wall without friction that only pushes: bodies that touch it may leave it"
     sink = "walls"
 
     @classmethod
