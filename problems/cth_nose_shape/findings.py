@@ -4,7 +4,8 @@
 
 FILE is what `advection.toml` keeps. The tables are printed in Markdown: depth and loss of length of every shot in every way to
 compute it; how many rods end as in the experiments; and by how much the depth differs between the choices of advection, failure
-and sliding. The figure has depth against velocity, as Figures 2 and 3 of the study have it, with a dot for every run.
+and sliding. The figure has depth against velocity, as Figures 2 and 3 of the study have it, with a dot for every run
+with failure by tensile pressure.
 """
 
 from __future__ import annotations
@@ -114,12 +115,12 @@ def _difference(value: float, error: float | None) -> str:
     return f"{value:+.1f} %" if error is None else f"{value:+.1f} ± {error:.1f} %"
 
 
-def draw(found: Runs):
+def draw(found: Runs, failure: str = "P"):
     """A matplotlib Figure: a panel for each treatment of sliding and alloy, a colour for each scheme, hemispherical rods."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    ways = list(dict.fromkeys(way[:2] for way in found))
+    ways = list(dict.fromkeys(way[:2] for way in found if way[1] == failure))
     figure = Figure(figsize=(9.0, 2.9 * len(ways)), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplots(len(ways), 2, sharex="col", sharey=True, squeeze=False)

@@ -22,7 +22,7 @@ HERE = Path(__file__).parent
 PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape"))
 RESULTS = HERE / "results"
 #: cells across the rod of the tables of all twelve shots, and of those that are compared with them
-USUAL, OTHERS = 8.5, (5.5, 6.5, 12.5)
+USUAL, OTHERS = 5.5, (6.5, 8.5, 12.5)
 HEMISPHERICAL, OGIVAL = rigid_rod.NOSES.values()
 _BLOCK = re.compile(r"(<!-- (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
@@ -38,7 +38,7 @@ def _shots() -> list[str]:
 
 def _scores() -> list[str]:
     lines: list[str] = []
-    for cells in (*OTHERS, USUAL):
+    for cells in (USUAL, *OTHERS):
         found = members.grouped(_twelve(cells))
         head, rule, *rows = members.scores(found) if found else ("", "")
         lines = lines or [f"| cells {head}", f"|---{rule}"] if head else lines

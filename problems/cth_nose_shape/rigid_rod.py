@@ -157,7 +157,7 @@ def _of(row: keeping.Row) -> Result:
     depth, residual = (None, number("residual_velocity_m_s")) if through else (number("depth_m", 1e2), None)
     loss = round(100.0 * (1.0 - float(row["length_ratio"])), 9)
     return Result(keeping.labels(row), int(row[keeping.MEMBER]), depth, loss, residual, row["regime"],
-                  number("hole_m3", 1e6), row[keeping.OF_METHOD], row["trustworthy"] == "True")
+                  number("hole_m3", 1e6), row[keeping.OF_METHOD], row["trustworthy"] != "False")
 
 
 def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:
