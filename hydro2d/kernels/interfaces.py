@@ -127,7 +127,7 @@ def thinnest_body(j, i, in_order, order, share, thin):
 
     0 where only one body is in the cell and around it.
 
-    Writes   thin [m], that of each body, where several are near
+    Writes   thin [m], that of each body, where any is above 0
     """
     if in_order == 1.0:
         return 0.0

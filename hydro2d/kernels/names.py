@@ -24,7 +24,7 @@ OF_THE_CALL = (
     Work("face", "J I", "volume that the faces of a sweep's direction sweep, fr or fz"),
     Work("own", "2 J I", "volume that they sweep with each group's velocity, own_r or own_z"),
     Work("opens_low", "", "whether the low edge of a sweep is open and the active box has reached it", bool),
-    Work("opens_high", "", "whether the high edge is so", bool),
+    Work("opens_high", "", "whether the high edge of a sweep is open and the active box has reached it", bool),
     Work("anew", "", "whether bodies are looked for in all columns, not only around their last ones", bool),
     Work("speed_limit", "", "limit of the speed of under-filled vertices, m/s"),
 )
