@@ -1,4 +1,4 @@
-"""Forces on vertices from the total stress of the cells around them, and the velocities they give."""
+"""Forces on vertices from the total stress of the cells around them, and the velocities that result."""
 
 from math import sqrt
 
@@ -14,13 +14,13 @@ from hydro2d.physics.kinematics import divergence
 from hydro2d.physics.momentum import corner_sum
 from hydro2d.physics.stress import stress_scale
 
-#: speeds below this are no signal: set to zero, so that the active region has an edge (explanation/speed)
+#: speeds below this carry no signal and are set to zero, so that the active region has an edge (explanation/speed)
 SILENCE = 1e-20
 
 
 @point
 def mixed_deviator(j, i, w):
-    """(s_rr, s_zz, s_rz) of a mixed cell, Pa: that of its bodies by share, or of the hard body in the hard zone of a layer."""
+    """(s_rr, s_zz, s_rz) of a mixed cell, Pa: the bodies' by share, or in the hard zone of a slip layer the hard body's."""
     scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
     rr, zz, rz = 0.0, 0.0, 0.0
     for m in range(w.vof.shape[0]):
@@ -41,8 +41,8 @@ def total_stress(j, w):
     """sigma = s - p I - q with the pressure at half the step, p^(n+1/2) = p - (dt/2) K div u^n.
 
     The cell's deviator is sum f_m s_m, in mode `solid` divided by the share of solids; in the hard zone of a slip layer it is
-    the hard body's own times the share of solids (explanation/mixed-cells, sliding). A cut cell has p_c and, of each body,
-    s - (n . s . n) I.
+    the hard body's own times the share of solids (explanation/mixed-cells, sliding). In a cut cell the pressure is p_c and each
+    body contributes s - (n . s . n) I.
 
     Reads    u0, v0 [b, j, i]; vof [m, j, i]; q (deviators) [k, m, j, i]; p, bulk, solid, qr, qz, qt, qrz [j, i];
              hard_bodies [m]
@@ -89,7 +89,7 @@ def total_stress(j, w):
         rr[i] = rr[i] - pressure - qr_j[i]
         zz[i] = zz[i] - pressure - qz_j[i]
         rz[i] -= qrz_j[i]
-    for k in range(w.mixed_count[j]):  # anew, since the pressure of a full cell may have swallowed the deviator of a crumb
+    for k in range(w.mixed_count[j]):  # again from s: in a crumb beside a full cell's pressure s may be lost to rounding
         i = w.mixed[j, k]
         s_rr, s_zz, s_rz = mixed_deviator(j, i, w)
         pressure = ph_j[i]
@@ -130,15 +130,14 @@ def accelerated_columns(b, j, w):
 
 @vertex_rows
 def limit_speed(j, w):
-    """Holds the under-filled nodes of row j to speed_limit, after all forces and before edges give their velocities.
+    """Limits the speed of under-filled nodes of row j to speed_limit, after all forces and before edges set their velocities.
 
-    A node is under-filled whose dual cell is filled more thinly than underfilled_density; contact nodes are left to the
-    contact. The work of an impulse goes by the mean of the velocities at the start and at the end of the step, which edges may
-    give.
+    A node is under-filled if the density of its dual cell is below underfilled_density; contact nodes are left to the contact.
+    The work of an impulse uses the mean of the velocities at the start and at the end of the step, which edges may prescribe.
 
     Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]
-    Writes   limited [3, j]: momentum and energy taken, and how often
+    Writes   limited [3, j]: momentum and energy removed, and how often
     """
     for row in range(3):
         w.limited[row, j] = 0.0
@@ -179,7 +178,7 @@ def limit_speed(j, w):
 def accelerate_row(b, j, w):
     """Velocities at the end of the Lagrangian step: u = u0 + dt f/M, f the sum of the corner forces of four cells.
 
-    `deform` gives the work of the same corner forces (`hydro2d.physics.corner`) to the cells (explanation/lagrangian-step,
+    The cells take the work of the same corner forces (`hydro2d.physics.corner`) in `deform` (explanation/lagrangian-step,
     equations 4 to 6). Contact nodes are left to the contact (explanation/sliding).
 
     Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
@@ -211,7 +210,7 @@ def accelerate_row(b, j, w):
 
 @rowwise
 def tie_row(b, j, w):
-    """Velocities of the vertices of row j after what bodies have of vertices in a gas was tied to them (`ties`).
+    """Velocities of the vertices of row j once vertices in a gas are tied to the bodies that have mass there (`ties`).
 
     Reads    mass, u0, v0 [b, j, i], skin [3, j, i], vof, q, the list of mixed cells
     Updates  u, v [b, j, i]
@@ -232,9 +231,9 @@ def tie_row(b, j, w):
 
 @vertex_rows
 def accelerate(j, w):
-    """Velocities of both groups at the end of the Lagrangian step: forces, ties beside gases, and what forces of sources add.
+    """Velocities of both groups at the end of the Lagrangian step: from forces, ties beside gases, and forces of sources.
 
-    Reads    what accelerate_row and tie_row read; pushed [c, b, j, i], m/s, or nothing
+    Reads    as accelerate_row and tie_row; pushed [c, b, j, i], m/s, or empty
     Updates  u, v [b, j, i]
     """
     for b in range(w.mass.shape[0]):

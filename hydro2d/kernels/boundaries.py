@@ -1,7 +1,7 @@
-"""Ghost cells and vertices: mirrored at the axis and at walls, copied where the mesh is open; what transmitting edges hold.
+"""Ghost cells and vertices, mirrored at the axis and at walls and copied at open edges; tractions of transmitting edges.
 
-Through an open edge material leaves freely; beyond it is void without stress, and only void comes in, or, where the mesh
-travels, what the deck has placed there (hydro2d/following). A transmitting edge lets in what is beside it.
+Material leaves freely through an open edge; beyond it is void without stress. Only void comes in, or, where the mesh travels,
+the material that the deck has placed there (hydro2d/following). A transmitting edge lets in the material next to it.
 """
 
 
@@ -15,20 +15,20 @@ from hydro2d.physics.waves import impedances
 @apart
 def fill(m, j, i, from_j, from_i, mirror, w):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
-    if 0.0 < w.vof[m, j, i] < 1.0 or 0.0 < w.vof[m, from_j, from_i] < 1.0:  # else it is 0 and stays so
+    if 0.0 < w.vof[m, j, i] < 1.0 or 0.0 < w.vof[m, from_j, from_i] < 1.0:  # otherwise it stays 0
         along_r, along_z = w.centroid[0, m, from_j, from_i], w.centroid[1, m, from_j, from_i]
         w.centroid[0, m, j, i] = -along_r if mirror and j == from_j else along_r
         w.centroid[1, m, j, i] = -along_z if mirror and i == from_i else along_z
     w.vof[m, j, i] = w.vof[m, from_j, from_i]
-    for k in range(w.q.shape[0] * (w.di if j == from_j else w.dj)):  # before a sweep along the other direction none
+    for k in range(w.q.shape[0] * (w.di if j == from_j else w.dj)):  # none before a sweep along the other direction
         w.q[k, m, j, i] = -w.q[k, m, from_j, from_i] if mirror and w.rules[m, k, PARITY] < 0.0 else w.q[k, m, from_j, from_i]
 
 
 @cell_rows
 def ghost_columns(j, w):
-    """Ghost cells left and right of the mesh, of bodies that are near or were: fractions and, before a sweep along r, q.
+    """Ghost cells left and right of the mesh, of bodies that are or were near: fractions and, before a sweep along r, q.
 
-    Interfaces of a sweep along z need the fractions alone.
+    A sweep along z needs only the fractions there, for its interfaces.
 
     Reads    rules [m, k, 4]; body_range [m, j, 2]
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
@@ -50,10 +50,10 @@ def ghost_columns(j, w):
 
 @kernel
 def ghost_rows(part, w):
-    """Ghost cells below and above columns i0 - 2 to i1 + 2, likewise, q before a sweep along z; the first and the last part
-    have one side each.
+    """Ghost cells below and above columns i0 - 2 to i1 + 2: fractions and, before a sweep along z, q. The first and the last
+    part do one side each.
 
-    The side `leading` of a mesh that travels (0 low, 1 high, -1 none) is left as it is: what flows in has been placed there.
+    The side `leading` of a mesh that travels (0 low, 1 high, -1 none) is left alone: inflowing material has been placed there.
 
     Reads    rules [m, k, 4]
     Updates  vof [m, j, i], q [k, m, j, i], centroid [2, m, j, i]
@@ -122,15 +122,15 @@ def dashpots(along_r, j, i, w):
 
 @apart
 def transmit(edge, w):
-    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge: what an endless plate would hold with.
+    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge, as if the material continued without end.
 
     J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
-    The dashpots are taken at the end of the step. Vertices that two groups share are the contact's. At a corner of two
-    transmitting edges, the edge along z holds with the dashpots of both and the other one leaves the corner out; a velocity
-    that a wall or the axis gives is not held. What is taken from the vertices goes on beyond the edge.
+    The dashpots use the velocity at the end of the step. Vertices that two groups share are left to the contact. At a corner
+    of two transmitting edges, the edge along z has the dashpots of both and the other one leaves the corner out. A velocity
+    that a wall or the axis prescribes has no dashpot. Momentum and energy taken from the vertices leave the mesh.
 
     Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
-    Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i], the impulses that are taken, where there are any
+    Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i], the impulses taken, where there are any
     """
     at, along_r = w.transmitting[edge], edge < 2
     crossing = w.transmitting[2:4] if along_r else w.transmitting[0:2]
@@ -165,7 +165,7 @@ def transmit(edge, w):
 
 @serial
 def transmit_edges(w):
-    """`transmit` for every transmitting edge that the active box has reached.
+    """Tractions of every transmitting edge that the active box has reached (`transmit`).
 
     Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; the rest as `transmit`
     Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i]
@@ -185,7 +185,7 @@ def transmit_edges(w):
 
 @serial
 def sum_drag(w):
-    """What transmitting edges have taken, by the velocities at the end of the step.
+    """Momentum and energy that transmitting edges have taken, from the velocities at the end of the step.
 
     Reads    transmitting [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
     Writes   held_back [2], axial momentum and energy
@@ -213,13 +213,13 @@ def own_rows(part, parts, rows):
 
 @point
 def held_at(edge, only_pushes, given, free):
-    """Normal velocity of a vertex at an edge: the one that is given, or its own if it leaves an edge that only pushes."""
+    """Normal velocity of a vertex at an edge: the prescribed one, or its own if it leaves an edge that only pushes."""
     return free if only_pushes and (free > 0.0 if edge % 2 == 0 else free < 0.0) else given
 
 
 @point
 def left_by_edges(at, low, free, w):
-    """Normal velocity that the edges leave a vertex in column (low = 0) or row (low = 2) `at`: its own where none is."""
+    """Normal velocity that the edges allow a vertex in column (low = 0) or row (low = 2) `at`: its own away from edges."""
     for edge in range(low, low + 2):
         if at == w.constrained[edge]:
             return w.edge_velocity[edge]
@@ -230,7 +230,7 @@ def left_by_edges(at, low, free, w):
 
 @kernel
 def constrain(part, w):
-    """The given normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that are not left.
+    """Prescribed normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that nothing is leaving.
 
     The axis and walls along z take no axial momentum and do no work.
 
@@ -264,9 +264,9 @@ def constrain(part, w):
 
 @kernel
 def close_mass_flux(part, w):
-    """Mass flux beyond the edges of the mesh, where the sweep along the other direction has left its own: there is none.
+    """Mass flux beyond the edges of the mesh: zero, in place of values left by the sweep along the other direction.
 
-    Beyond an open edge of this direction it goes on as it was.
+    Beyond an open edge along the direction of the sweep the flux of the edge is copied.
 
     Reads    mesh_box [4], rows j0, j1 and columns i0, i1 of the mesh
     Updates  flux_mass [b, j, i]

@@ -1,4 +1,4 @@
-"""Where bodies lie in the cells that they share: what sweeps and changes of volume do to their centroids.
+"""Centroids of bodies in the cells that they share, after sweeps and after changes of volume.
 
 explanation/interfaces, thin bodies.
 """
@@ -8,7 +8,7 @@ from hydro2d.kernels.interfaces import NOTHING
 from hydro2d.kernels.mixed_scratch import BEFORE, SHIFT_R, SHIFT_Z
 from hydro2d.physics.centroids import side, within
 
-#: share of a cell from which a body filled it before a sweep, to round-off
+#: share of a cell above which a body filled it before a sweep, to round-off
 FULL = 1.0 - 1e-9
 
 
@@ -27,7 +27,7 @@ def volume_before(m, j, i, w):
 
 @point
 def donor_place(m, j, i, face_j, face_i, w):
-    """Where in the strip that it swept lies what body m gave from cell (j, i) through a face, off the middle: along, across."""
+    """Offset (along, across), from the middle of a face's swept strip, of the volume that body m gave from cell (j, i)."""
     if not (w.mesh_box[0] <= j < w.mesh_box[1] and w.mesh_box[2] <= i < w.mesh_box[3]):
         return 0.0, w.centroid[w.di, m, j, i]
     if volume_before(m, j, i, w) > FULL * w.pre[j, i]:
@@ -37,9 +37,9 @@ def donor_place(m, j, i, face_j, face_i, w):
 
 @cell_rows
 def carry_centroids(j, w):
-    """Centroids of the bodies in mixed cells after a sweep: those of what stays and what comes, by volume.
+    """Centroids of the bodies in mixed cells after a sweep: the mean by volume of the part that stays and the part that enters.
 
-    What stays moves with the cell, or with the volumes that the faces sweep with the velocity of the body's group
+    The part that stays moves with the cell, or with the volumes that the faces sweep at the velocity of the body's group
     (explanation/interfaces, equation 8).
 
     Reads    mixed [j, k]; face, volume, pre [j, i], own [b, j, i]; vof [m, j, i] after the sweep; flux_volume [m, j, i],
@@ -82,10 +82,10 @@ def carry_centroids(j, w):
 
 @point
 def push_bodies(j, i, w):
-    """Moves the centroids of the bodies of a mixed cell as these and void take and give volume in the Lagrangian step.
+    """Moves the centroids of the bodies of a mixed cell as bodies and void exchange volume in the Lagrangian step.
 
-    Void that opens where there was none opens in the midst of the bodies that shrink, and pushes none; where there was some, it
-    opens there, the more the more there was.
+    Void that opens in a cell without void opens inside the bodies that shrink, and pushes none. Where there is void already, it
+    opens there, in a share that grows with the void.
 
     Reads    mix [j, BEFORE, m], fractions before; vof [m, j, i], after
     Updates  centroid [2, m, j, i]
@@ -101,7 +101,7 @@ def push_bodies(j, i, w):
     void = max(void, 0.0)
     if void > NOTHING:
         void_r, void_z = within(void_r / void, void), within(void_z / void, void)
-    inside = gained * gained / (void + gained) if gained > 0.0 else 0.0  # of the new void, what opens in the bodies
+    inside = gained * gained / (void + gained) if gained > 0.0 else 0.0  # the part of the new void that opens in the bodies
     for m in range(w.vof.shape[0]):
         w.mix[j, SHIFT_R, m], w.mix[j, SHIFT_Z, m] = 0.0, 0.0
     for m in range(w.vof.shape[0]):

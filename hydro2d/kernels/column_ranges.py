@@ -1,7 +1,7 @@
-"""Where the bodies are: the range of columns that each fills in a row, the cells that are mixed, and the region that is active.
+"""Ranges of columns that each body fills in a row, the list of mixed cells, and the active region.
 
 A range (lo, hi) means lo <= i < hi; an empty range is (2**30, 0), so that the union of ranges is a min and a max. Every
-other kernel loops over these ranges: a row of void costs nothing, and a pure cell pays for the one body in it.
+other kernel loops over these ranges: a row of void costs nothing, and a pure cell costs only the one body in it.
 """
 
 from hydro2d.jit import cell_rows, kernel, point, rowwise, serial, vertex_rows
@@ -11,7 +11,7 @@ NOTHING = 1 << 30
 
 @point
 def union(ranges, j0, j1):
-    """Smallest range that holds ranges[j0:j1], rows outside the array left out."""
+    """Smallest range that contains ranges[j0:j1], rows outside the array left out."""
     lo, hi = NOTHING, 0
     for j in range(max(j0, 0), min(j1, ranges.shape[0])):
         lo = min(lo, ranges[j, 0])
@@ -23,8 +23,8 @@ def union(ranges, j0, j1):
 def columns(lo, hi):
     """(first column, number of columns) of a range, for loops that the compiler can vectorise.
 
-    It does so where it knows that no index is negative: with x in range(number), i = first + x and, since every mesh has
-    two columns of ghosts, first >= 2.
+    It does so where it knows that no index is negative: x is in range(number), i = first + x, and first >= 2, since every mesh
+    has two columns of ghosts.
     """
     first = max(lo, 2)
     return first, hi - first
@@ -50,7 +50,7 @@ def past_row(part, parts, more):
 
 @point
 def copy_beside(old, new, first, lo, hi, last):
-    """Copies old[first:last] to new but for lo:hi."""
+    """Copies old[first:last] to new, except lo:hi."""
     for i in range(first, min(lo, last)):
         new[i] = old[i]
     for i in range(max(hi, first), last):
@@ -61,7 +61,7 @@ def copy_beside(old, new, first, lo, hi, last):
 def find_body_ranges(j, w):
     """First column and one past the last in which each body lies, for the rows and columns of the active box.
 
-    A body moves by no more than a cell: unless `anew`, it is looked for around the columns body_ranges[1] that it was in.
+    A body moves by no more than a cell, so unless `anew` it is looked for around the columns body_ranges[1] that it was in.
 
     Reads    vof [m, j, i], group [m]
     Updates  body_ranges [n, m, j, 2], of which body_ranges[0] is body_range
@@ -106,7 +106,7 @@ def find_active_ranges(j, w):
 
 @kernel
 def widen_ranges(part, w):
-    """The ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
+    """Ranges of a row joined with those of its neighbours, for rows j0 - 1 to j1.
 
     Reads    body_ranges[0], the range of each body, group_ranges[b, 0], the active range
     Writes   body_ranges[1, m, j] joined over rows j-1 to j+1, the cells that a sweep along z can change;
@@ -164,7 +164,7 @@ def list_mixed(j, part, w):
 
 @vertex_rows
 def moving_columns(j, w):
-    """First and one past the last vertex of each row that moves; what a second group has next to the first follows it.
+    """First and one past the last vertex of each row that moves; vertices of a second group follow those of the first.
 
     Reads    u, v [b, j, i]
     Writes   row_moving [j, 2]
@@ -181,7 +181,7 @@ def moving_columns(j, w):
 
 @serial
 def moving_box(w):
-    """Rows and columns of the vertices that move: what moving_columns found, joined over the rows.
+    """Rows and columns of the vertices that move: the ranges of moving_columns joined over the rows.
 
     Reads    row_moving [j, 2]
     Writes   moving [4]: first row and one past the last, first column and one past the last; the rows are equal if none moves

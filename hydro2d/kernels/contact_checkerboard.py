@@ -1,7 +1,7 @@
-"""Checkerboards of stress in the bodies of the hard group: what no vertex feels, fades as fast as the hourglass mode does.
+"""Damping of stress checkerboards, which exert no force on any vertex, in bodies of the hard group, at the hourglass rate.
 
-A stress that is constant in every cell, while velocities are linear, has a blind spot: where it goes up and down from cell to
-cell, the forces on every vertex cancel. On a mesh that follows the body nothing washes that away either (explanation/sliding,
+With stresses constant in every cell and linear velocities, a stress that alternates from cell to cell exerts forces on every
+vertex that cancel. On a mesh that follows the body, advection does not remove the pattern either (explanation/sliding,
 equation 10).
 """
 
@@ -10,11 +10,11 @@ from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ, E
 from hydro2d.physics.traction import smoothstep
 
-#: rows of `checkerboard`: how much a vertex counts, and the checkerboards of the pressure and the deviators around it, Pa
+#: rows of `checkerboard`: weight of a vertex, and the checkerboards of the pressure and the deviators around it, Pa
 COUNTS, OF_P, OF_RR, OF_ZZ, OF_RZ = range(5)
 #: largest share of a checkerboard that fades in a step
 MOST = 0.5
-#: how much of a body the eight neighbours of a cell hold at least, where it counts as one inside of it
+#: least fraction of a body in the eight neighbours of a full cell from which the cell counts as inside the body
 INSIDE = 0.02
 
 
@@ -32,10 +32,10 @@ def checkerboard_of(j, i, a):
 
 @cell_rows
 def find_insides(j, w):
-    """How much cells lie inside of a body of the hard group: those that it fills, by what the least of their neighbours holds.
+    """Weight with which cells that a body of the hard group fills lie inside it, by its least fraction in their neighbours.
 
-    A cell that has just filled has a neighbour without any of the body, so that it comes in without a jump. Beyond the edges
-    of the mesh everything is as it is within.
+    A cell that has just filled has a neighbour without any of the body, so its weight starts from 0. Cells beyond the edges of
+    the mesh are not counted.
 
     Reads    group [m]; vof [m, j, i]
     Writes   inside [j, i], 0 to 1
@@ -79,7 +79,7 @@ def find_checkerboards(j, w):
 
 @point
 def least_of(a, b, c, d, of_a, of_b, of_c, of_d):
-    """Least of four numbers that are not negative, of which each counts by its weight; one without weight does not count."""
+    """Least of four non-negative numbers, each counted by its weight; one without weight does not count."""
     most = max(max(of_a * a, of_b * b), max(of_c * c, of_d * d))
     a, b = of_a * a + (1.0 - of_a) * most, of_b * b + (1.0 - of_b) * most
     c, d = of_c * c + (1.0 - of_c) * most, of_d * d + (1.0 - of_d) * most
@@ -88,10 +88,10 @@ def least_of(a, b, c, d, of_a, of_b, of_c, of_d):
 
 @point
 def stands_out(of, j, i, checkerboard):
-    """By how much a cell stands out of the cells around it (Pa): the least of the checkerboards at its vertices.
+    """Excess of a cell over the cells around it (Pa): the least of the checkerboards at its vertices.
 
     0 where they are not of one sign, as in every field that the mesh resolves. Vertices count by their weights, and at least
-    two must.
+    two must count.
     """
     of_a, of_b = checkerboard[COUNTS, j, i], checkerboard[COUNTS, j, i + 1]
     of_c, of_d = checkerboard[COUNTS, j + 1, i], checkerboard[COUNTS, j + 1, i + 1]
@@ -107,13 +107,13 @@ def stands_out(of, j, i, checkerboard):
 
 @cell_rows
 def fade_deviators(j, w):
-    """Takes from the deviators of every cell its share of what stands out, and finds the volume it would have to gain.
+    """Reduces each cell's deviators by the share of their excess that fades, and finds the volume that does so to its pressure.
 
-    The elastic energy that goes with it stays as heat.
+    The elastic energy lost remains as heat.
 
     Reads    checkerboard [5, j, i]; group [m]; vof, km [m, j, i]; volume, hg_coefficient, inside [j, i]; cell_mass [b, j, i]
     Updates  q (deviators) [k, m, j, i]
-    Writes   room [j, i], volume that makes the pressure that stands out fade, m^3 per radian
+    Writes   room [j, i], volume that reduces the excess pressure, m^3 per radian
     """
     for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
         w.room[j, i] = 0.0
@@ -130,21 +130,21 @@ def fade_deviators(j, w):
 
 @point
 def left_face(m, j, i, vof, room):
-    """Volume by which the left face of cell (j, i) sweeps more, if both of its cells are full of body m."""
+    """Volume that the left face of cell (j, i) sweeps in addition, if both of its cells are full of body m."""
     return 0.125 * (room[j, i - 1] - room[j, i]) if vof[m, j, i - 1] == 1.0 and vof[m, j, i] == 1.0 else 0.0
 
 
 @point
 def lower_face(m, j, i, vof, room):
-    """Volume by which the lower face of cell (j, i) sweeps more, if both of its cells are full of body m."""
+    """Volume that the lower face of cell (j, i) sweeps in addition, if both of its cells are full of body m."""
     return 0.125 * (room[j - 1, i] - room[j, i]) if vof[m, j - 1, i] == 1.0 and vof[m, j, i] == 1.0 else 0.0
 
 
 @cell_rows
 def fade_pressures(j, w):
-    """Lets faces sweep volume from cells whose pressure stands out to their neighbours.
+    """Lets faces sweep volume from cells with an excess pressure to their neighbours.
 
-    Two cells do work on one another by their mean pressure, so that their sum of energy stays.
+    The two cells do work on each other at their mean pressure, so that their total energy is kept.
 
     Reads    room [j, i]; group [m]; vof, pm [m, j, i]; cell_mass [b, j, i]; contact_columns [j, 2]
     Updates  fr, fz [j, i]; own_r, own_z [b, j, i] where they are in use; q (e) [k, m, j, i]

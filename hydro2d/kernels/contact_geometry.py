@@ -1,12 +1,12 @@
-"""Contact of two body groups that move with velocities of their own: where they meet, and on which side what lies.
+"""Geometry of the contact of two body groups, each with its own velocity: contact nodes, dividing lines and face apertures.
 
 Group 1 are the hard bodies, group 0 the soft ones. A vertex at which both have mass is a contact node; the cells around contact
-nodes are contact-interface cells, and everything in the kernels of contact is done in the columns contact_columns[j] of every
-row, the smallest range that holds its contact-interface cells. Elsewhere one group is alone and the other kernels are right
-(explanation/sliding, contact).
+nodes are contact-interface cells. The kernels of contact work in the columns contact_columns[j] of every row, the smallest
+range that contains its contact-interface cells. Elsewhere one group is alone and the other kernels apply (explanation/sliding,
+contact).
 
-A face has for either end the aperture of the hard group, aperture[end, j, i], which is the weight w of explanation/sliding,
-equation 1; that of the soft group is what is missing to 1.
+A face has at either end an aperture of the hard group, aperture[end, j, i], which is the weight w of explanation/sliding,
+equation 1; that of the soft group is 1 minus it.
 """
 
 from math import sqrt
@@ -17,27 +17,27 @@ from hydro2d.physics.contact import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
 
-#: excess over 1 of the square of the ratio of two slopes from which the steeper surface alone draws the line
+#: excess over 1 of the squared ratio of two slopes from which the line is drawn from the steeper surface alone
 STEEPER = 1e-3
 
-#: rows of `line`: normal of the hard side in the unit square, its constant, share of the hard among the solids; slopes, down
-#: the hard bodies' fraction and up that of the soft ones; how much of what the soft and the hard group give is found with the
-#: interfaces of the hard bodies first, the rest with those of the soft ones first
+#: rows of `line`: normal of the hard side in the unit square, its constant, hard share of the solids; slopes, down the hard
+#: bodies' fraction and up that of the soft ones; weights with which the fluxes of the soft and of the hard group come from
+#: interfaces nested hard bodies first, the rest soft bodies first
 LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, SOFT_AFTER, HARD_FIRST = range(10)
 
-#: square of the ratio of the slope of all that is solid to those of the groups, below which void lies between them
+#: squared ratio of the slope of all solids to those of the groups, below which void lies between the groups
 BETWEEN = 0.25
 
-#: share of void in a cell from which its bodies lie each by its own surface, and from which all of them do
+#: share of void in a cell from which its groups begin to have separate surfaces, and from which they have them in full
 APART, FAR_APART = 0.5, 0.75
 
-#: how many vertices away a node's body may be for the node to move with it
+#: largest distance, in vertices, from a node to the part of its body with which it moves
 REACH = 3
 
 
 @vertex_rows
 def find_contact_nodes(j, w):
-    """Contact nodes of every row, and what hard and soft bodies fill of the cells near hard ones.
+    """Contact nodes of every row, and the fractions of hard and of soft bodies in the cells near hard ones.
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
     Writes   contact_node_count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
@@ -73,15 +73,15 @@ def find_contact_nodes(j, w):
 
 @point
 def steeper(one, other):
-    """Weight with which a surface alone draws the line, for the squares of its slope and of the other surface's."""
+    """Weight of the line drawn from one surface alone, for the squares of its slope and of the other surface's."""
     return smoothstep((one / other - 1.0) / STEEPER) if one > other > 0.0 else (1.0 if one > other else 0.0)
 
 
 @point
 def parted(void, whole, less):
-    """Weight with which void lies between the groups, each of which then has a surface of its own.
+    """Weight with which void lies between the groups, each of which then has its own surface.
 
-    void is its share of the cell, whole the square of the slope of all that is solid, less the smaller one of the two groups'.
+    void is its share of the cell, whole the squared slope of all solids, less the smaller squared slope of the two groups.
     """
     if less == 0.0:
         return 0.0
@@ -91,7 +91,7 @@ def parted(void, whole, less):
 
 @serial
 def number_nodes(w):
-    """The slot of every row's first contact node, and behind the last row how many slots there are.
+    """Slot of every row's first contact node and, after the last row, the number of slots.
 
     Reads    contact_node_count [j], contact nodes
     Writes   first_slot [j]
@@ -104,13 +104,13 @@ def number_nodes(w):
 
 @cell_rows
 def contact_lines(j, w):
-    """The contact-interface columns of every row, from i0 to i1, and in them the line that parts the hard side of a cell from
-    the soft one.
+    """Contact-interface columns of every row, from i0 to i1, and the line in each of their cells between the hard and the soft
+    side.
 
-    The normal is Youngs' from f_hard - f_soft, the line encloses the hard share of what is solid. Near void, where one of the
-    two surfaces has a corner, the steeper slope is that of the flat one: then the line is its own, and the void of the cell
-    lies on the other side. Where there is more than GAP of void and the two slopes all but cancel, it lies between the groups.
-    Each of these comes in with a weight. Beyond the edges of the mesh the cells beside them are repeated.
+    The normal is Youngs' from f_hard - f_soft; the line encloses the hard share of the solids. Near void one of the two
+    surfaces may have a corner. The line is then drawn from the flat one, which has the steeper slope, and the void of the cell
+    lies on the other side. Where there is more than GAP of void and the two slopes almost cancel, the void lies between the
+    groups. Each of these cases has a weight. Beyond the edges of the mesh the cells next to them are repeated.
 
     Reads    contact_node_count [j], contact_nodes [j, k]; hard, soft [j, i]
     Writes   contact_columns [j, 2]; line [10, j, i]
@@ -183,9 +183,9 @@ def face_aperture(j, i, x0, y0, x1, y1, w):
 
 @point
 def weight_beside(j, i, row, column, hard, soft):
-    """Weight of the word of cell (j, i) on the face that it shares with (row, column), which may be full of one group.
+    """Weight of the aperture in cell (j, i) for the face shared with (row, column), which may be full of one group.
 
-    A surface that lies in the face of a full cell, with a gap beside it, is that cell's own: void cannot press it.
+    The face of a full cell next to a gap belongs to the full cell alone: void cannot press on it.
     """
     gap = smoothstep((1.0 - hard[j, i] - soft[j, i]) / GAP - 0.5)
     full = smoothstep(1.0 - (1.0 - max(hard[row, column], soft[row, column])) / GAP)
@@ -194,12 +194,12 @@ def weight_beside(j, i, row, column, hard, soft):
 
 @vertex_rows
 def face_apertures(j, w):
-    """Apertures of the hard group on the faces around contact nodes, and normals and contact at these.
+    """Apertures of the hard group on the faces around contact nodes, and the normals and contact at these nodes.
 
-    The aperture of a face is the mean of what the lines of both neighbours leave open of it. A normal is the mean of the
-    four cells' slopes, from hard to soft, along the axis and along walls: of f_hard - f_soft, of f_hard, and of -f_soft,
-    which differ where void is near. Groups touch where a cell holds both and no more than GAP of void, or where
-    a full cell of one is a neighbour of a full cell of the other.
+    The aperture of a face is the mean of those by the lines of both neighbours. A normal is the mean of the four cells' slopes,
+    from hard to soft, along the axis and along walls: of f_hard - f_soft, of f_hard, and of -f_soft, which differ near void.
+    Groups touch where a cell contains both and no more than GAP of void, or where a full cell of one is a neighbour of a full
+    cell of the other.
 
     Reads    contact_columns [j, 2], line [10, j, i], hard, soft [j, i], mass [b, j, i], contact_node_count [j],
              contact_nodes [j, k]

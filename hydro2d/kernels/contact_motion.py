@@ -1,4 +1,4 @@
-"""Stress of the cells between two groups in contact: their one pressure, viscosity, and the forces on either group."""
+"""Stress of the cells between two groups in contact: their common pressure and viscosity, and the forces on either group."""
 
 from math import sqrt
 
@@ -26,13 +26,13 @@ from hydro2d.physics.stress import normal_pressure, stress_scale
 from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
 from hydro2d.physics.waves import sound_step, volume_step
 
-#: void given to full cells without pressure whose groups part, so that it takes the opening and nothing is stretched
+#: void given to full cells without pressure whose groups separate, so that the void opens and no body is stretched
 SEED = 1e-11
 
 
 @point
 def come_apart(j, i, w):
-    """Whether the groups part along the normal at a vertex of cell (j, i)."""
+    """Whether the groups separate along the normal at a vertex of cell (j, i)."""
     opens = 0.0
     for row in range(j, j + 2):
         for column in range(i, i + 2):
@@ -44,14 +44,14 @@ def come_apart(j, i, w):
 
 @cell_rows
 def contact_viscosity(j, w):
-    """Volume rate and viscosity of the contact-interface cells, the step they allow, and room where their groups part.
+    """Volume rate and viscosity of the contact-interface cells, the step they allow, and seeds of void where groups separate.
 
-    A cell of both groups has the density of its mean by compressibility: the stiffer body's mass must not push the other. One q
-    answers to the one rate of volume over the cell's length along the normal, the less the more void the cell has to lose.
-    Void beside the other group is a gap, across which nothing pulls. Where the groups part at a vertex of a full cell without
-    pressure, the cell is given a seed of it.
+    The density of a cell of both groups is the mean by compressibility: the stiffer body's mass must not push the other. One q
+    follows from the common rate of volume over the cell's length along the normal; it falls as the cell has more void to close.
+    Void next to the other group is a gap, across which nothing pulls. Where the groups separate at a vertex of a full cell
+    without pressure, the cell is given a seed of void.
 
-    Reads    what face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
+    Reads    the arrays that face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
     Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
              mixed [j, k]
     Writes   qr, qz, qt, qrz, rate [j, i] (1/s)
@@ -103,10 +103,10 @@ def contact_viscosity(j, w):
 
 @cell_rows
 def contact_stress(j, w):
-    """Pressure of contact-interface cells at half the step by their one rate of volume, and normal pressure of the contact.
+    """Pressure of contact-interface cells at half the step, by their common rate of volume, and normal pressure of the contact.
 
     Reads    rate, p, bulk, solid, skin, hard, soft, sig_rz [j, i], line [10, j, i]
-    Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not hold both groups
+    Updates  ph, sig_rr, sig_zz, sig_tt [j, i];  writes contact_pressure [j, i], 0 where a cell does not contain both groups
     """
     for i in range(w.group_ranges[1, 0, j, 0], w.group_ranges[1, 0, j, 1]):
         w.contact_pressure[j, i] = 0.0
@@ -128,7 +128,7 @@ def contact_stress(j, w):
 
 @point
 def group_stress(g, j, i, w):
-    """What group g gives the stress of a cell beside p_c: (rr, zz, tt, rz), each body's by its share, as in total_stress."""
+    """Stress of group g in a cell without p_c: (rr, zz, tt, rz), of its bodies by their shares, as in total_stress."""
     scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
     rr, zz, tt, rz = 0.0, 0.0, 0.0, 0.0
     for m in range(w.vof.shape[0]):
@@ -161,14 +161,14 @@ def group_force(g, j, i, at_j, at_i, w):
 
 @vertex_rows
 def contact_node_forces(j, w):
-    """Velocities that the forces alone, of stresses and of sources, would give both groups at contact nodes.
+    """Velocities of both groups at contact nodes from the forces of stresses and sources alone.
 
-    The pressure of a cell acts on each group by the apertures of the cell's faces, the deviators of a group act on it alone
+    The pressure of a cell acts on each group by the apertures of the cell's faces; the deviators of a group act on it alone
     (explanation/sliding, contact).
 
     Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i];
-             pushed [c, b, j, i], m/s, or nothing
-    Writes   u, v [b, j, i], without what walls and the axis take; transfer[4, j], axial momentum given to walls
+             pushed [c, b, j, i], m/s, or empty
+    Writes   u, v [b, j, i], without the part that walls and the axis take; transfer[4, j], axial momentum given to walls
     """
     w.transfer[4, j] = 0.0
     for k in range(w.contact_node_count[j]):
@@ -207,7 +207,7 @@ def contact_node_forces(j, w):
 
 @vertex_rows
 def keep_one(j, w):
-    """Where one group has no mass its velocity is the other's, so that a vertex of one group has one velocity.
+    """Gives a group without mass at a vertex the other group's velocity, so that a vertex of one group has one velocity.
 
     Updates  u, v [b, j, i] around hard bodies
     """

@@ -1,8 +1,8 @@
 """Velocities of two groups in contact: slave nodes move with their masters, and friction.
 
 The ties are linear and have one solution, the impulses that change the kinetic energy least: (E/M_s + N M^-1 N^T) J = mismatch,
-with the weights N of the masters and a compliance E for slaves that are hardly under-filled. Conjugate gradients find it to
-TOLERANCE, so that no order of nodes matters (explanation/sliding, equation 6).
+with the weights N of the masters and a compliance E for slaves that are barely under-filled. Conjugate gradients find it to
+TOLERANCE, so the order of nodes does not matter (explanation/sliding, equation 6).
 """
 
 from math import sqrt
@@ -14,16 +14,16 @@ from hydro2d.kernels.extension import SPAN, TIED
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP
 from hydro2d.physics.stress import normal_pressure
 
-#: to what share of the mismatch the ties are met, and in how many steps at most
+#: share of the mismatch down to which the ties are solved, and the largest number of steps
 TOLERANCE, STEPS = 1e-11, 200
-#: how often friction and the ties are met in turn
+#: number of rounds in which friction and the ties are solved in turn
 ROUNDS = 3
-#: rows of `rubbing`: impulse that the soft group gets from the hard one, and its size
+#: rows of `rubbing`: friction impulse on the soft group from the hard one, and its size
 RUB_R, RUB_Z, RUBBED = range(3)
 #: rows of `nodes`: slot, group, row and column of a slave
 SLOT, GROUP, ROW, COLUMN = range(4)
-#: columns of `impulses`, two for the components of each: impulse, residual, what the ties make of the search direction, inverse
-#: of the diagonal
+#: columns of `impulses`, two for the components of each: impulse, residual, the ties' matrix times the search direction,
+#: inverse of the diagonal
 IMPULSE, RESIDUAL, IMAGE, DIAGONAL = 0, 2, 4, 6
 
 
@@ -38,13 +38,13 @@ def master(n, g, j, i, x, where):
 
 @point
 def held(j, i, constrained):
-    """Whether the axis or a wall holds a vertex along r, and along z."""
+    """Whether the axis or a wall constrains a vertex along r, and along z."""
     return i == constrained[0] or i == constrained[1], j == constrained[2] or j == constrained[3]
 
 
 @point
 def give(g, j, i, push_r, push_z, w):
-    """An impulse to a vertex; the axis and walls take their component."""
+    """Applies an impulse to a vertex; the axis and walls take their component."""
     held_r, held_z = held(j, i, w.constrained)
     if not held_r:
         w.u[g, j, i] += push_r / w.mass[g, j, i]
@@ -56,7 +56,7 @@ def give(g, j, i, push_r, push_z, w):
 
 @point
 def masters_mobility(g, j, i, x, w):
-    """Sum of w^2/m over the masters of a slave, along r and z (1/kg): their velocity, as it feels it, per impulse on them."""
+    """Sum of w^2/m over the masters of a slave, along r and z (1/kg): their mean velocity at the slave per impulse on them."""
     along_r, along_z = 0.0, 0.0
     for n in range(w.masters[x, g]):
         by, row, column = master(n, g, j, i, x, w.where)
@@ -78,7 +78,7 @@ def give_tie(g, j, i, x, push_r, push_z, w):
 
 @point
 def number_entry(e, vertices, w):
-    """Gives the vertex of entry e its number and N over its mass; returns how many vertices have a number then.
+    """Gives the vertex of entry e its number and N over its mass; returns the count of numbered vertices.
 
     Updates  places [b, j, i], number of a vertex, from 1 on;  writes entries [3, e], portions [e, 2:]
     """
@@ -93,11 +93,11 @@ def number_entry(e, vertices, w):
 
 @apart
 def list_ties(w):
-    """The number of tied slaves, all of them listed with their vertices: their own and those of their masters.
+    """Number of tied slaves, all of them listed with their vertices: their own and those of their masters.
 
     Writes   nodes [4, t]: slot, group, row and column of a slave; starts [t + 1], its first entry; entries [4, e]: group, row,
-             column and number of a vertex, the slave's own first; portions [e, 4]: N, along r and z, 1 for its own and less the
-             weight for a master, 0 where the axis or a wall holds either of them; and the same over the mass
+             column and number of a vertex, the slave's own first; portions [e, 4]: N, along r and z, 1 for its own and minus
+             the weight for a master, 0 where the axis or a wall constrains either of them; and N over the mass
     Scratch  places [b, j, i], 0 before and after
     """
     j0, j1 = outer_rows(w.parts)
@@ -131,7 +131,7 @@ def list_ties(w):
 
 @point
 def mismatch(t, u, v, w):
-    """Velocity of the t-th slave less that of its masters, along r and z; 0 along what the axis or a wall holds."""
+    """Velocity of the t-th slave minus that of its masters, along r and z; 0 where the axis or a wall constrains it."""
     apart_r, apart_z = 0.0, 0.0
     for e in range(w.starts[t], w.starts[t + 1]):
         apart_r += w.portions[e, 0] * u[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
@@ -141,12 +141,12 @@ def mismatch(t, u, v, w):
 
 @apart
 def assemble(tied, w):
-    """The matrix of the ties, N M^-1 N^T and the compliance, row by row; ties have an element where they share a vertex.
+    """Matrix of the ties, N M^-1 N^T plus the compliance, row by row; two ties have an element where they share a vertex.
 
     Writes   lines [t + 1], the first element of a row; columns [n]; matrix [n, c]
-    Scratch  firsts [v + 1] and sharing [2, e], which ties a vertex has; elements [t]
+    Scratch  firsts [v + 1] and sharing [2, e], the ties of a vertex; elements [t]
     """
-    entries = w.starts[tied]  # there are no more vertices than entries
+    entries = w.starts[tied]  # at least as many as vertices
     for n in range(entries + 1):
         w.firsts[n] = 0
     for e in range(entries):
@@ -158,7 +158,7 @@ def assemble(tied, w):
         for e in range(w.starts[t], w.starts[t + 1]):
             n = w.entries[3, e]
             w.sharing[0, w.firsts[n]], w.sharing[1, w.firsts[n]] = t, e
-            w.firsts[n] += 1  # where those of the next vertex begin, in the end
+            w.firsts[n] += 1  # finally the start of the next vertex's ties
     end = 0
     for t in range(tied):
         w.lines[t] = end
@@ -184,7 +184,7 @@ def assemble(tied, w):
 
 @apart
 def image_of_search(tied, w):
-    """The matrix of the ties times the search direction; returns search . image, along r and z.
+    """Product of the ties' matrix and the search direction; returns search . image, along r and z.
 
     Reads    search [t, c], and the matrix;  writes impulses [t, IMAGE]
     """
@@ -203,9 +203,9 @@ def image_of_search(tied, w):
 
 @apart
 def meet_ties(tied, w):
-    """Brings all slaves to the velocities of their masters at once, by conjugate gradients from nothing.
+    """Brings all slaves to the velocities of their masters together, by conjugate gradients that start from zero.
 
-    Reads    what list_ties and assemble wrote
+    Reads    the arrays that list_ties and assemble wrote
     Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch impulses [t, 8], search [t, c]
     """
     old_r, old_z = 0.0, 0.0
@@ -272,7 +272,7 @@ def pressed(j, i, n_r, n_z, w):
 
 @point
 def mobility(g, j, i, x, w):
-    """Velocity per impulse (1/kg) of a vertex, of a slave with its masters as far as it is tied to them."""
+    """Velocity per impulse (1/kg) of a vertex; a slave moves with its masters as far as it is tied to them."""
     m = w.mass[g, j, i]
     if w.strength[x, g] == 0.0:
         return 1.0 / m
@@ -283,7 +283,7 @@ def mobility(g, j, i, x, w):
 
 @apart
 def rub_on(g, j, i, x, push_r, push_z, w):
-    """An impulse on a vertex; a slave passes on to its masters what keeps it moving with them."""
+    """Applies an impulse to a vertex; a slave passes on to its masters the part that keeps it moving with them."""
     give(g, j, i, push_r, push_z, w)
     if w.strength[x, g] > 0.0:
         m = w.mass[g, j, i]
@@ -298,7 +298,7 @@ def rub_on(g, j, i, x, push_r, push_z, w):
 def rub(j, i, x, w):
     """Friction between the two groups at a contact node at which they touch.
 
-    Along the tangent to the normal by which they close least there is at most friction times the normal force on the surface.
+    It acts along the tangent to the normal by which they close least, and is at most `friction` times the normal force.
     """
     w_r, w_z = w.u[1, j, i] - w.u[0, j, i], w.v[1, j, i] - w.v[0, j, i]
     way, closing = 0, 1e300
@@ -325,7 +325,7 @@ def rub(j, i, x, w):
 
 @apart
 def warm_up(g, j, i, x, made, w):
-    """Gives heat (J) to a vertex and the masters of it, if it is a slave, by their masses times the sizes of the weights."""
+    """Gives heat (J) to a vertex and, if it is a slave, to its masters, by their masses times the sizes of the weights."""
     total = w.mass[g, j, i]
     for n in range(w.masters[x, g]):
         by, row, column = master(n, g, j, i, x, w.where)
@@ -338,14 +338,14 @@ def warm_up(g, j, i, x, made, w):
 
 @serial
 def settle(w):
-    """Velocities of both groups at contact nodes, from those that the forces alone would give.
+    """Velocities of both groups at contact nodes, after ties and friction act on the velocities from the forces alone.
 
-    Slave nodes move with masters of their group, and groups that touch rub: impulses that keep the momentum.
+    Slave nodes move with masters of their group, and groups that touch rub. Both act by impulses that keep the momentum.
 
-    Reads    what find_extensions wrote; mass [b, j, i]; contact_normal [3, 2, j, i], touch; line, sig_.. [j, i]
+    Reads    the arrays that find_extensions wrote; mass [b, j, i]; contact_normal [3, 2, j, i], touch; line, sig_.. [j, i]
     Updates  u, v [b, j, i]; adds to transfer[4, j]
-    Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; what list_ties writes
-    Scratch  what assemble writes; impulses [t, 8], search [t, c]
+    Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; the arrays of list_ties
+    Scratch  the arrays of assemble; impulses [t, 8], search [t, c]
     """
     # Step 1: no impulse has been passed on yet
     j0, j1 = outer_rows(w.parts)
@@ -372,11 +372,11 @@ def settle(w):
 def warm_contact(w):
     """Heat of the impulses at contact nodes.
 
-    An impulse J between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: that is
-    what the work of the cells and the kinetic energy differ by (explanation/sliding, contact). At the end all has acted, as
-    the dashpots of an edge on which masters lie.
+    An impulse J between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: the
+    difference between the work of the cells and the kinetic energy (explanation/sliding, contact). The velocities at the end
+    are those after everything has acted, dashpots of an edge on which masters lie included.
 
-    Reads    what find_extensions and settle wrote; mass, u0, v0, u, v [b, j, i]
+    Reads    the arrays that find_extensions and settle wrote; mass, u0, v0, u, v [b, j, i]
     Updates  heat [b, j, i], J per kg of the group's mass at a vertex
     Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
              of friction, and of under-filled nodes

@@ -1,6 +1,6 @@
-"""Volumes in contact-interface cells: one rate of change, what it does to pure cells, what flows.
+"""Volumes in contact-interface cells: their common rate of change, its work in pure cells, and the fluxes of bodies.
 
-The faces are swept by both groups, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
+Both groups sweep the faces, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
 from math import sqrt
@@ -16,7 +16,7 @@ from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, v
 from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.traction import smoothstep
 
-#: share of a cell that other bodies and void leave free from which it is in full no longer one body's, and has void
+#: share of other bodies and void, and of void alone, in a cell at which the rules of `contact_shares` apply in full
 OTHERS = 0.01
 
 
@@ -51,11 +51,11 @@ EVENING = 0.05
 
 @point
 def surface_volume(j, i, row, column, w):
-    """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column), beside what velocities sweep.
+    """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column) in addition to the swept volume.
 
-    Between cells of the surface it evens out p_c + q (explanation/sliding, equation 8). Where one of them has void between the
-    groups, its full neighbour closes it (equation 9): a cell of the surface pushes with p_c + q, any other with its stress
-    across the surface. The weight of this grows with the void, up to GAP.
+    Between cells of the surface it evens out p_c + q (explanation/sliding, equation 8). Void between the groups in one of them
+    is closed by its full neighbour (equation 9): a cell of the surface pushes with p_c + q, any other with its stress across
+    the surface. The weight of this grows with the void, up to GAP.
     """
     here_meets, there_meets = w.skin[KIND, j, i] == INTERFACE, w.skin[KIND, row, column] == INTERFACE
     here, there = w.ph[j, i] + w.qr[j, i], w.ph[row, column] + w.qr[row, column]
@@ -88,8 +88,8 @@ def surface_volume(j, i, row, column, w):
 def even_out(j, w):
     """Volumes that even out p_c along the surface, and those that close void between the groups.
 
-    A pressure that is constant in every cell of the surface, while velocities are linear, has a pattern (up and down from cell
-    to cell) that pushes no vertex. The volumes that the faces between these cells sweep are corrected by the difference.
+    With a pressure constant in every cell of the surface and linear velocities, a pattern that alternates from cell to cell
+    pushes no vertex. The volumes that the faces between these cells sweep are therefore corrected by the difference.
 
     Reads    ph, qr, bulk, rhobar, solid, volume, sig_rr, sig_zz, sig_rz [j, i], skin [3, j, i], line [10, j, i]
     Writes   even_r, even_z [j, i]
@@ -108,7 +108,7 @@ def even_out(j, w):
 
 @cell_rows
 def warm_evened(j, w):
-    """Gives the work that is lost as p_c evens out, half to either cell, to the bodies by mass.
+    """Heats the bodies by the work lost as p_c evens out: half to either cell, shared by mass.
 
     Updates  q (e) [k, m, j, i]
     """
@@ -135,9 +135,9 @@ def warm_evened(j, w):
 
 @cell_rows
 def contact_work(j, w):
-    """Pressure work in the pure ones among contact-interface cells: by the volume that they lose, not by their group's own.
+    """Pressure work in pure contact-interface cells: by the volume that they lose, not by their group's own.
 
-    `deform` does the work of the group's own rate of volume; this is what is missing.
+    `deform` does the work of the group's own rate of volume; this adds the rest.
 
     Reads    ph, qr [j, i], velocities, fr, fz [j, i], cell_mass [b, j, i]
     Updates  q (e) [k, m, j, i]
@@ -155,13 +155,13 @@ def contact_work(j, w):
 
 @kernel
 def contact_shares(part, w):
-    """Fractions of the cell as it stands on the mesh, in contact-interface cells and three around them.
+    """Fractions of the undeformed cell on the mesh, in contact-interface cells and three around them.
 
-    What flows out of the next cell is worked out as well, from the interfaces in it, for which 5 x 5 fractions are read.
+    Flux out of the next cell is computed as well, from the interfaces in it, for which 5 x 5 fractions are read.
 
-    The volume before a sweep is what both groups leave of the cell. Neither is stretched by what the other does: a line that
-    follows that volume would move and turn without its body. In void the bodies fill no more than the cell. Both rules come in
-    with the first OTHERS of what is not the one body, and of void.
+    The volume before a sweep depends on the motion of both groups, but neither group is stretched by the other's motion: a line
+    scaled with that volume would move and turn without its body. Next to void the bodies fill no more than the cell. Both rules
+    come in over the first OTHERS, of anything but the largest body and of void.
 
     Reads    volume, pre [j, i], vof [m, j, i]
     Writes   own_share [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
@@ -185,10 +185,10 @@ def contact_shares(part, w):
 
 @apart
 def take(g, more, j, i, w):
-    """Adds `more` to the volume of group g through face (j, i); what the group cannot take.
+    """Adds `more` to the volume of group g through face (j, i); returns the volume that the group cannot supply.
 
-    What flows the other way ends first, every body by the same share. Then the body that fills the most of the cell that the
-    volume comes from gives up to all that it has there.
+    Flow in the opposite direction is reduced first, for every body by the same share. Then the body with the largest share of
+    the donor cell gives up to all that it has there.
     """
     swept = 0.0
     for m in range(w.vof.shape[0]):
@@ -213,14 +213,13 @@ def take(g, more, j, i, w):
 def contact_fluxes(part, w):
     """Volume of every body through the faces of contact-interface cells, with the velocity of its group.
 
-    In a cell the group with the flatter surface comes first among the nested interfaces, where void parts them each group for
-    itself, by the weights of `contact_lines`. What the bodies together are short of, or beyond, the volume that the face
-    sweeps, and the void of the cell that this comes from cannot make up for (void flows with the face, and no more than there
-    is), the softer bodies take as far as they have it there, and the hard ones what is left (`take`). Where that cell has a
-    gap, a full cell into which volume flows is short of nothing as long as there is more of its body: no void enters a body
-    from its surface.
+    In a cell the group with the flatter surface comes first among the nested interfaces; where void separates the groups, each
+    group comes first for itself, by the weights of `contact_lines`. The bodies together may flow less or more than the volume
+    that the face sweeps. Void, which flows with the face, makes up a deficit as far as the donor cell has any. The soft bodies
+    take the remainder as far as they can supply it, then the hard ones (`take`). Where the donor cell has a gap, a full cell
+    that receives volume is filled by its own body as long as the donor has any: no void enters a body from its surface.
 
-    Reads    face [j, i], own [b, j, i], what contact_shares wrote, vof [m, j, i], group [m], line [10, j, i];
+    Reads    face [j, i], own [b, j, i], the arrays that contact_shares wrote, vof [m, j, i], group [m], line [10, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
     Updates  flux_volume [m, j, i]; flux_place [2, m, j, i]
     Scratch  strips [j, 3, 4, m]
@@ -292,7 +291,7 @@ def contact_fluxes(part, w):
 
 @cell_rows
 def limit_fluxes(j, w):
-    """No cell gives more of a body through both of its faces than it has.
+    """Limits the fluxes so that no cell gives more of a body through both of its faces than it has.
 
     Reads    pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] of the faces around contact-interface cells

@@ -1,4 +1,4 @@
-"""Damage models that open cracks: the cracks of a cell at the end of the Lagrangian step, and the damage that they are."""
+"""Damage models that open cracks: the cracks of a cell at the end of the Lagrangian step, and the damage they amount to."""
 
 from eos.cracked import CRACKS as WIDTH
 from eos.cracked import GROWTH, opened, solid_share
@@ -10,16 +10,16 @@ from hydro2d.physics.fracture import crack_opening, open_void
 from hydro2d.physics.plasticity import release
 from strength.dispatch import OPENS_CRACKS, full_opening, tension_left
 
-#: cracks within so many full openings on either side of a cell are of the same crack, and those in so many cells at the least,
+#: reach on either side of a cell, in full openings, within which cracks belong to the same crack, and its least value in cells,
 #: over which the remap spreads a crack
 OPENINGS, REACH = 5.0, 2
-#: cracks that fill this share of the volume have joined, whatever their opening
+#: cracks that fill this share of the volume have joined, at any opening
 JOINED = 0.5
 
 
 @point
 def part_cell(m, j, i, w):
-    """Makes void of the cracks of body m in cell (j, i), which bears no stress any more.
+    """Turns the cracks of body m in cell (j, i) into void; the cell carries no stress any more.
 
     Updates  vof [m, j, i]; q (density, deviators, crack volume and growth) [k, m, j, i]
     """
@@ -32,7 +32,7 @@ def part_cell(m, j, i, w):
 
 @cell_rows
 def open_cracks(j, w):
-    """Opens cracks where the tension is more than damaged material bears, and makes void of them where it has failed.
+    """Opens cracks where the tension exceeds that of damaged material, and turns them into void where it has failed.
 
     Where they open, the deviator becomes zero. explanation/fracture, (9)
 
@@ -64,7 +64,7 @@ def open_cracks(j, w):
 
 @point
 def across(m, j, i, dj, reach, w):
-    """(opening of the crack of body m about cell (j, i), m; whether no other cell has more of it), along z if dj is 1, else r.
+    """(opening of the crack of body m around cell (j, i), m; whether no other cell has more of it), along z if dj is 1, else r.
 
     Reads    vof [m, j, i]; q (density, crack volume) [k, m, j, i]
     """
@@ -83,10 +83,10 @@ def across(m, j, i, dj, reach, w):
 
 @cell_rows
 def damage_by_cracks(j, w):
-    """The damage of the cells in which cracks have opened: their volume per area, across the cell and its neighbours.
+    """Damage of cells in which cracks have opened, by the cracks' volume per area across the cell and its neighbours.
 
-    The crack lies across the direction in which the cell stretches faster. Where it is fully open, the cell that has most of it
-    fails, and the others bear no tension. explanation/fracture, (11)
+    The crack lies across the direction in which the cell stretches faster. Where it is fully open, the cell with most of it
+    fails, and the others carry no tension. explanation/fracture, (11)
 
     Reads    u, v [b, j, i]; vof [m, j, i]; q (density, crack volume and growth) [k, m, j, i]
     Updates  q (damage) [k, m, j, i]

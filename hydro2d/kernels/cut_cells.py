@@ -1,7 +1,7 @@
-"""Cells that a surface cuts, between bodies or between a body and void: traction instead of pressure.
+"""Cells cut by a surface between bodies, or between a body and void, in which the traction is common instead of the pressure.
 
 Every body of a cut cell has the normal stress -p_c, and the strain across the surface follows from that
-(explanation/mixed-cells, equations 9 to 13). What fluids do that fill a cell together is in `mixed`.
+(explanation/mixed-cells, equations 9 to 13). Cells that fluids fill together are treated in `mixed`.
 """
 
 from math import sqrt
@@ -16,9 +16,9 @@ from hydro2d.physics.stress import stress_scale
 from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
 
 #: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell,
-#: and those of which one is a gas
+#: none or one of them a gas
 WHOLE, FREE_SURFACE, INTERFACE, JOINT, BESIDE_GAS = 0.0, 1.0, 2.0, 3.0, 4.0
-#: share of the difference in velocity across the surface that what a body has of a vertex in the gas loses in a step
+#: share of the velocity difference across the surface that a step removes from a body's mass at a vertex in the gas
 MOST_TIED = 0.5
 #: rows of `skin`
 NORMAL_R, NORMAL_Z, KIND = range(3)
@@ -26,7 +26,7 @@ NORMAL_R, NORMAL_Z, KIND = range(3)
 
 @point
 def is_beside_gas(j, i, gases, vof):
-    """Whether a gas is in a cell."""
+    """Whether a cell contains a gas."""
     found = False
     for m in range(vof.shape[0]):
         found = found or (vof[m, j, i] > 0.0 and gases[m])
@@ -35,7 +35,7 @@ def is_beside_gas(j, i, gases, vof):
 
 @point
 def firm_share(j, i, w):
-    """Share of a cell that is neither void nor gas; that of all its bodies, where they are gases."""
+    """Share of a cell that is neither void nor gas; the share of all its bodies where all are gases."""
     total, gas = w.solid[j, i], 0.0
     for m in range(w.vof.shape[0]):
         gas += w.vof[m, j, i] if w.vof[m, j, i] > 0.0 and w.gases[m] else 0.0
@@ -44,7 +44,7 @@ def firm_share(j, i, w):
 
 @point
 def joins_solids(j, i, strong, vof):
-    """Whether a cell holds several bodies of which one has strength, so that more than pressure acts between them."""
+    """Whether a cell contains several bodies of which one has strength, so that more than pressure acts between them."""
     number, solid = 0, False
     for m in range(vof.shape[0]):
         number += 1 if vof[m, j, i] > 0.0 else 0
@@ -63,10 +63,10 @@ def most_of(j, i, vof):
 
 @point
 def side_of_joint(m, j, i, first, gas, gases, vof):
-    """On which side of the surface in cell (j, i) a body is that fills it with others of its group: 1, -1, or 0 for neither.
+    """Side of the surface, 1 or -1, on which body m is in cell (j, i), filled by bodies of one group; 0 for neither.
 
-    Gases are on one side and all others on the other where the cell holds a gas; else the body that fills most of it, `first`,
-    is on one side and the rest of its bodies on the other.
+    If the cell contains a gas, gases are on one side and all other bodies on the other; else the body that fills most of it,
+    `first`, is on one side and the rest on the other.
     """
     if gas:
         return -1.0 if gases[m] else 1.0
@@ -85,10 +85,10 @@ def normal_deviator(m, j, i, skin, q):
 def find_surfaces(j, w):
     """Normals of the surfaces in mixed cells, with the square root of their weight as length.
 
-    The normal is Youngs', of the hard group's fraction less the soft one's where a cell holds both, else of its one group
-    against void, and of `side_of_joint` where bodies of one group fill the cell. It counts in full from a fall of STEEP across
-    the cell on, so that a bubble or a crumb has none, and in the hard zone of a slip layer it does not count. Where void or a
-    group vanishes, a cut cell does what a full one does.
+    The normal is Youngs', of the hard group's fraction minus the soft one's where a cell contains both, else of its one group
+    against void, and of `side_of_joint` where bodies of one group fill the cell. It has its full weight from a fall of STEEP
+    across the cell on, so that a bubble or a crumb has none, and no weight in the hard zone of a slip layer. Where void or a
+    group vanishes, a cut cell behaves as a full one.
 
     Reads    vof [m, j, i], group, hard_bodies, strong, gases [m], the list of mixed cells
     Writes   skin [3, j, i]
@@ -143,7 +143,7 @@ def find_surfaces(j, w):
 
 @point
 def firm_density(j, i, w):
-    """Mass of the bodies of a cell that are no gases, by the volume of the cell, kg/m^3."""
+    """Mass of the bodies of a cell other than gases, per volume of the cell, kg/m^3."""
     mass = 0.0
     for m in range(w.vof.shape[0]):
         mass += w.q[RHO, m, j, i] * w.vof[m, j, i] if w.vof[m, j, i] > 0.0 and not w.gases[m] else 0.0
@@ -152,11 +152,11 @@ def firm_density(j, i, w):
 
 @point
 def ties(j, i, w):
-    """Masses by which the vertices of a cell that holds a gas are tied: of every pair along r, and of every pair along z, kg.
+    """Masses by which the vertices of a cell with a gas are tied: of every pair along r, and of every pair along z, kg.
 
-    What a body has of its mass at vertices in the gas moves with the body. A pair of vertices on either side of the surface
-    gives the share MOST_TIED of its difference in velocity in every step, by the body's mass at a vertex (explanation/
-    mixed-cells, equation 13). 0 in other cells.
+    The mass that a body has at vertices in the gas moves with the body. A pair of vertices on either side of the surface loses
+    the share MOST_TIED of its velocity difference in every step, by the body's mass at a vertex (explanation/mixed-cells,
+    equation 13). 0 in other cells.
     """
     if w.skin[KIND, j, i] != BESIDE_GAS:
         return 0.0, 0.0
@@ -167,7 +167,7 @@ def ties(j, i, w):
 
 @point
 def holds(g, j, i, group, vof):
-    """Whether a cell holds a body of group g."""
+    """Whether a cell contains a body of group g."""
     found = False
     for m in range(vof.shape[0]):
         found = found or (group[m] == g and vof[m, j, i] > 0.0)
@@ -176,7 +176,7 @@ def holds(g, j, i, group, vof):
 
 @point
 def pull_of_ties(g, j, i, row, column, by_r, by_z, w):
-    """(radial, axial) momentum that the ties of cell (row, column) give vertex (j, i) of group g in a step."""
+    """(radial, axial) momentum that vertex (j, i) of group g gains from the ties of cell (row, column) in a step."""
     u, v = w.u0[g, j, i], w.v0[g, j, i]
     beside, across = 2 * column + 1 - i, 2 * row + 1 - j
     pull_r = by_r * (w.u0[g, j, beside] - u) + by_z * (w.u0[g, across, i] - u)
@@ -196,7 +196,7 @@ def tied_work(i, by_r, by_z, b0, t0, b1, t1):
 
 @point
 def common_traction(j, i, w):
-    """(pressure at which the bodies of a cut cell would meet, their modulus): means by compressibility f/K, Pa."""
+    """(common p_c of the bodies of a cut cell without change of volume, their modulus): means by compressibility f/K, Pa."""
     compliance, pressure = 0.0, 0.0
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0:
@@ -207,7 +207,7 @@ def common_traction(j, i, w):
 
 @point
 def skin_deviator(j, i, w):
-    """Sum of f n . s . n in a cell: what its stress lacks beside its deviator and p_c."""
+    """Sum of f n . s . n in a cell: the part of its pressure that is added to p_c."""
     total = 0.0
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0:
@@ -231,17 +231,17 @@ def pull_of(j, i, void, skin):
 
 @point
 def cut_pressure(j, i, rate, w):
-    """p_c of a cut cell at half the step, for a rate of volume of its own (1/s)."""
+    """p_c of a cut cell at half the step, for the cell's relative rate of volume (1/s)."""
     void = max(1.0 - w.solid[j, i], 0.0)
     return half_pressure(w.p[j, i], w.bulk[j, i], 0.5 * w.dt * rate, void, pull_of(j, i, void, w.skin))
 
 
 @point
 def grow(j, i, target, w):
-    """(what the bodies of a cut cell grow by at a common pressure, as a share of the cell; the fall of that with it, 1/Pa).
+    """(growth of the bodies of a cut cell at p_c = target, as a share of the cell; its decrease with target, 1/Pa).
 
     Reads    mix [j, MODULUS to BESIDE, m]
-    Writes   mix [j, ACROSS, m], the strain of a body across the surface; mix [j, GROWTH, m], what its volume grows by
+    Writes   mix [j, ACROSS, m], the strain of a body across the surface; mix [j, GROWTH, m], the growth of its volume
     """
     weight = surface_weight(j, i, w.skin)
     total, give = 0.0, 0.0
@@ -258,7 +258,7 @@ def grow(j, i, target, w):
 
 @apart
 def fill_room(j, i, room, start, w):
-    """Pressure (Pa) at which the bodies of a cell grow by `room`, a share of the cell: Newton's rule from `start`.
+    """Pressure p_c (Pa) at which the bodies of a cell grow by `room`, a share of the cell, by Newton's rule from `start`.
 
     Writes   as `grow`
     """
@@ -273,9 +273,9 @@ def fill_room(j, i, room, start, w):
 
 @apart
 def meet_traction(j, i, change, w):
-    """p_c of a cut cell at the end of the step (Pa), whose volume changes by `change`, as a share of it.
+    """p_c of a cut cell (Pa) at the end of a step in which its volume changes by `change`, a share of the cell.
 
-    Void opens at p_c = 0 and is shut before p_c rises; a crack in the midst of a group pulls the less the wider it is
+    Void opens at p_c = 0 and closes before p_c rises; a crack inside a group carries the less tension the wider it is
     (explanation/mixed-cells, equation 12).
 
     Writes   as `grow`
@@ -297,13 +297,13 @@ def meet_traction(j, i, change, w):
 def fill_cut_cell(j, i, change, volume, target, work, w):
     """Volumes, densities and energies of the bodies of a cut cell after the step.
 
-    Each body does the work of its own normal stress, the mean over the step, on what its volume grows by; what the cell's work
-    (pressure, viscosity and hourglass filter, J per radian) leaves is shared by mass.
+    Each body takes the work of its own normal stress, the mean over the step, on the growth of its volume. The rest of the
+    cell's work (pressure, viscosity and hourglass filter, J per radian) is shared by mass.
 
     Reads    mix [j, GROWTH, m]; mix [j, NORMAL, m], its normal deviator before the step; mix [j, HEAT, m], the deviators' work
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
-    # Step 1: the work of each body on its own change of volume, and the work that is left for all
+    # Step 1: the work of each body on its own change of volume, and the rest, which all share
     after = volume + change
     mass, left, filled = 0.0, work, 0.0
     for m in range(w.vof.shape[0]):
@@ -316,7 +316,7 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         done = 0.5 * (w.pm[m, j, i] - w.mix[j, NORMAL, m] + target) * grown
         w.mix[j, HEAT, m] -= done
         left += done
-    # Step 2: the volumes fill the cell; under tension what is missing stays void
+    # Step 2: the volumes fill the cell; under tension the gap stays void
     squeeze = after / filled if target > 0.0 else min(1.0, after / filled)
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]

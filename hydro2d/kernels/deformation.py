@@ -1,4 +1,4 @@
-"""The rest of the Lagrangian step in pure cells: work, volume, rotation and strain of the deviators, radial return."""
+"""The Lagrangian step in pure cells after the velocities: work, volume, rotation and strain of the deviators, radial return."""
 
 
 from hydro2d.jit import cell_rows, rowwise
@@ -78,7 +78,7 @@ def strain_row(m, j, b, w):
 
 @rowwise
 def yield_row(m, j, b, w):
-    """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside of it.
+    """Return of body m's deviators to its yield surface in row j, where their elastic trial lies outside it.
 
     Cells that may yield are gathered and solved together, up to `LANES` at a time (strength/radial_return.py).
 
@@ -90,7 +90,7 @@ def yield_row(m, j, b, w):
     par = w.materials[m, STRENGTH_AT:DAMAGE_AT]
     scale = w.materials[m, FACTOR]
     first, n = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
-    floor = scale * yield_floor(model, par)  # below it no flow stress need be evaluated
+    floor = scale * yield_floor(model, par)  # no flow stress is needed below it
     p_j = w.pm[m, j]
     t_j = w.tm[m, j]
     shear_j = w.scratch[0, b]
@@ -103,7 +103,7 @@ def yield_row(m, j, b, w):
     lane = w.lanes[b]
     candidates = 0
     for x in range(n):
-        candidates += 0 if abs(trial_j[first + x]) <= floor else 1  # a NaN is one
+        candidates += 0 if abs(trial_j[first + x]) <= floor else 1  # a NaN counts as one
     x = 0 if candidates > 0 else n
     while x < n:
         found = 0
@@ -114,7 +114,7 @@ def yield_row(m, j, b, w):
             x += 1
         number = (found + WIDTH - 1) // WIDTH * WIDTH
         for k in range(number):
-            i = int(lane[COLUMN + min(k, found - 1)])  # the rest are copies of the last
+            i = int(lane[COLUMN + min(k, found - 1)])  # lanes left over copy the last
             lane[TRIAL + k] = abs(trial_j[i])
             lane[STRAIN + k] = ep_j[i]
             lane[HEAT + k] = t_j[i]
@@ -137,7 +137,7 @@ def yield_row(m, j, b, w):
 
 @rowwise
 def internal_row(m, j, b, w):
-    """The same, cell by cell, for a model that damage weakens or that has internal variables, which turn and harden.
+    """Return to the yield surface cell by cell, for a model that damage weakens or whose internal variables turn and harden.
 
     Reads    vof, pm, tm [m, j, i]; scratch [0 to 2, b, i], shear modulus, trial stress and spin
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; scratch internal [j, k]
@@ -163,9 +163,9 @@ def internal_row(m, j, b, w):
 
 @rowwise
 def expand_row(m, j, b, w):
-    """Density of body m in the cells of row j that it fills, whose mass stays.
+    """Density of body m in the cells of row j that it fills, at constant mass.
 
-    No deviator is left where it has failed or melted, or has the cutoff density or less.
+    The deviator is zero where the body has failed or melted, or is at or below the cutoff density.
 
     Reads    fr, fz [j, i]; vof [m, j, i]; scratch [1, b, i], negative up to the cutoff density and in melts
     Updates  q (density, deviators) [k, m, j, i]

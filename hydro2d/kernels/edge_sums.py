@@ -1,4 +1,4 @@
-"""What goes through the edges of the mesh in a sweep, summed along each edge for the audit."""
+"""Fluxes through the edges of the mesh in a sweep, summed along each edge for the audit."""
 
 from hydro2d.jit import serial
 from hydro2d.kernels.column_ranges import outer_rows
@@ -6,7 +6,7 @@ from hydro2d.kernels.column_ranges import outer_rows
 
 @serial
 def sum_outflow(w):
-    """What went through either edge of a sweep, out and in.
+    """Energy and mass that went through either edge of a sweep, out and in.
 
     Reads    edge_flux [side, k, m, j or i], towards higher r or z
     Writes   outflow [side, way, 1 + m]: energy, and mass of every body; way 0 out, 1 in

@@ -1,8 +1,8 @@
-"""How an under-filled node of a group moves: as its body inward of there does.
+"""Velocities of under-filled nodes of a group, extrapolated from the cells of its body further inward.
 
-A node whose group fills half of its dual cell or less is a slave: its velocity is the mean of the linear fields that the cells
-inward of it carry to its place. Every part of that is continuous in what fills the cells (explanation/sliding, equation 5): the
-tie fades in as the share falls from SURE to UNDERFILLED, and a cell counts by how much its least filled vertex is above that.
+A node whose group fills half of its dual cell or less is a slave: its velocity is the mean of the linear velocity fields of the
+cells inward of it, extended to the node. All of this is continuous in the fractions (explanation/sliding, equation 5): the tie
+fades in as the share falls from SURE to UNDERFILLED, and the weight of a cell fades out as its least filled vertex does so.
 """
 
 from math import sqrt
@@ -13,17 +13,17 @@ from hydro2d.kernels.contact_geometry import REACH
 from hydro2d.physics.contact import dual_share
 from hydro2d.physics.traction import smoothstep
 
-#: share of its dual cell up to which a node of a group is under-filled, and from which it is not
+#: filled share of its dual cell up to which a node of a group is under-filled, and from which it is not
 UNDERFILLED, SURE = 0.5, 0.6
-#: sum of the weights of cells, or of vertices, from which nothing further away is asked
+#: sum of the weights of cells, or of vertices, from which no further ones are used
 ENOUGH = 1e-3
-#: vertices along an edge of the square of possible masters, and how many there are; then the other group's own vertex
+#: vertices along an edge of the square of possible masters, their number, and the index of the other group's own vertex
 SPAN = 2 * REACH + 1
 MASTERS = SPAN * SPAN
 TIED = MASTERS
 #: rows of `inward`
 WEIGHT, SQUARES, OFF_R, OFF_Z = range(4)
-#: by how much two nodes let go that are tied to each other and have no other masters
+#: reduction of the tie of two nodes that are tied to each other and have no other masters
 SLACK = 1e-3
 
 
@@ -38,13 +38,13 @@ def filled_share(g, row, column, w):
 
 @point
 def sureness(share):
-    """How much a node or a cell that is filled so far counts as filled: 0 up to UNDERFILLED, 1 from SURE on."""
+    """Weight with which a node or a cell with this filled share counts as filled: 0 up to UNDERFILLED, 1 from SURE on."""
     return smoothstep((share - UNDERFILLED) / (SURE - UNDERFILLED))
 
 
 @point
 def in_debris(g, j, i, w):
-    """Whether material of the group other than g that has failed fills a cell around vertex (j, i) by half or more."""
+    """Whether failed material of the group other than g fills a cell around vertex (j, i) by half or more."""
     found = False
     for m in range(w.group.shape[0]):
         if w.group[m] != g:
@@ -56,7 +56,7 @@ def in_debris(g, j, i, w):
 
 @kernel
 def find_filled(part, w):
-    """filled_share of both groups at all vertices from which a contact node can be extended.
+    """filled_share of both groups at all vertices that can be masters of a contact node.
 
     Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes
     Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
@@ -76,9 +76,9 @@ def find_filled(part, w):
 
 @apart
 def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
-    """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4, as far as all of it counts.
+    """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4 times its `sureness`.
 
-    The cosine is that between its direction and the normal inwards.
+    The cosine is that of the angle between the cell's direction and the inward normal.
     """
     if row < w.mesh_box[0] or row >= w.mesh_box[1] or column < w.mesh_box[2] or column >= w.mesh_box[3]:
         return 0.0
@@ -95,8 +95,8 @@ def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
 
 @apart
 def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
-    """Weights of the cells around the slave (j, i), how far it lies off their middles, in cells, and the sums of the squares of
-    what each of them gives to its vertices.
+    """Weights of the cells around the slave (j, i), its offsets from their middles, in cells, and the sums of the squares of
+    their vertices' weights.
 
     Writes   inward [j, WEIGHT to OFF_Z, n], the places of cells row by row
     """
@@ -116,11 +116,11 @@ def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
 
 @apart
 def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
-    """Adds the linear fields of the cells inward whose weights have squares that sum up to more than least_squares and to no
-    more than most_squares, together with the weight `factor`; returns the share of it that is used.
+    """Adds, with the total weight `factor`, the linear fields of cells inward whose vertex weights have a sum of squares above
+    least_squares and up to most_squares; returns the share of `factor` that is used.
 
-    The squares are the stiffness that the slave's cells have for the masters' mass, and the time step bounds them: with a
-    least_squares above 0 the gradients are reduced to that sum.
+    The sum of squares multiplies the stiffness of the slave's cells as the masters' mass feels it, so the time step bounds it:
+    with a least_squares above 0 the gradients are reduced to that sum.
 
     Reads    inward [j, WEIGHT to OFF_Z, n]
     Updates  weights [x, g, n]
@@ -146,7 +146,7 @@ def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
 
 @apart
 def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
-    """Adds the velocities of single vertices inward, which together have the weight `factor`; returns the share of it used.
+    """Adds, with the total weight `factor`, the velocities of single vertices inward; returns the share of `factor` used.
 
     Updates  weights [x, g, n]
     """
@@ -173,19 +173,19 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
 
 @point
 def tied_weight(x, g, w):
-    """Weight that the other group's velocity at its node has for the slave of group g in slot x."""
+    """Weight of the other group's velocity at the node for the slave of group g in slot x."""
     last = w.masters[x, g] - 1
     return w.weights[x, g, last] if last >= 0 and w.where[x, g, last] == TIED else 0.0
 
 
 @vertex_rows
 def find_extensions(j, w):
-    """Which contact nodes are slaves, how firmly they are tied, and to what.
+    """Slaves among the contact nodes, the strength of their ties, and their masters with weights.
 
-    To the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any, ENOUGH), of cells
-    with a reduced gradient, then to vertices, and in the end to the other group's velocity at the node. A crumb within failed
-    material of the other group asks two vertices away, others three. Two nodes that are tied to each other let go by SLACK, so
-    that no master with hardly any weight holds both of them.
+    A slave is tied to the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any,
+    ENOUGH), of cells with a reduced gradient, then to vertices, and finally to the other group's velocity at the node. A crumb
+    within failed material of the other group looks two vertices away, others three. Ties of two nodes to each other are reduced
+    by SLACK, so that no master with hardly any weight holds both of them.
 
     Reads    first_slot [j], the slot of a row's first contact node; contact_normal [3, 2, j, i]; hard, soft [j, i];
              filled [b, j, i]; vof, dmg [m, j, i]

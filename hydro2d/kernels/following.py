@@ -1,16 +1,16 @@
-"""A mesh that travels along z: volumes swept relative to it, and an end to what fades ahead of waves."""
+"""A mesh that travels along z: volumes swept relative to it, and removal of vanishing stresses ahead of waves."""
 
 from hydro2d.jit import cell_rows, vertex_rows
 from hydro2d.kernels.column_ranges import columns, outer_rows, union
 from hydro2d.mesh.grid import VOL_R
 
-#: stresses (Pa), energies (J/kg) and strains below this are nothing; a mesh that travels would carry them on, ever smaller
+#: stresses (Pa), energies (J/kg) and strains below this are set to zero; a travelling mesh would carry them on, ever smaller
 FADED = 1e-30
 
 
 @vertex_rows
 def leave(j, w):
-    """F_z - d A for the faces j0 to j1 along z: what they sweep relative to a mesh that advances by d in the step.
+    """F_z - d A for the faces j0 to j1 along z: the volume swept relative to a mesh that advances by d in the step.
 
     A is the axial area of the column (explanation/following-mesh, equation 1).
 
@@ -26,7 +26,7 @@ def leave(j, w):
 
 @vertex_rows
 def leave_contact(j, w):
-    """The same for what each group of a contact sweeps of the faces around contact-interface cells.
+    """F_z - d A for the volume that each group of a contact sweeps at the faces around contact-interface cells (`leave`).
 
     Reads    contact_columns [j, 2]
     Updates  own_z [b, j, i]
@@ -40,10 +40,10 @@ def leave_contact(j, w):
 
 @cell_rows
 def silence(j, w):
-    """Sets what has faded to nothing to zero: numbers too small to be normal cost the processor a hundred times as much.
+    """Sets tiny values to zero: numbers too small to be normal cost the processor a hundred times as much.
 
-    Material that flows through a travelling mesh takes a share of its neighbours' stress along in every step, also ahead of
-    all waves, where this makes a tail that falls below the smallest normal number.
+    In a travelling mesh every step mixes a share of the neighbours' stress into a cell, also ahead of all waves. The tail of
+    stress that this makes falls below the smallest normal number.
 
     Reads    carried [m, n], body_range [m, j, 2]
     Updates  q (all but the density) [k, m, j, i]

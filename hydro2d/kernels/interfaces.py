@@ -1,8 +1,8 @@
 """Piecewise-linear interfaces: Youngs' normal, the constant of the line, and the share of a donor strip.
 
-All in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the planar
-formulas are exact (explanation/interfaces). More than two gases are nested: the interface of the first k bodies of the
-stated order bounds their cumulative fraction, void comes last.
+Everything is in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the
+planar formulas are exact (explanation/interfaces). Several bodies are nested: the interface of the first k bodies of the stated
+order bounds their cumulative fraction; void comes last.
 """
 
 
@@ -12,27 +12,27 @@ from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, 
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
 from hydro2d.physics.traction import smoothstep
 
-#: rows of a strip: shares of the cell; times them, the centroids' offsets along the sweep and across; how thin the bodies are
+#: rows of a strip: shares of the cell; shares times the centroids' offsets along the sweep and across; thinness of the bodies
 SHARE, ALONG, ACROSS, THIN = range(4)
-#: no fraction of anything in the cells of `add_body`
+#: zero fractions in the cells of `add_body`
 NO_BODY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 #: no normal and no corner (`surface`)
 NO_SURFACE = (0.0, 0.0, 0.0, 0.0, 0.0)
-#: no body is the last of `nest`
+#: value of `last` for which `nest` includes all bodies
 ALL = -1
-#: a share of a cell with less than this lies nowhere in particular
+#: a share of a cell below this has no place
 NOTHING = 1e-14
-#: share of a gas in a cell, or of both groups of a contact around it, from which it is theirs in full
+#: share of a gas in a cell, or of both groups of a contact around it, from which their rules apply in full (`keeps_order`)
 MEETING = 1e-6
-#: share of void from which bodies of a contact no longer keep their order in a cell
+#: share of void from which bodies of a contact do not keep their order in a cell
 PARTING = 0.1
-#: share of a cell that leaves it from which its interfaces determine the centroids; of less, none of which may decide, less
+#: share of a cell that leaves it from which its interfaces determine the centroids in full; below, in proportion
 SWEPT = 0.1
 
 
 @rowwise
 def report_row(j, w):
-    """Writes down the first cell of row j with a body in it and no volume left (`sweep_volumes`)."""
+    """Records the first cell of row j with a body in it and no volume left (`sweep_volumes`)."""
     first, number = columns(w.active_range[j, 0], w.active_range[j, 1])
     for x in range(number):
         i = first + number - 1 - x
@@ -78,7 +78,7 @@ def flux_range(dj, m, j, w):
 
 @kernel
 def donor_volumes(part, w):
-    """Volume of each body through each face, taken as if the donor cell were filled evenly: right where it is pure.
+    """Volume of each body through each face, as if the donor cell were filled evenly: exact where it is pure.
 
     Nothing but void flows in through the faces of the mesh's edge (void_only).
 
@@ -113,7 +113,7 @@ def donor_volumes(part, w):
 
 @point
 def most_of(m, j, i, share):
-    """The largest fraction of a body in 3 x 3 cells."""
+    """Largest fraction of a body in 3 x 3 cells."""
     most = 0.0
     for row in range(j - 1, j + 2):
         for column in range(i - 1, i + 2):
@@ -123,11 +123,11 @@ def most_of(m, j, i, share):
 
 @point
 def thinnest_body(j, i, in_order, order, share, thin):
-    """How thin the thinnest body of cell (j, i) is, 0 to 1 (`placed`), as far as bodies do not keep their order.
+    """Thinness of the thinnest body of cell (j, i), 0 to 1 (1 minus `placed`), as far as bodies do not keep their order.
 
-    0 where only one is in the cell and around it.
+    0 where only one body is in the cell and around it.
 
-    Writes   thin [m], that of each, where some is above 0
+    Writes   thin [m], that of each body, where any is above 0
     """
     if in_order == 1.0:
         return 0.0
@@ -147,10 +147,10 @@ def thinnest_body(j, i, in_order, order, share, thin):
 
 @point
 def keeps_order(j, i, group, gases, share, void):
-    """How far, 0 to 1, the bodies of a cell keep their order, and how far void has no box in it.
+    """Weights, 0 to 1, with which the bodies of a cell keep their order, and with which void has no box in it.
 
-    Both where a gas is, and where the groups of a contact meet in 3 x 3 cells; there the bodies keep their order only as far as
-    no void parts them. void : the share of the cell that is empty
+    Both are 1 where the cell contains a gas, and where the groups of a contact meet in 3 x 3 cells; but there the bodies keep
+    their order only as far as no void lies between them. void : the share of the cell that is empty
     """
     gas, hard, soft, hards = 0.0, 0.0, 0.0, 0
     for m in range(group.shape[0]):
@@ -171,25 +171,25 @@ def keeps_order(j, i, group, gases, share, void):
 
 @point
 def own_box(place, width, high):
-    """What a strip has of a body's box, as `line_piece` gives it; place : fraction, centroid, how far it goes on, or none."""
+    """Part of a body's box in a strip, as `line_piece` gives it; place : fraction, centroid, how far it continues, if boxed."""
     fraction, along, across, continues, boxed = place
     return box_piece(fraction, along, across, continues, width, high) if boxed else (0.0, 0.0, 0.0)
 
 
 @point
 def beyond(below, box):
-    """What a strip has of the bodies before, as their interface gives it (`next_body`), and of the box of the next one."""
+    """Part of a strip within the interface of the previous bodies (`next_body`) plus the part in the box of the next one."""
     return below[1] + box[0], below[2] + box[1], below[3] + box[2]
 
 
 @apart
 def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
-    """Adds what a strip has of body m, the next of the nested ones, times a weight, and returns `below` for the one after it.
+    """Adds the part of a strip that body m fills, the next of the nested ones, times a weight; returns `below` for the next.
 
-    f is the body's fraction, total that of all up to it; thin how thin it is if it comes first for that, 0 else. box is what
-    the strip has of its box, whole what it has of all up to it, as `line_piece` gives them; side is its centroid's offset
-    across the sweep.
-    below : what the bodies before have of the strip; the same as their interface gives it, with its moments
+    f is the body's fraction, total that of all up to it; thin its thinness if it comes first for that, else 0. box is the part
+    of the strip in its box, whole the part that all bodies up to it fill, as `line_piece` gives them; side is its centroid's
+    offset across the sweep.
+    below : share of the strip that the previous bodies fill; then their share by their interface, with its moments
 
     Updates  strip [SHARE, ALONG, ACROSS; m]
     """
@@ -213,10 +213,10 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
 
 @apart
 def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, strips, w):
-    """Adds what the nested interfaces give of every body in the strips of cell (j, i), times a weight.
+    """Adds the parts of the strips of cell (j, i) that every body fills by the nested interfaces, times a weight.
 
-    The bodies come in their order, or first those that are thin (strips [0, THIN, m]), each by a box of its own; those after
-    body `last` are left out (ALL: none). A strip of no width is left out. no_gap : how far void has no box (`keeps_order`)
+    The bodies come in their order, or thin ones first (strips [0, THIN, m]), each by its own box; those after body `last` are
+    left out (ALL: none). A strip of zero width is left out. no_gap : weight with which void has no box (`keeps_order`)
 
     Updates  strips [3, SHARE to ACROSS, m]: of the strips at the low and at the high side, and of the whole cell
     """
@@ -232,7 +232,7 @@ def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, str
             thin = strips[0, THIN, m] if thin_first else 0.0
             if thin_first and (thin > 0.0) != (turn == 0):
                 continue
-            around = add_body(m, j, i, share, around)  # also where it is beside the cell alone
+            around = add_body(m, j, i, share, around)  # also where it is only in the cells around
             if f == 0.0:
                 continue
             full = at_most_full(around)
@@ -267,18 +267,18 @@ def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, str
 
 @apart
 def fill_strips(j, i, last, widths, order, share, void, strips, w):
-    """What every body has in the strips at the low and at the high side of cell (j, i), and in all of it, and where.
+    """Shares and centroids of every body in the strips at the low and the high side of cell (j, i), and in the whole cell.
 
-    Nested interfaces in the order of the bodies. Where several bodies of one group meet, none of them a gas, and one of them is
-    narrower than a cell, so that its neighbours do not place it, it comes first, whatever the order says
-    (explanation/interfaces, thin bodies).
+    Interfaces are nested in the order of the bodies. Where several bodies of one group meet, none of them a gas, a body
+    narrower than a cell, which its neighbours do not place, comes first in spite of the order (explanation/interfaces, thin
+    bodies).
 
-    last : the body that is asked for, of those after which nothing is found out; ALL for all of them
-    widths : those of the three strips as shares of the cell, 0 for one that is left out and stays as it is
+    last : the last body that is wanted, those after it are left out; ALL for all of them
+    widths : widths of the three strips as shares of the cell, 0 for one that is left out and stays as it is
 
     Reads    share [m, j, i], the fractions; void, the share of the cell that is empty; centroid [2, m, j, i]
-    Writes   strips [3, 4, m]: shares of the cell; times them, where the centroids lie off the middle of the strip, along the
-             sweep in widths of the strip and across; how thin the bodies are
+    Writes   strips [3, 4, m]: shares of the cell; shares times the offsets of the centroids from the middle of the strip, along
+             the sweep in widths of the strip, and across; thinness of the bodies
     """
     for n, width in enumerate(widths):
         if width > 0.0:
@@ -296,7 +296,7 @@ def fill_strips(j, i, last, widths, order, share, void, strips, w):
 
 @point
 def place_of(strip, m):
-    """Where the centroid of what a strip has of body m lies off its middle: along the sweep, in widths of it, and across."""
+    """Offset of the centroid of body m's part of a strip from its middle: along the sweep, in widths of the strip; across."""
     given = strip[SHARE, m]
     if given < NOTHING:
         return 0.0, 0.0
@@ -305,22 +305,23 @@ def place_of(strip, m):
 
 @point
 def by_contact(j, i, w):
-    """Whether `contact_fluxes` works out what leaves cell (j, i) through either face: not at the edge of the mesh."""
+    """Whether `contact_fluxes` computes the flux out of cell (j, i) through either face: not at the edge of the mesh."""
     inside = w.mesh_box[2] < i < w.mesh_box[3] - 1 if w.di == 1 else w.mesh_box[0] < j < w.mesh_box[1] - 1
     return inside and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]
 
 
 @cell_rows
 def interface_volumes(j, w):
-    """Volume of each body out of each mixed cell, from the nested interfaces, and where it lies in the strips that leave.
+    """Volume of each body out of each mixed cell, from the nested interfaces, and its place in the strips that leave.
 
-    Of contact-interface cells only the centroids are worked out (`by_contact`). The cumulative volumes of a strip are kept
-    monotone, each body gives no more than it has, and what two opposite strips ask together beyond that is passed on to the
+    For contact-interface cells only the centroids are computed (`by_contact`). The cumulative volumes of a strip are kept
+    monotone, each body gives no more than it has, and the excess that two opposite strips take together is passed on to the
     next body.
 
     Reads    mixed [j, k], interface_order [k], face, pre [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
-             centroid [2, m, j, i] of these cells: that of what the interfaces enclose, in full where SWEPT of the cell leaves
+             centroid [2, m, j, i] of these cells: that of the part that the interfaces enclose, in full where SWEPT of the cell
+             leaves
     Scratch  strips [j, 3, 4, m]
     """
     dj, di = w.dj, w.di

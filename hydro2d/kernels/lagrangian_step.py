@@ -1,7 +1,7 @@
 """The phases of the Lagrangian step as lists: kernel after kernel, for all parts of the mesh at the same time.
 
-Between two kernels stands a barrier wherever the second reads what the first writes in rows of other parts, or writes what the
-first reads there.
+There is a barrier between two kernels wherever the second reads rows of other parts that the first writes, or writes rows of
+other parts that the first reads.
 """
 
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when

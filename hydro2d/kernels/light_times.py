@@ -1,4 +1,4 @@
-"""Light times of an explosive: when a detonation that runs at one speed arrives, straight or around what is no explosive."""
+"""Light times of an explosive: arrival of a detonation of constant speed, straight or around cells without explosive."""
 
 from math import sqrt
 
@@ -8,15 +8,15 @@ from hydro2d.jit import point, serial
 PASSABLE = 0.5
 #: rows of `w.front`: the point from which the detonation comes straight to the cell, and the time at which it was there
 R, Z, TIME = range(3)
-#: share of the way, and of a time, below which two are the same
+#: relative difference of two paths, or of two times, below which they count as equal
 _SAME = 1e-12
 
 
 @point
 def sees(j, i, r, z, w):
-    """Whether the straight way from the centre of cell (j, i) to the point (r, z) lies in cells with at least PASSABLE.
+    """Whether the straight line from the centre of cell (j, i) to the point (r, z) lies in cells with at least PASSABLE.
 
-    The cell itself does not count. A way through a corner needs one of the two cells beside it.
+    The cell itself does not count. A line through a corner needs one of the two cells next to it.
     """
     from_r, from_z = w.rc[i], w.zc[j]
     along_r, along_z = r - from_r, z - from_z
@@ -42,7 +42,7 @@ def sees(j, i, r, z, w):
 
 @point
 def offer(j, i, r, z, time, w):
-    """Whether the detonation that was at (r, z) at ``time`` arrives at the cell (j, i) before all others known, and is seen.
+    """Whether the detonation from (r, z) at ``time`` reaches cell (j, i) earlier than any known so far, and in a straight line.
 
     Updates  light [j, i], front [3, j, i]
     """
@@ -57,7 +57,7 @@ def offer(j, i, r, z, time, w):
 
 @serial
 def light_points(w):
-    """Arrival from the detonation points in the cells that see one of them.
+    """Arrival times in the cells that see one of the detonation points.
 
     Reads    points [n, 3] (r, z, time); r, rc [i], z, zc [j]; share [j, i]
     Updates  light [j, i], front [3, j, i]
@@ -71,7 +71,7 @@ def light_points(w):
 
 @serial
 def bend_around(w):
-    """One sweep in each of four orders: a cell takes over the point from which a neighbour was lit, or the neighbour itself.
+    """Arrival times after one sweep in each of four orders: a cell is lit from its neighbour's point, or from the neighbour.
 
     The fixed point is that of Theta* (Nash, Daniel, Koenig & Felner, AAAI 2007). explanation/explosives
 

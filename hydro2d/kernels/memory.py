@@ -1,4 +1,4 @@
-"""Equations of state with memory: what a Lagrangian step begins with is kept; at its end the models update their variables."""
+"""Equations of state with memory: fields are kept at the start of a Lagrangian step, and variables updated at its end."""
 
 from eos.dispatch import WITH_MEMORY, update
 from hydro2d.jit import cell_rows, point
@@ -14,7 +14,7 @@ DENSITY, STRAIN, DAMAGED = range(3)
 
 @cell_rows
 def remember(j, w):
-    """Keeps what the step begins with, of bodies whose equation of state has internal variables.
+    """Keeps the fields at the start of the step, for bodies whose equation of state has internal variables.
 
     Reads    q [k, m, j, i]
     Writes   before [3, m, j, i], rows DENSITY to DAMAGED
@@ -46,9 +46,9 @@ def released(m, j, i, rate, w):
 
 @cell_rows
 def update_memory(j, w):
-    """The internal variables of equations of state at the end of the step (`eos.dispatch.update`).
+    """Internal variables of equations of state at the end of the step (`eos.dispatch.update`).
 
-    The plastic work is the strain increment at the stress to which the deviator has returned. time is that at the end.
+    The plastic work is the strain increment times the stress to which the deviator has returned. time is that at the end.
 
     Reads    pm, tm, vof [m, j, i]; before [3, m, j, i]
     Updates  q (internal variables) [k, m, j, i]

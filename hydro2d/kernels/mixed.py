@@ -62,7 +62,7 @@ def insert_void_mixed_row(j, w):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or with smallest_tension the least (explanation/fracture).
-    Two groups hold together by nothing and part by themselves (`meet_traction`).
+    Two groups do not stick together, and separate without this (`meet_traction`).
 
     Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
@@ -110,10 +110,10 @@ def insert_void_mixed_row(j, w):
 def close_cells(j, part, w):
     """Equation of state, void where a cell fractures, and artificial viscosity.
 
-    The viscosity takes the directions of the mesh, or along_compression that of the strongest compression.
+    The viscosity acts in the directions of the mesh, or with along_compression in that of the strongest compression.
 
-    Reads, updates and writes what pressures_row, insert_void_mixed_row, and viscosity_row or compression_viscosity_row do, and
-             the list of mixed cells;  writes row_step [j], endless
+    Reads, updates and writes as pressures_row, insert_void_mixed_row, and viscosity_row or compression_viscosity_row, and
+             the list of mixed cells;  writes row_step [j], no limit yet
     Scratch  scratch [s, part, i]
     """
     pressures_row(j, part, w)
@@ -158,7 +158,7 @@ def cell_motion(j, i, g, w):
 
 @point
 def heat_of_ties(j, i, g, w):
-    """Gives what the ties of a cell beside a gas take of the motion to its bodies that are none, by mass (`ties`).
+    """Gives the energy that the ties in a cell with a gas take from the motion to its other bodies, by mass (`ties`).
 
     Updates  mix [j, HEAT, m]
     """
@@ -201,7 +201,7 @@ def filter_work(j, i, motion, cell_mass):
 
 @point
 def pressure_rise(j, i, w):
-    """What the pressure of a cell rises by until the middle of the step."""
+    """Rise of the pressure of a cell up to the middle of the step."""
     before = 0.0
     for m in range(w.vof.shape[0]):
         before += w.vof[m, j, i] * w.pm[m, j, i] if w.vof[m, j, i] > 0.0 else 0.0
@@ -210,14 +210,14 @@ def pressure_rise(j, i, w):
 
 @point
 def work_beside_gas(j, i, volume, change, inverse, work, target, relaxed, w):
-    """Work in a cell that a gas shares with stiffer bodies: each body's own pressure on its own change of volume, the remainder
+    """Work in a cell that a gas shares with stiffer bodies: of each body's own pressure on its own change of volume, the rest
     by mass (explanation/mixed-cells, equation 6).
 
-    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, and relaxed the share of
-    its excess of pressure over the target that a body loses.
+    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, and relaxed the share of a
+    body's excess pressure over the target that it loses.
 
     Reads    mix [j, SOFT, m]; ph [j, i]
-    Updates  mix [j, HEAT, m], which then has all of the work on a body
+    Updates  mix [j, HEAT, m], then all of the work on a body
     """
     rise = pressure_rise(j, i, w)
     mass, left = 0.0, work
@@ -237,10 +237,10 @@ def work_beside_gas(j, i, volume, change, inverse, work, target, relaxed, w):
 
 @point
 def fill_cell(j, i, change, volume, work_p, work_q, w):
-    """Volumes, densities and energies after the step in a cell that bodies of one group fill: by compressibility, then
+    """Volumes, densities and energies after the step in a cell that bodies of one group fill: changes by compressibility, then
     relaxation of the pressures.
 
-    work_p is that of the pressure on the cell, work_q that of the viscosity.
+    work_p is the work of the pressure on the cell, work_q that of the viscosity.
 
     Reads    ph, solid [j, i]; mix [j, HEAT, m]
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
@@ -278,13 +278,13 @@ def fill_cell(j, i, change, volume, work_p, work_q, w):
 def deform_mixed(j, w):
     """The Lagrangian step of the bodies in mixed cells.
 
-    Where fluids fill a cell together, by compressibility: w_m = R_m/Rbar with R_m = f_m/K_m, then relaxation of the
-    pressures, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar; pressure work by w_m, viscous and hourglass work by
-    volume fraction, deviatoric work by what each body's stress did; beside a gas as work_beside_gas has it (explanation/
-    mixed-cells). So do all bodies with `uniform`, and in the hard zone of a slip layer. In cut cells by the traction:
-    `strain_bodies_across`, `fill_cut_cell`.
-    Strength: by strength_mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
-    viscosity do the work of the one change of volume, and each body has its own strength where two groups meet.
+    Fluids that fill a cell together share its change of volume by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m. Their
+    pressures then relax, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar. Pressure work is shared by w_m, viscous
+    and hourglass work by volume fraction; deviatoric work goes to the body whose stress did it. In a cell with a gas, work is
+    shared as in `work_beside_gas` (explanation/mixed-cells). All bodies are treated so with `uniform`, and in the hard zone of
+    a slip layer. Cut cells follow from the traction: `strain_bodies_across`, `fill_cut_cell`.
+    Strength is by strength_mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
+    viscosity do the work of the common change of volume, and each body has its own strength where two groups meet.
 
     Reads    velocities, swept volumes, stresses as `deform`; ph, qr, qz, qt, qrz, solid [j, i]; contact_columns [j, 2];
              cell_mass [b, j, i]; group, hard_bodies, gases [m]

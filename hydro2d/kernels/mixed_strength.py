@@ -50,7 +50,7 @@ VOLUME, SOLID, ZERO, MAX, MATERIAL = range(5)
 
 @point
 def dominant_body(j, i, w):
-    """The body whose strength dominates in a cell of the hard zone, -1 outside of it."""
+    """Body whose strength dominates in a cell of the hard zone, -1 outside it."""
     dominant = -1
     for m in range(w.vof.shape[0]):
         if w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold:
@@ -60,9 +60,9 @@ def dominant_body(j, i, w):
 
 @point
 def work_of_deviators(j, i, dominant, w):
-    """What the deviators of every body do in the step: its own, or in the hard zone the dominant body's alone.
+    """Work of the deviators of every body in the step: of its own, or in the hard zone the dominant body's alone.
 
-    In a cut cell the part across the surface is none of theirs: mix [j, NORMAL, m].
+    In a cut cell the part across the surface is excluded: mix [j, NORMAL, m].
 
     Writes   mix [j, HEAT, m], J per radian
     """
@@ -88,7 +88,7 @@ def strain_deviators(j, i, rate, w):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
 
     rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material. In a cut cell
-    the strain across the surface is left out, by the weight of that: `meet_traction` finds it, `strain_across` adds it.
+    the strain across the surface is left out, by the surface's weight: `meet_traction` finds it, `strain_across` adds it.
 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
@@ -143,7 +143,7 @@ def strain_deviators(j, i, rate, w):
 def strain_bodies_across(j, i, own, cell_yield, change, w):
     """Strains the bodies of a cut cell across its surface; returns p_c at the end of the step, Pa (`meet_traction`).
 
-    A body that flows does so at the stress that it has, which may be above its yield stress by its rate.
+    A body that flows does so at its current stress, which may exceed its yield stress because of its rate.
 
     Updates  mix [j, TRIAL_RR to TRIAL_RZ, m]
     """
@@ -165,12 +165,11 @@ def strain_bodies_across(j, i, own, cell_yield, change, w):
 
 @point
 def return_deviators(j, i, own, cell_yield, dominant, w):
-    """Brings the trial deviators back to the yield surface: each body's own, or the one of the cell. Melts lose theirs.
+    """Returns the trial deviators to the yield surface: each body's own, or that of the cell. Melts lose theirs.
 
-    In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among what is solid, as in layers under one
-    stress.
+    In the hard zone the plastic heat of the dominant body is shared by f_m/Y_m among the solids, as in layers under one stress.
 
-    Reads    what strain_deviators wrote
+    Reads    the arrays that strain_deviators wrote
     Updates  q (deviators, plastic strain, damage, internal variables) [k, m, j, i]; mix [j, HEAT, m]; scratch internal [j, k]
     """
     volume = w.metrics[VOL_R, i] * w.dz[j]
@@ -194,7 +193,7 @@ def return_deviators(j, i, own, cell_yield, dominant, w):
 
 @point
 def share_plastic_heat(j, i, dominant, plastic, vof, mix):
-    """Gives the plastic work of the dominant body to all that is solid, by f_m/Y_m.
+    """Gives the plastic work of the dominant body to all solids, by f_m/Y_m.
 
     Updates  mix [j, HEAT, m]
     """

@@ -1,4 +1,4 @@
-"""The remap of momentum on dual cells, and what the three advection choices make of the kinetic energy."""
+"""The remap of momentum on dual cells, and of kinetic energy by the three advection choices."""
 
 from hydro2d.jit import apart, cell_rows, kernel, plus, point, rowwise
 from hydro2d.kernels.boundaries import held_at
@@ -22,7 +22,7 @@ MOMENTUM, KE, BOTH = range(3)
 
 @point
 def dual_range(j, group_ranges, w):
-    """Vertices of row j from which something may flow within the active columns."""
+    """Range of vertices of row j from which mass may flow within the active columns."""
     return max(group_ranges[1 + w.dj, j, 0], w.i0) - w.di, min(group_ranges[1 + w.dj, j, 1] + 1, w.i1 + 1)
 
 
@@ -30,9 +30,9 @@ def dual_range(j, group_ranges, w):
 def dual_row(g, j, slot, w):
     """Mass, momentum and kinetic energy of group g that flow between the vertices of row j and those at higher r or z.
 
-    r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows beside the vertex;
+    r-sweep: Phi = cm_out (F_left) + cm_in (F_right) of the column between, summed over the two rows next to the vertex;
     z-sweep: the column's share of the vertex times (F_bottom + F_top). With these the dual masses after the sweep are again
-    the corner sums of the cell masses (explanation/remap, equation 6). Of second order where no vertex is next to massless.
+    the corner sums of the cell masses (explanation/remap, equation 6). Second order where no vertex is nearly massless.
 
     No slope is larger than steepness times the smaller difference to a neighbour.
 
@@ -77,10 +77,10 @@ def dual_row(g, j, slot, w):
 
 @apart
 def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
-    """Takes the normal velocity of vertices that rest on an edge that only pushes or would go beyond it.
+    """Sets the normal velocity to 0 at vertices that rest on an edge that only pushes, or would go beyond it.
 
     Reads    new_j [x], masses of the columns from lo;  velocity0 [c, b, j, i]
-    Updates  velocity [c, b, j, i]; left [x], energy that is given to cells, per mass; momentum_sums [5, j] as in vertex_row
+    Updates  velocity [c, b, j, i]; left [x], energy given to cells, per mass; momentum_sums [5, j] as in vertex_row
     """
     c, at = edge // 2, w.pushing[edge]
     if c == 1 and j != at:
@@ -103,10 +103,10 @@ def vertex_row(g, j, below, above, w):
     momentum   u = P/M
     ke         u = sign(P) sqrt(2 K/M) per component, |u| <= ke_bound |P/M|
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
-    P/M is kept within the velocities of the three vertices that it comes from: this removes round-off, and what a vertex at an
-    open edge, which has half a cell's mass, lacks when the whole cell leaves. The normal velocity on the axis, on walls and on
-    edges with a velocity is given: constrained has their columns (2) and rows (2), -1 for none, edge_velocity what it is. On
-    edges that only push, likewise in `pushing`, it stays 0 where it is, and is 0 where it would go beyond.
+    P/M is kept within the velocities of the three vertices that it comes from. This removes round-off, and makes up for the
+    half of a cell that a vertex at an open edge lacks when the whole cell leaves. The normal velocity on the axis, on walls and
+    on edges with a velocity is prescribed: constrained has their columns (2) and rows (2), -1 for none, edge_velocity gives it.
+    On edges that only push, likewise in `pushing`, it stays 0 where it is 0, and is 0 where it would go beyond.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
              velocity0 [c, b, j, i] and mass [b, j, i] before it
@@ -128,7 +128,7 @@ def vertex_row(g, j, below, above, w):
         left = w.deficit[g, j, lo:hi]
         f_in = w.dual[0, below, lo - di:hi - di]
         f_out = w.dual[0, above, lo:hi]
-        new_j = w.dual[5, below, lo:hi]  # the weights that stood there have done their work
+        new_j = w.dual[5, below, lo:hi]  # in place of weights that are no longer needed
         # Step 1: masses after the sweep, corner sums of the cells (explanation/remap, equation 6)
         for x in range(n):
             left[x] = 0.0
@@ -153,7 +153,7 @@ def vertex_row(g, j, below, above, w):
                 a = a_j[x]
                 old = m_j[x]
                 new = new_j[x]
-                resting = f_in[x] == 0.0 and f_out[x] == 0.0  # nothing flows: not a bit may change
+                resting = f_in[x] == 0.0 and f_out[x] == 0.0  # without flow not a bit may change
                 wall = wall_row or lo + x == axis or lo + x == outside
                 fixed = given_outside if lo + x == outside else given
                 over = 1.0 / max(new, TINY)
@@ -193,10 +193,10 @@ def vertex_row(g, j, below, above, w):
 def sweep_momentum(part, w):
     """Carries the momentum of vertices along one direction.
 
-    Reads    what dual_row and vertex_row read; mesh_box (j0, j1, i0, i1 of the mesh)
+    Reads    as dual_row and vertex_row; mesh_box (j0, j1, i0, i1 of the mesh)
     Writes   velocity [c, b, j, i]; deficit [b, j, i], momentum_sums [5, j]; edge_dual [b, side, k, j or i],
-             what flows over the mesh's edges
-    Scratch  dual [k, slot, i], two slots to a part; in z they take turns
+             flows over the mesh's edges
+    Scratch  dual [k, slot, i], two slots per part; in z they alternate
     """
     dj, di = w.dj, w.di
     first, last = w.parts[part], past_row(part, w.parts, 1)
@@ -222,7 +222,7 @@ def sweep_momentum(part, w):
 
 @cell_rows
 def deposit(j, ranges, deficit, w):
-    """Gives energy found at vertices (what `both` misses, the heat of a contact) to the cells around, by the group's mass.
+    """Gives energy of vertices (the deficit of `both`, the heat of a contact) to the cells around, by the group's mass.
 
     Reads    ranges [j, 2], columns; deficit [b, j, i] per vertex mass, cell_mass [b, j, i], vof [m, j, i], group [m]
     Updates  q (e) [k, m, j, i];  writes deposited [j], the energy given

@@ -1,13 +1,13 @@
-"""What kernels of the step can name: every array and number of a `Handle`, each with one meaning.
+"""Names that kernels of the step can use: every array and number of a `Handle`, each with one meaning.
 
-The arrays of the state are those of the tables of fields and of work (`hydro2d.mesh.fields`); what stands here is the rest.
+The arrays of the state are those of the tables of fields and of work (`hydro2d.mesh.fields`); the rest are here.
 """
 
 from hydro2d.jit import declare
 from hydro2d.mesh import fields
 from hydro2d.mesh.fields import Work
 
-#: what changes from step to step, and from call to call
+#: values that change from step to step, and from call to call
 OF_THE_CALL = (
     Work("parts", "B+1", "first row of every part of the active box, and one past the last", int),
     Work("i0", "", "first column of the active box", int),
@@ -15,21 +15,21 @@ OF_THE_CALL = (
     Work("time", "", "at the end of the step, s"),
     Work("dt", "", "time step, s"),
     Work("mesh_speed", "", "speed of the mesh along z, m/s"),
-    Work("travels", "", "whether the mesh does", bool),
-    Work("advance", "", "by how much in the step, m"),
-    Work("leading", "", "edge along z that goes ahead with the mesh: 0 low, 1 high, -1 none", int),
+    Work("travels", "", "whether the mesh travels", bool),
+    Work("advance", "", "distance that the mesh travels in the step, m"),
+    Work("leading", "", "leading edge along z of a mesh that travels: 0 low, 1 high, -1 none", int),
     Work("dj", "", "1 in a sweep along z, else 0", int),
     Work("di", "", "1 in a sweep along r, else 0", int),
     Work("second", "", "whether the sweep is the second of the step", bool),
     Work("face", "J I", "volume that the faces of a sweep's direction sweep, fr or fz"),
-    Work("own", "2 J I", "the same with each group's velocity, own_r or own_z"),
-    Work("opens_low", "", "whether bodies flow through the low edge of a sweep, which the active box has reached", bool),
-    Work("opens_high", "", "the same of the high edge", bool),
-    Work("anew", "", "whether bodies are looked for in all columns, not around those that they were in", bool),
-    Work("speed_limit", "", "bound of the speed of thinly filled vertices, m/s"),
+    Work("own", "2 J I", "volume that they sweep with each group's velocity, own_r or own_z"),
+    Work("opens_low", "", "whether the low edge of a sweep is open and the active box has reached it", bool),
+    Work("opens_high", "", "whether the high edge of a sweep is open and the active box has reached it", bool),
+    Work("anew", "", "whether bodies are looked for in all columns, not only around their last ones", bool),
+    Work("speed_limit", "", "limit of the speed of under-filled vertices, m/s"),
 )
 
-#: the mesh, its edges, and what sources do
+#: the mesh, its edges, and forces of sources
 MESH = (
     Work("nr", "", "number of columns", int),
     Work("nz", "", "number of rows", int),
@@ -40,23 +40,23 @@ MESH = (
     Work("zc", "j", "heights of the centres of rows, m"),
     Work("dr", "i", "widths of columns, m"),
     Work("dz", "j", "heights of rows, m"),
-    Work("metrics", "8 I", "what kernels need of a column (`hydro2d.mesh.grid`)"),
+    Work("metrics", "8 I", "geometry of a column (`hydro2d.mesh.grid`)"),
     Work("volume", "j i", "volume of a cell, m^3"),
-    Work("mirror_r_min", "", "whether the edge is a mirror", bool),
-    Work("mirror_r_max", "", "whether the edge is a mirror", bool),
-    Work("mirror_z_min", "", "whether the edge is a mirror", bool),
-    Work("mirror_z_max", "", "whether the edge is a mirror", bool),
-    Work("constrained", "4", "columns (2) and rows (2) of edges whose normal velocity is given, -1 for none", int),
-    Work("pushing", "4", "the same of edges that push and are left", int),
-    Work("transmitting", "4", "the same of edges with dashpots", int),
+    Work("mirror_r_min", "", "whether the inner edge along r is a mirror", bool),
+    Work("mirror_r_max", "", "whether the outer edge along r is a mirror", bool),
+    Work("mirror_z_min", "", "whether the low edge along z is a mirror", bool),
+    Work("mirror_z_max", "", "whether the high edge along z is a mirror", bool),
+    Work("constrained", "4", "columns (2) and rows (2) of edges with a prescribed normal velocity, -1 for none", int),
+    Work("pushing", "4", "columns and rows of edges that only push", int),
+    Work("transmitting", "4", "columns and rows of edges with dashpots", int),
     Work("edge_velocity", "4", "normal velocity of each edge, m/s"),
-    Work("void_only", "4", "edges through which nothing but void comes in, -1 for the others", int),
-    Work("pushed", "2 b J I", "velocity that forces of sources add in the step, m/s, or nothing"),
+    Work("void_only", "4", "columns and rows of edges that only void enters through, -1 for the others", int),
+    Work("pushed", "2 b J I", "velocity that forces of sources add in the step, m/s, or an empty array"),
 )
 
-#: blocks of the state whose rows have names of their own, and views of them
+#: blocks of the state whose rows have their own names, and views of them
 BLOCKS = (
-    Work("q", "k m j i", "what the remap carries beside the volume fraction"),
+    Work("q", "k m j i", "fields that the remap carries in addition to the volume fraction"),
     Work("centroid", "2 m j i", "centroid_r and centroid_z"),
     Work("velocity", "2 b J I", "u and v"),
     Work("velocity0", "2 b J I", "u0 and v0"),
@@ -67,84 +67,84 @@ BLOCKS = (
 #: bodies and their materials
 BODIES = (
     Work("group", "m", "body group", int),
-    Work("models", "m 6", "numbers of the models of each body's material", int),
+    Work("models", "m 6", "indices of the models of each body's material", int),
     Work("materials", "m k", "constants of the models"),
-    Work("rules", "m k 4", "how the rows of q are remapped"),
-    Work("carried", "m k", "rows of q that the remap carries: how many, then which", int),
+    Work("rules", "m k 4", "rules by which the rows of q are remapped"),
+    Work("carried", "m k", "rows of q that the remap carries: their number, then their indices", int),
     Work("gases", "m", "whether the body is a gas", bool),
     Work("strong", "m", "whether the body has strength", bool),
     Work("hard_bodies", "m", "whether the body is hard in a slip layer", bool),
     Work("interface_order", "m", "bodies in the order in which interfaces are drawn", int),
-    Work("hard_first", "m", "the same, those of group 1 first", int),
-    Work("soft_first", "m", "the same, those of group 0 first", int),
+    Work("hard_first", "m", "bodies in that order, group 1 first", int),
+    Work("soft_first", "m", "bodies in that order, group 0 first", int),
 )
 
-#: the choices of a deck
+#: choices of a deck
 METHOD = (
     Work("contact", "", "whether there are two groups of bodies", bool),
     Work("remembers", "", "whether an equation of state has internal variables", bool),
     Work("slip_layer", "", "whether there is a slip layer", bool),
     Work("both", "", "whether the advection keeps energy and momentum", bool),
-    Work("advection", "", "what the remap of momentum keeps", int),
+    Work("advection", "", "index of the advection, the quantity that the remap of momentum keeps", int),
     Work("ke_bound", "", "bound of the kinetic energy that a vertex may gain in a sweep"),
-    Work("courant", "", "share of the time that a wave needs through a cell"),
-    Work("shock_courant", "", "the same in a shock"),
+    Work("courant", "", "Courant number: share of the time in which a wave crosses a cell"),
+    Work("shock_courant", "", "Courant number in a shock"),
     Work("advective_courant", "", "share of a cell that a vertex may cross in a step"),
     Work("along_compression", "", "whether viscosity acts along the compression alone", bool),
     Work("viscosity_linear", "", "linear coefficient of the viscosity"),
     Work("viscosity_quadratic", "", "quadratic coefficient of the viscosity"),
     Work("hourglass", "", "coefficient of the hourglass filter"),
-    Work("steepness", "", "of the slopes of the remap"),
+    Work("steepness", "", "steepness of the slopes of the remap"),
     Work("tipton", "", "whether mixed cells relax their pressures, Tipton's closure", bool),
-    Work("relaxation", "", "how fast they do"),
-    Work("strength_mode", "", "how the strength of a mixed cell is shared out", int),
-    Work("by_what_is_solid", "", "whether it is the mean over what is solid", bool),
-    Work("cutoff", "", "volume fraction below which a body is tidied away"),
-    Work("underfilled_density", "", "density of a dual cell below which its vertex is held to speed_limit, kg/m^3"),
+    Work("relaxation", "", "share of the pressure difference that a step removes"),
+    Work("strength_mode", "", "index of the rule for the strength of a mixed cell", int),
+    Work("by_what_is_solid", "", "whether that is the mean over the solids", bool),
+    Work("cutoff", "", "volume fraction below which a body is removed"),
+    Work("underfilled_density", "", "density of a dual cell below which its vertex is limited to speed_limit, kg/m^3"),
     Work("smallest_tension", "", "whether the weakest body decides where a cell fractures", bool),
     Work("max_opening", "", "largest share of a cell that opens as void in a step"),
     Work("hard_threshold", "", "hard fraction from which a cell is in the hard zone of a slip layer"),
     Work("width_bl", "", "width of the boundary layer, m"),
     Work("width_sl", "", "width of the slip layer, m"),
-    Work("shear", "", "what a slip layer does to shear", int),
+    Work("shear", "", "index of the slip layer's treatment of shear", int),
     Work("friction", "", "coefficient of friction"),
     Work("most_squares", "", "largest sum of the squares of an extension's weights"),
 )
 
-#: what contact keeps of every contact node, in slots (`solver.contact.Ties`)
+#: data that contact keeps of every contact node, in slots (`solver.contact.Ties`)
 TIES = (
-    Work("strength", "x 2", "how firmly a node is tied to its masters, 0 to 1"),
-    Work("masters", "x 2", "how many masters it has", int),
+    Work("strength", "x 2", "strength of a node's tie to its masters, 0 to 1"),
+    Work("masters", "x 2", "number of its masters", int),
     Work("where", "x 2 n", "their places", int),
     Work("weights", "x 2 n", "their weights"),
     Work("nodes", "4 x", "slaves", int),
-    Work("starts", "x", "where the entries of a slave begin", int),
+    Work("starts", "x", "first entry of a slave", int),
     Work("entries", "4 x", "vertices of its tie, its own first", int),
-    Work("portions", "x 4", "its share of each, and that over the mass"),
-    Work("firsts", "x", "where the ties of a vertex begin", int),
-    Work("sharing", "2 x", "ties that have it, and as which entry", int),
-    Work("lines", "x", "where the row of a tie begins in the matrix", int),
-    Work("columns", "x", "of the elements of the matrix", int),
-    Work("elements", "x", "last element that a column has", int),
-    Work("matrix", "x 2", "the elements, along r and z"),
+    Work("portions", "x 4", "N of an entry along r and z, and N over the mass"),
+    Work("firsts", "x", "first tie of a vertex", int),
+    Work("sharing", "2 x", "ties of a vertex, and its entry in each", int),
+    Work("lines", "x", "start of a tie's row in the matrix", int),
+    Work("columns", "x", "columns of the elements of the matrix", int),
+    Work("elements", "x", "last element of a column", int),
+    Work("matrix", "x 2", "elements of the matrix, along r and z"),
     Work("impulses", "x 8", "impulses of the ties"),
     Work("search", "x 2", "search direction of conjugate gradients"),
-    Work("taken", "2 x 2", "impulse of a node"),
-    Work("rubbing", "3 x", "friction of a node"),
+    Work("taken", "2 x 2", "impulse that a slave has given to its masters"),
+    Work("rubbing", "3 x", "friction impulse of a node on the soft group, and its size"),
 )
 
-#: how the detonation of an explosive runs through a body (`hydro2d.kernels.light_times`); its axes are those of the mesh alone
+#: path of the detonation of an explosive through a body (`hydro2d.kernels.light_times`); its axes are those of the mesh only
 LIGHT = (
-    Work("points", "n 3", "points that it starts from: r, z, m, and when, s"),
-    Work("speed", "", "at which it runs, m/s"),
-    Work("share", "j i", "of a cell that the body fills"),
-    Work("light", "j i", "when it arrives, s"),
-    Work("front", "3 j i", "the point from which it comes straight to a cell, m, and when it was there, s"),
+    Work("points", "n 3", "detonation points: r, z, m, and time, s"),
+    Work("speed", "", "detonation velocity, m/s"),
+    Work("share", "j i", "share of a cell that the body fills"),
+    Work("light", "j i", "arrival time, s"),
+    Work("front", "3 j i", "point from which it comes straight to a cell, m, and its time there, s"),
 )
 
 _AXES = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
 
-#: everything that kernels of the step can name
+#: all names that kernels of the step can use
 NAMES = (
     *(Work(field.symbol, _AXES[field.centring], field.meaning) for field in fields.FIELDS),
     *fields.WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *BLOCKS, *BODIES, *METHOD, *TIES,

@@ -1,4 +1,4 @@
-"""The return of one body's deviator to its yield surface in one cell, with the plastic strain and the damage that it makes."""
+"""Return of one body's deviator to its yield surface in one cell, with the resulting plastic strain and damage."""
 
 from hydro2d.jit import point
 from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
@@ -27,10 +27,10 @@ def flow(m, j, i, dep, final, w):
 
 @point
 def weaken(m, j, i, dep, final, stiffness, w):
-    """(dep, final) of `plastic_increment` for body m in cell (j, i), once the damage of the step has weakened it as well.
+    """(dep, final) of `plastic_increment` for body m in cell (j, i), weakened by the damage of the step as well.
 
-    The stress falls to the flow stress at the damage that the strain ``dep`` makes: what is lost in elastic energy is lost in
-    the step in which damage grows (explanation/strength, equation 15).
+    The stress falls to the flow stress at the damage that the strain ``dep`` makes, so that the elastic energy is lost in the
+    step in which damage grows (explanation/strength, equation 15).
 
     Updates  q (plastic strain, damage) [k, m, j, i]
     """

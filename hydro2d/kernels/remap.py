@@ -1,8 +1,8 @@
-"""The remap of body fields: fluxes through faces, update of cells, and the tidying of what is left over.
+"""The remap of body fields: fluxes through faces, update of cells, and removal of remnants.
 
-One body of code serves both directions by the offsets (dj, di): (0, 1) along r, (1, 0) along z. Fluxes live in a few
-rows of a buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing needs its old values any more, while they are
-still in the processor's cache (explanation/remap, parts of the rows).
+The same code serves both directions by the offsets (dj, di): (0, 1) along r, (1, 0) along z. Fluxes are kept in a few rows of a
+buffer, ``flux[k, m, slot, i]``: a cell is updated as soon as nothing needs its old values any more, while they are still in the
+processor's cache (explanation/remap, parts of the rows).
 """
 
 from math import inf
@@ -15,24 +15,23 @@ from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.advection import TINY, upwind
 from hydro2d.physics.traction import smoothstep
 
-#: from this share of its upper bound on a field is at it: the mean of ones is one less round-off, which must heal nothing
+#: share of its upper bound from which a field counts as at it: round-off in the mean of ones must not heal failed material
 FULL = 1.0 - 1e-6
-#: a body's slopes count in full where it fills the cells around, not at all where one of them is filled by less than this
+#: a body's slopes count in full where it fills the cells around, not at all where it fills less than this of one of them
 FILLED = 0.9
 
 
 @rowwise
 def flux_row(dj, j, m, slot, b, w):
-    """Fluxes of what body m carries through the faces of row j.
+    """Fluxes through the faces of row j of the fields that body m carries.
 
-    Second order, monotone, in cells whose neighbours are full of the same body; the donor's own value in and next to cells
-    filled by less than FILLED, and less and less of the slope towards that; no slope is larger than steepness times the smaller
-    difference to a neighbour. Specific quantities in the mass coordinate,
-    deviators in the volume coordinate (explanation/remap, equation 4), both of the body alone: it leaves no cell with more than
-    it has there.
+    Second order and monotone in cells whose neighbours are full of the same body. The slope fades out towards cells filled by
+    less than FILLED; in and next to these the donor's own value is taken. No slope is larger than steepness times the smaller
+    difference to a neighbour. Specific quantities use the mass coordinate, deviators the volume coordinate (explanation/remap,
+    equation 4), both of the body alone: no cell loses more of the body than it has.
 
-    Reads    carried [m, n], how many rows of q the body carries beside its density, and which; pre (pre-sweep volume) [j, i];
-             flux_volume, vof [m, j, i]; q [k, m, j, i]
+    Reads    carried [m, n], how many rows of q the body carries in addition to its density, and which;
+             pre (pre-sweep volume) [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
     di = 1 - dj
@@ -55,7 +54,7 @@ def flux_row(dj, j, m, slot, b, w):
         half_m = w.scratch[1, b, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
-            left, right = f_ll[x], f_rr[x]  # read before the choice, which else would be a gather
+            left, right = f_ll[x], f_rr[x]  # read before the choice, which would otherwise be a gather
             volume_l, volume_r = f_l[x] * pre_l[x], f_r[x] * pre_r[x]
             least = min(min(f_l[x], f_r[x]), left if up else right)
             clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
@@ -82,9 +81,9 @@ def flux_row(dj, j, m, slot, b, w):
 
 @rowwise
 def update_row(dj, j, m, below, above, b, w):
-    """Body m in row j after the sweep: volume, mass and what it carries. A cell without flux keeps its bits.
+    """Body m in row j after the sweep: volume, mass and carried fields. A cell without flux keeps its bits.
 
-    Fields stay within the bounds of the table; what has failed stays so, to the last bit, and has no deviator.
+    Fields stay within the bounds of the table; failed material stays failed, to the last bit, and has no deviator.
 
     Reads    carried [m, n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
              flux [k, m, slot, i] in the slots `below` and `above`
@@ -117,7 +116,7 @@ def update_row(dj, j, m, below, above, b, w):
             mass_after = mass + (m_in[x] - m_out[x])
             same = into == 0.0 and out == 0.0
             unchanged = same and s_in[x] == 0.0 and s_out[x] == 0.0
-            # divisions come before choices: a division inside of a choice would keep the loop from being vectorised
+            # divisions come before choices: a division inside a choice would keep the loop from being vectorised
             divisor, mass_divisor = after if after > TINY else TINY, mass_after if mass_after > TINY else TINY
             density, over_v, over_m = mass_after / divisor, 1.0 / divisor, 1.0 / mass_divisor
             fraction = max(after / (pre_j[x] - swept), 0.0)
@@ -218,7 +217,7 @@ def sum_cell_mass(j, w):
 
 @point
 def forget_centroids(j, i, vof, centroid):
-    """Places every body in the middle of a cell that it fills, or in which it is not.
+    """Sets the centroids to the middle in a cell that one body fills, or for bodies that are not in it.
 
     Updates  centroid [2, m, j, i]
     """
@@ -230,9 +229,9 @@ def forget_centroids(j, i, vof, centroid):
 
 @rowwise
 def sweep_row(dj, j, below, above, b, w):
-    """Row j after the sweep: every body, the mass of the cells and the list of those that are mixed.
+    """Row j after the sweep: every body, the mass of the cells and the list of mixed cells.
 
-    Cells that were mixed and are no more have no centroids.
+    Centroids are reset in cells that are no longer mixed.
     """
     for m in range(w.body_ranges.shape[1]):
         update_row(dj, j, m, below, above, b, w)
@@ -266,7 +265,7 @@ def sweep_r(j, part, w):
 
 @point
 def shared_slot(f, part, parts):
-    """Slot of face f if its flux needs rows of two parts: it belongs to the part above; -1 for the other faces.
+    """Slot of face f if its flux needs rows of two parts, then owned by the part above; -1 for the other faces.
 
     A row is updated two faces after it was below one, so three faces are shared.
     """
@@ -279,7 +278,7 @@ def shared_slot(f, part, parts):
 
 @point
 def slot_of(f, part, parts):
-    """Slot of face f of a part: its own for a face that two parts share, one of three that take turns for the others."""
+    """Slot of face f of a part: its own for a face that two parts share, one of three used in turn for the others."""
     shared = shared_slot(f, part, parts)
     return shared if shared >= 0 else 6 * part + 3 + f % 3
 
@@ -300,7 +299,7 @@ def shared_fluxes(part, w):
 def sweep_z(part, w):
     """Carries every body along z: a row is updated as soon as the fluxes of the faces that need it are known.
 
-    Reads    flux of the faces that two parts share (shared_fluxes), and what sweep_r reads
+    Reads    flux of the faces that two parts share (shared_fluxes), and as sweep_r
     Updates, writes and scratch as sweep_r; edge_flux [side, k, m, i]
     """
     _, end = outer_rows(w.parts)
@@ -333,9 +332,9 @@ ROUND_OFF = 1e-14
 
 @point
 def fade(share, cutoff):
-    """What is left of a small share of a cell: all of it from twice the cutoff on, none below the cutoff, and no ROUND_OFF.
+    """Part of a small share of a cell that is kept: all from twice the cutoff on, none below the cutoff or below ROUND_OFF.
 
-    A body beside less than that would seem to fill its cell.
+    A body that shares its cell with less than that would seem to fill it.
     """
     left = share * smoothstep(share / cutoff - 1.0) if share > cutoff else 0.0
     return left if left > ROUND_OFF else 0.0
@@ -343,11 +342,11 @@ def fade(share, cutoff):
 
 @cell_rows
 def tidy(j, w):
-    """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums what was removed.
+    """Removes sub-cutoff fractions of bodies and void, makes fractions that should be 1 exactly 1, and sums all removals.
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
-    closed by scaling the bodies' volumes at constant mass. Of up to twice the cutoff a part goes, so that no round-off decides
-    (`remap.fade`). A negative density or volume counts as sub-cutoff.
+    closed by scaling the bodies' volumes at constant mass. Between the cutoff and twice the cutoff a part is removed, so that
+    round-off decides nothing (`remap.fade`). A negative density or volume counts as sub-cutoff.
 
     Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
@@ -397,7 +396,7 @@ def tidy(j, w):
             for m in range(w.vof.shape[0]):
                 if w.vof[m, j, i] > 0.0:
                     f = w.vof[m, j, i] * scale
-                    f = 1.0 if present == 1 and void == 0.0 else f  # beside a second body, however little, it is not full
+                    f = 1.0 if present == 1 and void == 0.0 else f  # with any of a second body it is not full
                     w.q[RHO, m, j, i] *= w.vof[m, j, i] / f
                     w.vof[m, j, i] = f
             ended = True

@@ -1,4 +1,4 @@
-"""The phases of the remap along one direction as lists, and those that find where bodies are.
+"""The phases of the remap along one direction as lists, and those that find the ranges of bodies.
 
 (dj, di) is (0, 1) along r and (1, 0) along z.
 """
@@ -58,7 +58,7 @@ carry_momentum = Phase(
     remap.tidy,
     WAIT,
     alone(edge_sums.sum_kinetic_outflow),
-    acceleration.vertex_masses,  # by the ranges before: where nothing is left there is no mass either
+    acceleration.vertex_masses,  # by the old ranges: cells that bodies have left have no mass
     column_ranges.find_body_ranges,
     WAIT,
     column_ranges.find_active_ranges,

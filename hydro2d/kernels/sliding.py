@@ -1,4 +1,4 @@
-"""The slip layer: distance to the hard bodies' surface, zones beside it, and the cut of shear (explanation/sliding)."""
+"""The slip layer: distance to the hard bodies' surface, zones next to it, and the cut of shear (explanation/sliding)."""
 
 from math import sqrt
 
@@ -15,7 +15,7 @@ OUTSIDE, HARD, BOUNDARY_LAYER, SLIP_LAYER = range(4)
 SHEARS = ("fluid", "shear")
 FLUID, SHEAR = range(2)
 
-#: hard fraction from which a cell holds a surface of the hard bodies
+#: hard fraction from which a cell has a surface of the hard bodies
 SURFACE = 1e-3
 
 
@@ -23,8 +23,8 @@ SURFACE = 1e-3
 def paint(j, i, r0, z0, n_r, n_z, half, w):
     """Distance of the cells around (j, i) to a piece of surface at (r0, z0), where it is the nearest so far.
 
-    half is half the length of the piece; cells on its inner side are left out. Mirror images across the axis follow from
-    the column range, which begins there.
+    half is half the length of the piece; cells on its inner side are left out. No mirror images are needed at the axis, where
+    the column range begins.
     """
     low_j, high_j = outer_rows(w.parts)
     reach = w.width_bl + w.width_sl
@@ -51,7 +51,7 @@ def paint(j, i, r0, z0, n_r, n_z, half, w):
             if d < w.distance[row, column]:
                 w.distance[row, column] = d
                 size = d if d > 0.0 else 1.0
-                # beyond the end of the piece the nearest point is its end, and the normal points from there
+                # beyond the end of the piece the nearest point is its end, from which the normal points
                 t_sign = 1.0 if b * n_r - a * n_z > 0.0 else -1.0
                 w.normal[0, row, column] = (along_n * n_r - beside * t_sign * n_z) / size if d > 0.0 else n_r
                 w.normal[1, row, column] = (along_n * n_z + beside * t_sign * n_r) / size if d > 0.0 else n_z
@@ -101,7 +101,7 @@ def slip_zones(w):
             se = w.hard[j - 1, i + 1]
             nw = w.hard[j + 1, i - 1]
             ne = w.hard[j + 1, i + 1]
-            n_r, n_z = youngs_difference(sw, south, se, west, east, nw, north, ne)  # not weighted where the mesh is graded
+            n_r, n_z = youngs_difference(sw, south, se, west, east, nw, north, ne)  # unweighted on graded meshes
             size = abs(n_r) + abs(n_z)
             if size < 1e-14:
                 continue
@@ -122,7 +122,7 @@ def slip_zones(w):
 
 @cell_rows
 def cut_shear(j, w):
-    """Takes the shear from soft material in the slip layer: all of the deviator, or what the surface carries beyond friction.
+    """Removes shear from soft material in the slip layer: all of the deviator, or the shear on the surface beyond friction.
 
     `shear`: with s turned to (n, t), |s_nt| <= friction max(-sigma_nn, 0).
 

@@ -53,7 +53,8 @@ SOUND_FLOOR = 1.0
 def insert_void_row(m, j, w):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
-    Void until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/fracture).
+    Void opens until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/
+    fracture).
 
     Updates  vof [m, j, i], q (rho and deviators) [k, m, j, i]
     """
@@ -76,9 +77,9 @@ def insert_void_row(m, j, w):
 
 @apart
 def fail_row(m, j, w):
-    """Makes body m fail in the cells of row j in which its largest principal stress is beyond its fracture stress.
+    """Makes body m fail in the cells of row j in which its largest principal stress exceeds its fracture stress.
 
-    Failed material has no deviator and bears no tension, for good (explanation/fracture).
+    Failed material never has a deviator or carries tension again (explanation/fracture).
 
     Reads    vof, pm [m, j, i];  updates  q (damage, deviators) [k, m, j, i]
     """
@@ -112,10 +113,10 @@ def report_row(m, j, w):
 
 @rowwise
 def add_row(m, j, b, w):
-    """Adds what body m gives to the cells of row j: pressure, compressibility, density, fraction; and its wave speed squared.
+    """Adds body m's part of pressure, compressibility, density and fraction to the cells of row j, and its wave speed squared.
 
-    Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, of no avail up to the cutoff density
-    Updates  km [m, j, i], which holds the square of the sound speed and then the bulk modulus; p, bulk (1/K), rhobar, solid,
+    Reads    vof, pm [m, j, i]; q (rho) [k, m, j, i]; scratch [0, b, i], shear modulus, ignored at or below the cutoff density
+    Updates  km [m, j, i], the square of the sound speed and then the bulk modulus; p, bulk (1/K), rhobar, solid,
              cl (squared) [j, i]
     """
     cutoff_density = w.materials[m, CUTOFF_DENSITY]
@@ -151,13 +152,13 @@ def pressures_row(j, b, w):
     """Equation of state of every body, void inserted in pure cells that fracture, and the sums over a cell.
 
     p = sum f_m p_m;  rhobar = sum f_m rho_m;  1/bulk = sum f_m / K_m (explanation/equation-of-state, mixed-cells);
-    A body at or below its cutoff density, and one that has melted, is no solid any more and has no shear modulus.
+    A body at or below its cutoff density, or one that has melted, is not a solid and has no shear modulus.
     cl = max over bodies of sqrt((K + 4 G/3)/rho), for the time step.
-    A pure cell below its fracture pressure is given void (`insert_void_row`); one beyond its fracture stress fails.
+    A pure cell below its fracture pressure is given void (`insert_void_row`); one above its fracture stress fails.
 
     Reads    q (rho, e, damage) [k, m, j, i], body_range [m, j, 2]
     Updates  vof [m, j, i], q (rho, deviators and damage where a cell fractures)
-    Writes   pm, km, tm [m, j, i] (tm of bodies that feel temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
+    Writes   pm, km, tm [m, j, i] (tm of bodies whose models use temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [s, b, i]
     """
@@ -190,7 +191,7 @@ def pressures_row(j, b, w):
         pm_j = w.pm[m, j]
         km_j = w.km[m, j]
         tm_j = w.tm[m, j]
-        # Step 1: pressure and bulk modulus of the body, and fracture; once more where a cell has fractured
+        # Step 1: pressure and bulk modulus of the body, and fracture; again where a cell has fractured
         first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
         for attempt in range(2):
             if model in WITH_MEMORY:
@@ -212,7 +213,7 @@ def pressures_row(j, b, w):
             new_void += insert_void_row(m, j, w)
         if wrong > 0:
             report_row(m, j, w)
-        # Step 2: temperature, and the shear modulus that it leaves
+        # Step 2: temperature, and the shear modulus at that temperature
         line = w.materials[m, MELTING_AT:EOS_AT]
         if feels_temperature(w.models[m, STRENGTH], w.models[m, DAMAGE], line):
             if model in WITH_MEMORY:
@@ -234,7 +235,7 @@ def pressures_row(j, b, w):
 
 @point
 def row_minimum(a, first, number):
-    """Least of a[first:first + number], 1e300 where there is none; a NaN is not seen. In four lanes, for speed."""
+    """Least of a[first:first + number], 1e300 where there is none; a NaN is ignored. In four lanes, for speed."""
     a0, a1, a2, a3 = 1e300, 1e300, 1e300, 1e300
     whole = number // 4
     for x in range(whole):
@@ -250,10 +251,10 @@ def row_minimum(a, first, number):
 def viscosity_row(j, w):
     """Artificial viscosity direction by direction of the mesh.
 
-    q_r answers only to the radial difference du, q_z only to the axial one (a shock along z must not see dr), and neither to
-    more than the loss of volume, |div u| dx: at a stagnation point, where one direction gives what the other takes, there is
-    no shock and no q. Christensen's limiter switches both off where the velocity is smooth, and void, which shuts before
-    anything is compressed, where there is more than a little of it (`shut`). The hoop bears q_r (explanation/lagrangian-step).
+    q_r depends only on the radial difference du, q_z only on the axial one (a shock along z must not see dr), and either on no
+    more than the loss of volume, |div u| dx: at a stagnation point, where compression in one direction is expansion in the
+    other, there is no shock and no q. Christensen's limiter switches both off where the velocity is smooth. So does more than a
+    little void (`shut`), which closes before anything is compressed. The hoop stress has q_r (explanation/lagrangian-step).
 
     Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]; dt, the last step
     Writes   qr, qz, qt [j, i]
@@ -300,12 +301,12 @@ def viscosity_row(j, w):
 
 @rowwise
 def compression_viscosity_row(j, w):
-    """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, none on the hoop.
+    """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, no hoop stress.
 
-    q answers to the difference of the velocity along n over the cell, at most to the loss of volume times its length, and is
-    switched off where the velocity along n is smooth along r and z, each by its share of n. A shock that is oblique to the mesh
-    has the width of one along it, and a front that converges heats nothing that it has not reached (explanation/
-    lagrangian-step, equation 11a).
+    q depends on the difference of the velocity along n over the cell, at most on the loss of volume times its length. It is
+    switched off where the velocity along n is smooth along r and z, each by its share of n. A shock oblique to the mesh is as
+    wide as one along it, and a converging front heats no material that it has not reached (explanation/lagrangian-step,
+    equation 11a).
 
     Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]; dt, the last step
     Writes   qr, qz, qt, qrz [j, i]
@@ -338,7 +339,7 @@ def compression_viscosity_row(j, w):
         dv = 0.5 * ((vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1]))
         dv_b = 0.5 * ((vb[i] - vbb[i]) + (vb[i + 1] - vbb[i + 1]))
         dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
-        # what the other component changes by: u along z, v along r
+        # change of the other component: u along z, v along r
         su = 0.5 * ((ut[i] - ub[i]) + (ut[i + 1] - ub[i + 1]))
         su_b = 0.5 * ((ub[i] - ubb[i]) + (ub[i + 1] - ubb[i + 1]))
         su_t = 0.5 * ((utt[i] - ut[i]) + (utt[i + 1] - ut[i + 1]))
@@ -365,9 +366,9 @@ def compression_viscosity_row(j, w):
 
 @cell_rows
 def limit_step(j, part, w):
-    """The time step that every cell allows, and the coefficient of its hourglass filter.
+    """Time step that every cell allows, and the coefficient of its hourglass filter.
 
-    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), less in a shock, and a share of the largest that is stable
+    dt <= courant min(dr, dz)/sqrt(c_l^2 + 2 q/rho), less in a shock, and at most a share of the largest stable step
     (`sound_step`);
     |u| dt <= advective_courant dx, |div u| dt <= 0.2 in compression
     (explanation/lagrangian-step).
@@ -423,9 +424,9 @@ def least_step(w):
 
 @serial
 def step_cause(w):
-    """Which cell of the row with the least step allows it, and which of the bounds it is.
+    """Cell that sets the least time step, in the row of that step, and the bound that sets it.
 
-    Reads    what limit_step read; least_row [3]
+    Reads    as limit_step; least_row [3]
     Writes   cause [2]: index into CAUSES, column
     """
     j = w.least_row[0]
@@ -456,13 +457,13 @@ def elastic_energy(m, j, i, shear, model, memory, par, q):
 @serial
 def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, shear, warm, chill, model, memory, par, vof, q,
                    found):
-    """The cells in which the energy of body m is farthest above and below what it can reach there, with those at 0 K.
+    """Cells in which the energy of body m is farthest above and below the range that it can reach there, those at 0 K included.
 
-    Cells of which it fills less than `sliver` do not count. The elastic energy of a cell's own stress, with the shear modulus
-    `shear` in Pa, is no heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
+    Cells filled by less than `sliver` do not count. The elastic energy of a cell's own stress, with the shear modulus `shear`
+    in Pa, does not count as heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
 
     Reads    vof [m, j, i]; q [k, m, j, i]
-    Writes   found [2, 3], of the hottest and the coldest: J/kg that it is beyond (0 or less within reach), row, column
+    Writes   found [2, 3], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column
     """
     for side in range(2):
         found[side, 0] = -1e300

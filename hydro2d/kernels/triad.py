@@ -1,4 +1,4 @@
-"""The triad a = b + s c: the memory bandwidth that every other kernel is measured against."""
+"""The triad a = b + s c, whose memory bandwidth every other kernel is compared with."""
 
 from hydro2d.jit import prange, threaded
 

@@ -1,1 +1,1 @@
-"""What happens in one cell, at one vertex or through one face: scalar functions, each with its equation and its source."""
+"""Physics of one cell, one vertex or one face: scalar functions, each with its equation and its source."""

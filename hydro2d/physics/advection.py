@@ -1,4 +1,4 @@
-"""What flows through a face with the volume or mass that crosses it."""
+"""Quantities that the volume or mass crossing a face carries with it."""
 
 from hydro2d.jit import point
 
@@ -8,7 +8,7 @@ TINY = 1e-300
 
 @point
 def limited_difference(a, b, steepness):
-    """Central difference from those to both neighbours, no larger than steepness times the smaller of them.
+    """Central difference from the differences to both neighbours, no larger than steepness times the smaller of them.
 
     steepness 2 is the monotonized central difference (van Leer, J. Comput. Phys. 23 (1977) 276), 1 the smaller of the two
     ("minmod", Roe 1986).
@@ -22,7 +22,7 @@ def limited_difference(a, b, steepness):
 def upwind(up, ll, l, r, rr, steepness):
     """(donor, limited difference towards the other side of the face) of a face between l and r that l feeds where ``up``.
 
-    Differences first: a choice between two values in memory is a slow gather, one between two numbers is not.
+    The differences come first: a choice between two values in memory is a slow gather, one between two numbers is not.
     """
     across = r - l
     behind = l - ll if up else r - rr

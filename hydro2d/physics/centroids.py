@@ -1,7 +1,7 @@
-"""Where in its cell something lies that its neighbours do not place: bodies and void that are narrower than a cell.
+"""Place within a cell of bodies and void that are narrower than a cell, so that its neighbours do not give it.
 
-A body has in every cell a centroid, (along r, along z) off the middle of the cell, in cells (the unit square of
-`physics.interfaces`): 0 in the middle, -1/2 and 1/2 at the faces. That of void follows, since both together are the cell.
+A body has a centroid in every cell, (along r, along z) off the middle of the cell, in cells (the unit square of
+`physics.interfaces`): 0 in the middle, -1/2 and 1/2 at the faces. That of void follows, since bodies and void make up the cell.
 explanation/interfaces, thin bodies.
 """
 
@@ -9,17 +9,17 @@ from hydro2d.jit import point
 from hydro2d.physics.interfaces import piece_of_surface
 from hydro2d.physics.traction import smoothstep
 
-#: what fills one of the cells around is placed by them in full, and what fills none of them by more than this not at all
+#: a body that fills one of the cells around is placed by them in full; one that fills none by more than this, not at all
 FILLED = 0.95
-#: what a body fills less of is a crumb, of which no length or outline is taken
+#: a fraction below this is a crumb, without length or outline
 CRUMB = 0.01
-#: by how much a fraction grows from one cell to the next where the body in full goes on to the cell behind it
+#: growth of a fraction from one cell to the next from which the cell behind that counts in full (`reached`)
 GROWING = 0.1
 
 
 @point
 def within(offset, fraction):
-    """Offset of a centroid from the middle of the cell, such that the fraction of the cell fits in around it.
+    """Offset of a centroid from the middle of the cell, limited so that the fraction of the cell fits around it.
 
     A fraction that is above 1 by round-off leaves no room on either side.
     """
@@ -37,10 +37,10 @@ def box_length(fraction, along, across, continues):
 
 @point
 def box_piece(fraction, along, across, continues, strip, high):
-    """What lies of a box in the strip of given width at the low or high x side, as `line_piece` gives it.
+    """Part of a box in the strip of given width at the low or high x side, as `line_piece` gives it.
 
-    The box has the body's centroid, (along, across) off the middle, and lies in the cell. It is as short along x as that
-    allows where the body ends in the cell, and as long where it goes on in the next one (continues 0 to 1).
+    The box has the body's centroid, (along, across) off the middle, and lies in the cell. Along x it is as short as that allows
+    where the body ends in the cell, and as long as that allows where it continues in the next one (continues 0 to 1).
     explanation/interfaces, equations 7 and 8.
     """
     along, across = within(along, fraction), within(across, fraction)
@@ -48,7 +48,7 @@ def box_piece(fraction, along, across, continues, strip, high):
         return fraction, fraction * along, fraction * across
     length = box_length(fraction, along, across, continues)
     turned = along if high else -along  # as if the strip were at the high side
-    beyond = min(max((0.5 - strip) - (turned - 0.5 * length), 0.0), length)  # what of the length does not reach the strip
+    beyond = min(max((0.5 - strip) - (turned - 0.5 * length), 0.0), length)  # part of the length outside the strip
     share = fraction * ((length - beyond) / length)
     off = (turned + 0.5 * beyond - (0.5 - 0.5 * strip)) / strip
     return share, share * (off if high else -off), share * across
@@ -56,9 +56,9 @@ def box_piece(fraction, along, across, continues, strip, high):
 
 @point
 def goes_on(fraction, before, after):
-    """How far something goes on in one of the next cells, 0 to 1.
+    """Degree, 0 to 1, to which a body or void continues in one of the next cells.
 
-    fraction, before, after : of it in a cell, before that and after it
+    fraction, before, after : its fractions in a cell, before it and after it
     """
     return min(max(before, after) / fraction, 1.0)
 
@@ -76,25 +76,25 @@ def box_ends(fraction, along, across, before, after):
 
 @point
 def beside(f, along_z):
-    """The fractions before and after the middle of 3 x 3 cells."""
+    """Fractions before and after the middle of 3 x 3 cells."""
     return (f[1], f[7]) if along_z else (f[3], f[5])
 
 
 @point
 def reached(here, near, far):
-    """How much of a cell two away counts as the body's of this one: all of it if the body grows towards it."""
+    """Part of the fraction of a cell two away that counts for the body in this one: all of it if the body grows towards it."""
     return far * smoothstep((near - here) / GROWING)
 
 
 @point
 def most_beside(f):
-    """The largest fraction in the eight cells next to the middle one."""
+    """Largest fraction in the eight cells next to the middle one."""
     return max(max(max(f[0], f[1]), max(f[2], f[3])), max(max(f[5], f[6]), max(f[7], f[8])))
 
 
 @point
 def most_around(f):
-    """The largest fraction in the cells around: of the eight next to it, and of those two away as far as they are `reached`."""
+    """Largest fraction in the cells around: of the eight next to it, and of those two away as far as they are `reached`."""
     most = most_beside(f)
     axes = max(max(reached(f[4], f[3], f[9]), reached(f[4], f[5], f[10])),
                max(reached(f[4], f[1], f[11]), reached(f[4], f[7], f[12])))
@@ -105,14 +105,14 @@ def most_around(f):
 
 @point
 def rest_of(f):
-    """What is not filled of the 17 cells of `add_body`."""
+    """Fractions of the 17 cells of `add_body` that are not filled."""
     return (1.0 - f[0], 1.0 - f[1], 1.0 - f[2], 1.0 - f[3], 1.0 - f[4], 1.0 - f[5], 1.0 - f[6], 1.0 - f[7], 1.0 - f[8],
             1.0 - f[9], 1.0 - f[10], 1.0 - f[11], 1.0 - f[12], 1.0 - f[13], 1.0 - f[14], 1.0 - f[15], 1.0 - f[16])
 
 
 @point
 def placed(f):
-    """How far the cells around place something, 0 to 1: in full where it fills one of them.
+    """Degree, 0 to 1, to which the cells around place a body or void: in full where it fills one of them.
 
     f : its fractions in the 17 cells of `add_body`
     """
@@ -127,9 +127,9 @@ def placed(f):
 
 @point
 def forms(f, no_gap):
-    """Weights of the line or the corner, of a box of something, and of a box of what is beside it (`piece`).
+    """Weights of the line or the corner, of boxes of the bodies, and of a box of the rest of the cell (`piece`).
 
-    f : its fractions in the 17 cells of `add_body`;  no_gap : how far void has no box, 0 to 1
+    f : the bodies' fractions in the 17 cells of `add_body`;  no_gap : weight with which void has no box, 0 to 1
     """
     own, other = placed(f), no_gap
     if other < 1.0:
@@ -143,14 +143,14 @@ def forms(f, no_gap):
 
 @point
 def piece(f, along_z, along, across, form, bound, boxes, strip, high):
-    """What lies of something in the strip of given width at the low or high side of a cell, as `line_piece` gives it.
+    """Part of the first bodies of the order in the strip of given width at the low or high side of a cell, as by `line_piece`.
 
-    By the line or the corner where the cells around place both it and what is beside it (`placed`); else by weight by the boxes
-    of the bodies in it or by a box of what is beside it, whichever is thinner.
+    It follows the line or the corner where the cells around place both these bodies and the rest of the cell (`placed`); else,
+    by weight, the boxes of the bodies or a box of the rest, whichever is thinner.
 
-    f : its fractions in the 17 cells of `add_body`; along, across : its centroid, along the sweep and across;
+    f : the bodies' fractions in the 17 cells of `add_body`; along, across : their centroid, along the sweep and across;
     form : the weights, of `forms`;  bound : the surface, with the normal along the sweep first;
-    boxes : what lies in the strip of the bodies' boxes, in the same form
+    boxes : the part of the strip in the bodies' boxes, in the same form
     """
     fraction = f[4]
     if fraction >= 1.0:
@@ -175,10 +175,9 @@ def piece(f, along_z, along, across, form, bound, boxes, strip, high):
 
 @point
 def side(own, other, fraction, fraction_other):
-    """On which side of something else in its cell a body lies along one axis, -1 to 1: what a growth of the other pushes it by.
+    """Side of another body or void on which a body lies along one axis, -1 to 1; growth of the other pushes it that way.
 
-    own and other are the centroids' offsets, fraction and fraction_other the shares of the cell. Two slabs that lie side by
-    side push each other apart by half of what either grows, and one that lies in the midst of the other stays where it is:
-    explanation/interfaces, equation 9.
+    own and other are the centroids' offsets, fraction and fraction_other the shares of the cell. Two slabs side by side push
+    each other apart by half the growth of either, and one inside the other stays in place: explanation/interfaces, equation 9.
     """
     return min(max((own - other) / (0.5 * (fraction + fraction_other)), -1.0), 1.0)

@@ -1,4 +1,4 @@
-"""What the bodies of a mixed cell share: the change of its volume, and pressure."""
+"""Shares of the bodies of a mixed cell in the change of its volume, and relaxation of their pressures."""
 
 from hydro2d.jit import point
 from hydro2d.mesh.fields import RHO
@@ -22,8 +22,8 @@ def stiff_density(j, i, vof, q, km):
 def softness(f, modulus, tipton):
     """Share of a body in a change of volume, not yet over their sum: R = f/K, or f where all are strained alike.
 
-    explanation/mixed-cells, equation 2. f is the volume fraction, K the adiabatic bulk modulus, Pa; 0 for a body that is not
-    there, whose modulus may be anything.
+    explanation/mixed-cells, equation 2. f is the volume fraction, K the adiabatic bulk modulus, Pa. The share of an absent body
+    is 0 for any modulus.
     """
     if f == 0.0 or not tipton:
         return f
@@ -32,7 +32,7 @@ def softness(f, modulus, tipton):
 
 @point
 def relaxation_strain(relaxation, p, target, modulus):
-    """Relative change of a body's volume that takes the share `relaxation` of its pressure towards the target.
+    """Relative change of a body's volume that moves its pressure towards the target by the share `relaxation`.
 
     explanation/mixed-cells, equation 3.
     """

@@ -1,4 +1,4 @@
-"""Two groups of bodies that meet: whose a face is, and what flows through it."""
+"""Two groups of bodies in contact: apertures of faces and flow through them."""
 
 from hydro2d.jit import point
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R
@@ -11,8 +11,8 @@ GAP = 0.01
 def end_apertures(first, last):
     """Apertures of a face at both ends, open where the level is 0 or more; levels at the ends, linear between.
 
-    With the length a open from one end (2 a - a^2, a^2): what lies there of either linear shape function, as a share of its
-    whole integral of 1/2.
+    With the length a open from one end they are (2 a - a^2, a^2): the integrals of the two linear shape functions over a, as a
+    share of the whole integral of 1/2.
     """
     if first >= 0.0 and last >= 0.0:
         return 1.0, 1.0
@@ -27,7 +27,7 @@ def end_apertures(first, last):
 
 @point
 def known(aperture, soft_mass, hard_mass):
-    """An aperture, all of which goes to the group that is alone at a vertex."""
+    """Aperture of the hard group at a vertex, 1 or 0 where one group is alone there."""
     if hard_mass == 0.0:
         return 0.0
     return 1.0 if soft_mass == 0.0 else aperture
@@ -47,7 +47,7 @@ def dual_share(g, j, i, mesh_box, volume, metrics, hard, soft):
 
 @point
 def meeting(j, i, mesh_box, hard, soft):
-    """Whether both groups are in cell (j, i), or one is and the other fills a cell beside it but for GAP."""
+    """Whether both groups are in cell (j, i), or one group is and the other fills a cell next to it except for GAP."""
     h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
     if h and s:
         return True
@@ -60,7 +60,7 @@ def meeting(j, i, mesh_box, hard, soft):
 
 @point
 def blend(aperture, hard, soft):
-    """Velocity of a face at one end: the hard group's by its aperture, the soft group's for what is missing to 1."""
+    """Velocity of a face at one end: the hard group's by its aperture, the soft group's by 1 minus the aperture."""
     return aperture * hard + (1.0 - aperture) * soft
 
 
@@ -92,7 +92,7 @@ def volume_rate(j, i, g, metrics, h, aperture_r, aperture_z, u, v):
 
 @point
 def largest_of(g, j, i, group, vof):
-    """The body of group g that fills the most of cell (j, i), -1 if none is there."""
+    """Body of group g that fills the most of cell (j, i), -1 if none does."""
     found, most = -1, 0.0
     for m in range(vof.shape[0]):
         if group[m] == g and vof[m, j, i] > most:

@@ -79,7 +79,7 @@ def hourglass_force(j, i, kappa, u):
 
 @point
 def stress_power(rr, tt, zz, rz, before, after):
-    """V sigma : (D + D') of a cell, W per radian: of a stress in Pa, twice what its corner forces take from the motion.
+    """V sigma : (D + D') of a cell, W per radian: for a stress in Pa, twice the power that its corner forces take from motion.
 
     before, after : `velocity_gradient` of the cell with the velocities at the start and at the end of a step
     """

@@ -1,4 +1,4 @@
-"""Where material fractures, and how much void is inserted (explanation/fracture)."""
+"""Damage, tension limits, and the void inserted where material fractures (explanation/fracture)."""
 
 from hydro2d.jit import point
 from hydro2d.mesh.fields import CRUSHED, FAILED, RHO
@@ -14,13 +14,13 @@ def damaged(before, increment):
 
 @point
 def crushed(before, increment):
-    """Damage after an increment of plastic strain, of material that keeps a strength: `CRUSHED` at most, never failed."""
+    """Damage after an increment of plastic strain of material that keeps some strength: `CRUSHED` at most, never failed."""
     return min(before + increment, CRUSHED)
 
 
 @point
 def tension_limit(fracture_pressure, fades, damage):
-    """Tension that material bears, Pa: its fracture pressure, nothing once it has failed.
+    """Tension that material carries, Pa: its fracture pressure, 0 once it has failed.
 
     fades : 1 where it falls with the damage, as in brittle material that is crushed; else 0
     """

@@ -1,8 +1,8 @@
-"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, corners, and what lies in a donor strip.
+"""Piecewise-linear interfaces: Youngs' normal, the constant of the line, corners, and the share of a donor strip.
 
-All in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the planar
-formulas are exact (explanation/interfaces). More than two materials are nested: the interface of the first k bodies of the
-stated order bounds their cumulative fraction, void comes last.
+Everything is in the unit square of a cell with axes s = r^2/2 and z, in which areas are volumes of revolution, so that the
+planar formulas are exact (explanation/interfaces). More than two materials are nested: the interface of the first k bodies of
+the stated order bounds their cumulative fraction; void comes last.
 """
 
 from math import sqrt
@@ -10,11 +10,11 @@ from math import sqrt
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
-#: an edge is straight along the mesh if its fraction changes by less from one cell to the next, in full up to half of it
+#: an edge is straight along the mesh if its fraction changes by less than this from cell to cell, in full up to half of it
 STRAIGHT = 0.1
 #: share of void from which a cell may have a corner in full
 ROOM = 0.02
-#: components of the normal, and fractions of the cells beside, from which a corner counts in full
+#: components of the normal, and fractions of the neighbouring cells, from which a corner counts in full
 SLANT, THIN = 0.1, 0.01
 #: misfits that differ by less than this are alike
 ALIKE = 1e-6
@@ -76,8 +76,8 @@ def line_piece(nx, ny, fraction, width, high):
     """Material in the strip of given width at the low or high x side of the unit square, and its moments.
 
     (nx, ny) is the outward normal of the material, |nx| + |ny| = 1 or 0 (spread evenly); fraction its share. Returns its share
-    of the square, and that share times where its centroid lies off the middle of the strip: along x in widths of the strip,
-    along y.
+    of the square in the strip, and that share times the offset of its centroid from the middle of the strip: along x in widths
+    of the strip, and along y.
     """
     if fraction <= 0.0:
         return 0.0, 0.0, 0.0
@@ -107,10 +107,10 @@ def line_centre(n1, n2, fraction):
 
 @point
 def nested(share, below, fraction, total, width):
-    """Share of a strip that the first bodies fill, kept within what there is; the bodies before fill ``below`` of it.
+    """Share of a strip that the first bodies fill, kept within bounds; the bodies before fill ``below`` of it.
 
-    It holds no less than they do, no more than they and this body (``fraction`` of the cell), and leaves room in the strip of
-    ``width`` for no more than what is left of the cell beyond ``total``. All are shares of the cell.
+    It is no less than ``below``, no more than ``below`` plus this body (``fraction`` of the cell), and leaves room in the strip
+    of ``width`` for no more than the rest of the cell beyond ``total``. All are shares of the cell.
     """
     return min(max(share, max(below, width - (1.0 - total))), min(below + fraction, width))
 
@@ -146,7 +146,7 @@ def youngs_gradient(j, i, sw, s, se, w, e, nw, n, ne, dr, dz):
 
 @point
 def add_body(m, j, i, vof, f):
-    """Sums of fractions in the 3 x 3 cells around cell (j, i), row by row upwards, and in those two away, with those of body m.
+    """Sums of fractions in the 3 x 3 cells around cell (j, i), row by row upwards, and in those two away, with body m added.
 
     The cells two away are at lower and higher r, at lower and higher z, then the corners of 5 x 5 cells, row by row upwards.
     """
@@ -180,7 +180,7 @@ def youngs_normal(j, i, f, dr, dz):
 
 @point
 def line_misfit(n_r, n_z, f, widths, heights):
-    """How badly the line in a cell fits the eight cells around it: the sum of the squares by which it misses their fractions.
+    """Misfit of the line in a cell to the eight cells around it: the sum of the squared errors in their fractions.
 
     (n_r, n_z) is the outward normal in the unit square of the middle cell, whose fraction the line keeps; f the fractions of
     3 x 3 cells, row by row upwards; widths and heights those of the columns and rows, over those of the middle ones.
@@ -200,10 +200,10 @@ def line_misfit(n_r, n_z, f, widths, heights):
 
 @point
 def corner_size(share, beside_r, beside_z):
-    """(width, height) of a rectangle that covers `share` of the unit square, in the proportion of the cells beside it.
+    """(width, height) of a rectangle that covers `share` of the unit square, in the proportion of the neighbouring fractions.
 
-    beside_r and beside_z, above 0, are the fractions of the cells in which the rectangle goes on along r and along z: what it
-    would have for its height and its width if nothing but it were there.
+    beside_r and beside_z, above 0, are the fractions of the cells in which the rectangle continues along r and along z: its
+    height and its width if it were alone there.
     """
     width = min(max(sqrt(share * beside_z / beside_r), share), 1.0)
     return width, share / width
@@ -230,12 +230,12 @@ def corner(n_r, n_z, f, beyond, widths, heights):
     """(width, height) of the corner of a rectangle along the mesh, and its weight, 0 to 1, against the line.
 
     The weight is above 0 where the corner fits the cells around better than the line does, and 0 wherever another corner would
-    take its place: it changes with all fractions without a jump.
+    take its place, so it changes with all fractions without a jump.
 
     (n_r, n_z) is the line's normal, f, widths and heights are as in `line_misfit`; beyond has the fractions of the cells two
-    away: at lower and higher r, at lower and higher z. Both edges of the corner go on straight up to these cells. The
-    rectangle lies in the corner of the middle cell away from the signs of the normal. With width and height below 0 it is
-    empty, lies towards those signs, and the bodies are what surrounds it.
+    away: at lower and higher r, at lower and higher z. Both edges of the corner continue straight up to these cells. The
+    rectangle lies in the corner of the middle cell opposite to the signs of the normal. With width and height below 0 the
+    rectangle is empty, lies towards those signs, and the bodies surround it.
     """
     if n_r == 0.0 or n_z == 0.0 or f[4] <= 0.0 or f[4] >= 1.0:
         return 0.0, 0.0, 0.0
@@ -273,10 +273,10 @@ def relative_sizes(n, sizes):
 
 @point
 def surface(j, i, f, dr, dz, void):
-    """(n_r, n_z, width, height, weight): what bounds the first bodies of the order.
+    """(n_r, n_z, width, height, weight) of the surface that bounds the first bodies of the order.
 
-    A line with Youngs' outward normal (n_r, n_z) and a `corner`, which has no weight in cells without void: void is the share
-    of a mixed cell that is none of the bodies. f : fractions in the 17 cells of `add_body`
+    It is a line with Youngs' outward normal (n_r, n_z) and a `corner`, which has no weight in cells without void; void is the
+    share of a mixed cell without bodies. f : fractions in the 17 cells of `add_body`
     """
     n_r, n_z = youngs_normal(j, i, f, dr, dz)
     room = smoothstep(void / ROOM)
@@ -296,7 +296,7 @@ def covered(strip, width, same):
 
 @point
 def corner_piece(n_x, n_y, width, height, strip, high):
-    """What lies of a `corner` in the strip of given width at the low or high x side, as `line_piece` gives it."""
+    """Part of a `corner` in the strip of given width at the low or high x side, as `line_piece` gives it."""
     full = width > 0.0
     near = high == (n_x < 0.0 if full else n_x > 0.0)  # the rectangle lies at the side of the strip
     length = covered(strip, abs(width), near)
@@ -312,9 +312,9 @@ def corner_piece(n_x, n_y, width, height, strip, high):
 
 @point
 def piece_of_surface(n_x, n_y, width, height, weight, fraction, strip, high):
-    """What lies in the strip of given width at the low or high x side of the unit square: of a corner by weight, and a line.
+    """Material in the strip of given width at the low or high x side, by the weight of a corner and of a line.
 
-    As `line_piece` gives it.
+    It is in the form of `line_piece`.
     """
     share, along, across = line_piece(n_x, n_y, fraction, strip, high)
     if weight == 0.0:

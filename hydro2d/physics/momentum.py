@@ -10,7 +10,7 @@ from hydro2d.jit import point
 from hydro2d.physics.advection import TINY, upwind
 from hydro2d.physics.traction import smoothstep
 
-#: mass of a vertex, over the largest beside it, below which its velocity shapes no slope
+#: mass of a vertex, over the largest next to it, below which its velocity shapes no slope
 SLIGHT = 1e-4
 
 
@@ -26,10 +26,10 @@ def corner_sum(share_inner, share_outer, outer_of_left, other_of_left, inner_of_
 
 @point
 def slope_weight(mass, m_ll, m_l, m_r, m_rr):
-    """Half of the share of the donor that stays while ``mass`` leaves it: what the limited slope is multiplied by.
+    """Half of the share of the donor that stays while ``mass`` leaves it: the factor on the limited slope.
 
     mass : crosses the dual face between vertices l and r, kg;  m_ll to m_rr : masses of four vertices in line, kg. The weight
-    falls to 0 where the donor or a vertex next to it has almost no mass: its velocity says nothing then.
+    falls to 0 where the donor or a vertex next to it has almost no mass, since its velocity is then meaningless.
     """
     up = mass > 0.0
     whole = max(m_l if up else m_r, TINY)
@@ -68,5 +68,5 @@ def velocity_of_energy(kinetic, over, most, mean):
 
 @point
 def energy_missing(kinetic, mass, velocity):
-    """K - M u^2/2, J: the kinetic energy of a vertex that its velocity does not have (equation 9)."""
+    """K - M u^2/2, J: the kinetic energy of a vertex that its velocity does not account for (equation 9)."""
     return kinetic - 0.5 * mass * velocity * velocity

@@ -1,4 +1,4 @@
-"""What deviators do, how they return to the yield surface, and when there are none."""
+"""Work of deviators, their return to the yield surface, and conditions under which they are zero."""
 
 from hydro2d.jit import point
 from hydro2d.mesh.fields import INTERNAL, SRR, SRZ, SZZ
@@ -23,7 +23,7 @@ def carries_no_stress(damage, rho, cutoff_density):
 
 @point
 def is_fluid(modulus):
-    """Whether the shear ``modulus`` has fallen to zero, as in a melt, which carries no deviator either; not so a NaN."""
+    """Whether the shear ``modulus`` has fallen to zero, as in a melt, which carries no deviator; False for a NaN."""
     return modulus <= 0.0
 
 
@@ -40,7 +40,7 @@ def release(m, j, i, q):
 
 @point
 def forget(m, j, i, model, q, internal):
-    """Lets the internal variables of body m in cell (j, i), which has melted, be those of a melt.
+    """Sets the internal variables of body m in cell (j, i), which has melted, to those of a melt.
 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [k]
     """
@@ -59,7 +59,7 @@ def take_internal(m, j, i, model, q, internal):
 
 @point
 def keep_internal(m, j, i, model, internal, q):
-    """The way back of `take_internal`."""
+    """Copies ``internal`` back into the internal variables of body m in cell (j, i), the inverse of `take_internal`."""
     if model in WITH_INTERNAL:
         for k in range(q.shape[0] - INTERNAL):
             q[INTERNAL + k, m, j, i] = internal[k]
@@ -74,9 +74,9 @@ def from_centre(rr, zz, rz, model, internal):
 
 @point
 def returned(rr, zz, rz, trial, dep, final, model, par, internal):
-    """Deviator (rr, zz, rz) after the plastic strain ``dep``, of which the yield surface has moved along, Pa.
+    """Deviator (rr, zz, rz) after the plastic strain ``dep``, with which the yield surface has moved, Pa.
 
-    The arguments of the same names are the elastic trial measured `from_centre`, of the von Mises norm ``trial``, which falls
+    The arguments of the same names are the elastic trial measured `from_centre`, with the von Mises norm ``trial``, which falls
     to ``final``, Pa (explanation/strength, equations 4 and 12).
 
     Updates  internal [k]

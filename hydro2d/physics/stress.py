@@ -1,4 +1,4 @@
-"""Deviators: turned, strained, measured, and shared by the bodies of a cell."""
+"""Deviators: rotation, strain, norms, and their sum over the bodies of a cell."""
 
 from math import sqrt
 
@@ -34,7 +34,7 @@ def largest_principal(rr, zz, rz):
 def stress_scale(solid_mode, solids):
     """Factor on sum f_m s_m of a mixed cell: 1, or in mode `solid` one over the share of solids.
 
-    Not more than 2: a thinly filled cell with the stiffness of a full one would outrun the time step.
+    At most 2: a nearly empty cell with the stiffness of a full one would need a shorter time step than the one taken.
     """
     return 1.0 / max(solids, 0.5) if solid_mode else 1.0
 

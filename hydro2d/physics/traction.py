@@ -1,7 +1,8 @@
-"""Cells that a surface cuts: the traction across the surface is common to what is in the cell, not the pressure.
+"""Cells cut by a surface: the bodies in the cell have the traction across the surface in common, not the pressure.
 
 Across the surface of a body the normal stress is continuous: n . sigma . n = -p_c for every body of the cell, with p_c = 0
-beside void (explanation/mixed-cells, equations 9 to 12). The strain across the surface follows from that; it is not integrated.
+next to void (explanation/mixed-cells, equations 9 to 12). The strain across the surface follows from that and is not
+integrated.
 """
 
 from math import sqrt
@@ -10,17 +11,17 @@ from hydro2d.jit import point
 
 #: share of void from which a crack carries no tension
 SURE = 1e-3
-#: the fall of a fraction across a cell from which the normal counts in full
+#: fall of a fraction across a cell from which the normal counts in full
 STEEP = 0.1
 #: largest relative change of a body's volume in a step by the traction on it
 MOST_GROWTH = 0.1
-#: more void than this shuts less within half a step, and twice as much not at all
+#: share of void from which it closes only in part within half a step; twice as much does not close at all
 WIDE = 0.05
 
 
 @point
 def smoothstep(x):
-    """0 up to 0, 1 from 1 on, with no slope at either: S(x) = x^2 (3 - 2 x) between."""
+    """Smooth step: 0 up to x = 0, 1 from x = 1 on, and S(x) = x^2 (3 - 2 x) between, with no slope at either end."""
     y = min(max(x, 0.0), 1.0)
     return y * y * (3.0 - 2.0 * y)
 
@@ -33,18 +34,18 @@ def along_normal(n_r, n_z, rr, zz, rz):
 
 @point
 def pull_left(void, weight):
-    """Share of a tension that a cell of one group with void still carries: all of a crack that closes up, none at a surface.
+    """Share of a tension that a cell of one group with void still carries: all in a closing crack, none at a surface.
 
-    weight is that of the surface in the cell (`surface_weight`); a crack in the midst of a body has none.
+    weight is that of the surface in the cell (`surface_weight`); a crack inside a body has none.
     """
     return (1.0 - weight) * (1.0 - smoothstep(void / SURE))
 
 
 @point
 def half_pressure(p, bulk, strain, void, pull):
-    """Pressure of a cut cell after a volumetric strain: void shuts first, and of a tension `pull` is left.
+    """Pressure of a cut cell after a volumetric strain: void closes first, and the share `pull` of a tension is left.
 
-    p is the pressure that the bodies have, bulk their modulus (Pa), void its share. Continuous in all of them (explanation/
+    p is the bodies' pressure, bulk their modulus (Pa), void its share. The result is continuous in all of them (explanation/
     mixed-cells, equation 9).
     """
     together = p - bulk * strain
@@ -55,11 +56,11 @@ def half_pressure(p, bulk, strain, void, pull):
 
 @point
 def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
-    """(strain of a body across its surface, what its volume grows by, how that falls with target), normal stress -target.
+    """(strain of a body across its surface, growth of its volume, decrease of that with target), at normal stress -target.
 
     p is the body's pressure, modulus its bulk modulus, shear its shear modulus, flow its yield stress (Pa); size is s : s and
     along n . s . n of its deviator, strained along the surface only, beside the trace of that strain; weight is that of the
-    surface: at 0 the body is one of a mixture, and its pressure goes to the target. Newton's rule on
+    surface: at 0 the body is part of a mixture, and its pressure goes to the target. Newton's rule solves
     p - K (beside + e) - w s_nn(e) = target with s returned to the yield surface (explanation/mixed-cells, equation 11).
     """
     free = (p - target) / modulus

@@ -5,17 +5,17 @@ from math import sqrt
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
-#: what courant^2 + 2 linear courant may be for a front that does not ring: of 1, where one that all cells damp is unstable
+#: largest courant^2 + 2 linear courant for a front that does not ring; above 1 a front that all cells damp is unstable
 CARRIED = 0.75
 #: a courant that carries any viscosity
 SHORT = 1e-3
-#: share of solids in a cell up to which void takes the compression, and nothing is shocked
+#: share of solids in a cell up to which void takes the compression, without a shock
 OPEN = 0.99
 
 
 @point
 def smoothness(left, centre, right):
-    """Christensen's limiter psi: 1 where the velocity slope is smooth, 0 at an extremum or beside no slope.
+    """Christensen's limiter psi: 1 where the velocity slope is smooth, 0 at an extremum or next to zero slope.
 
     left, centre, right are the velocity differences over three neighbouring cells (explanation/lagrangian-step).
     """
@@ -26,8 +26,8 @@ def smoothness(left, centre, right):
 
 @point
 def linear_in_step(linear, courant):
-    """The linear coefficient where sound crosses the share `courant` of a cell in a step: as much of `linear` as such a step
-    carries, since a front whose viscosity is that at the beginning of the step rings with more (explanation/lagrangian-step,
+    """Linear coefficient where sound crosses the share `courant` of a cell in a step: as much of `linear` as such a step
+    carries. The viscosity is that at the beginning of the step, and with more a front rings (explanation/lagrangian-step,
     equation 10a)."""
     return min(linear, max(CARRIED - courant * courant, 0.0) / (2.0 * max(courant, SHORT)))
 
@@ -41,7 +41,7 @@ def directional_viscosity(rho, c, du, psi, linear, quadratic):
 
 @point
 def strongest_compression(rr, zz, rz):
-    """The least principal value of a rate of strain in the plane, 1/s, and its direction n: (value, n_r, n_z), n_r >= 0.
+    """Least principal value of a rate of strain in the plane, 1/s, and its direction n: (value, n_r, n_z), n_r >= 0.
 
     rr, zz, rz are D_rr, D_zz and D_rz (explanation/lagrangian-step, equation 11a). Without shear, n is a direction of the mesh
     to the last bit.
@@ -55,11 +55,11 @@ def strongest_compression(rr, zz, rz):
 
 @point
 def length_along(n_r, n_z, dr, dz):
-    """Length of a cell along n, m: that of the ellipse with its sides dr and dz, so that a shock along z does not see dr."""
+    """Length of a cell along n, m: that of the ellipse with axes dr and dz, so that a shock along z does not see dr."""
     return dr * dz / sqrt((n_r * dz) * (n_r * dz) + (n_z * dr) * (n_z * dr))
 
 
 @point
 def shut(solids):
-    """Share of the viscosity that a cell with void has: all without, none from a hundredth of void on, which shuts first."""
+    """Share of the viscosity in a cell with void: all without void, none from a hundredth of void on, which closes first."""
     return smoothstep((solids - OPEN) / (1.0 - OPEN))

@@ -1,39 +1,39 @@
-"""Waves in a cell: the step that they allow, and what an edge must hold against them."""
+"""Waves in a cell: the time step that they allow, and the impedances of a transmitting edge."""
 
 from math import sqrt
 
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
-#: what set the time step, in the order that `step_limits` gives
+#: causes of the time step, in the order of `step_limits`
 CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
 #: share of the largest stable step that no deck may exceed
 STABLE = 0.9
-#: viscosity, over rho c_l^2, from which on a cell is in a shock
+#: viscosity, over rho c_l^2, from which a cell is in a shock
 SHOCKED = 1e-3
 
 
 @point
 def damping_speed(linear, quadratic, rho, cl, q):
-    """Half of dq/d(du) over the density, m/s: what the viscosity q (Pa) adds to the speed of waves in the largest stable step.
+    """Half of dq/d(du) over the density, m/s: the part of the viscosity q (Pa) in the wave speed of the largest stable step.
 
-    q = rho (quadratic du^2 + linear c du) has the derivative rho sqrt((linear c)^2 + 4 quadratic q/rho). Half, since of two
-    cells beside a vertex that swings one is compressed, and only that one has a viscosity (explanation/lagrangian-step).
+    q = rho (quadratic du^2 + linear c du) has the derivative rho sqrt((linear c)^2 + 4 quadratic q/rho). Half, since of the two
+    cells next to a swinging vertex only the compressed one has a viscosity (explanation/lagrangian-step).
     """
     return sqrt(0.25 * linear * linear * cl * cl + quadratic * q / rho)
 
 
 @point
 def share_crossed(courant, shock_courant, rho, cl, q):
-    """The share of a cell that sound may cross in a step: `courant` without viscosity, `shock_courant`, if that is less, in a
+    """Share of a cell that sound may cross in a step: `courant` without viscosity, `shock_courant`, if that is less, in a
     shock, and continuous between (explanation/lagrangian-step, equation 15b)."""
     return courant - max(courant - shock_courant, 0.0) * smoothstep(q / (SHOCKED * rho * cl * cl))
 
 
 @point
 def sound_step(courant, shock_courant, length, linear, quadratic, rho, cl, q):
-    """Time step in which sound, and a shock with the viscosity q (Pa), crosses the share of a length that it may, s; at most
-    STABLE of the largest that is stable."""
+    """Time step in which sound, or a shock with the viscosity q (Pa), crosses the permitted share of a length, s; at most
+    STABLE times the largest stable step."""
     damping = damping_speed(linear, quadratic, rho, cl, q)
     largest = length / (damping + sqrt(cl * cl + damping * damping))
     share = share_crossed(courant, shock_courant, rho, cl, q)
@@ -48,9 +48,9 @@ def volume_step(loss):
 
 @point
 def step_limits(i, ub, ut, vb, vt, courant, shock_courant, advective, linear, quadratic, mesh_speed, dr, h, rho, cl, q, loss):
-    """The four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
+    """Four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
 
-    What crosses a cell along z does so relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
+    Axial velocities count relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
     """
     sound = sound_step(courant, shock_courant, min(dr[i], h), linear, quadratic, rho, cl, q)
     radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
