@@ -7,7 +7,7 @@ from hydro2d.kernels.column_ranges import columns
 from hydro2d.materials.rows import CRACKS, DAMAGE, DAMAGE_AT, EOS_AT, MEMORY, TENSILE
 from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, RHO, E
 from hydro2d.physics.fracture import crack_opening, open_void
-from hydro2d.physics.plasticity import release
+from hydro2d.physics.stress import release
 from strength.dispatch import OPENS_CRACKS, full_opening, tension_left
 
 #: reach on either side of a cell, in full openings, within which cracks belong to the same crack, and its least value in cells,

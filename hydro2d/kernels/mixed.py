@@ -49,7 +49,7 @@ from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain
 from hydro2d.physics.corner import hourglass_square
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import velocity_gradient
-from hydro2d.physics.plasticity import release
+from hydro2d.physics.stress import release
 
 #: mixed-cell closure by name
 CLOSURES = ("uniform", "tipton")

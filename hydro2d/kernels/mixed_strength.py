@@ -35,10 +35,9 @@ from hydro2d.physics.plasticity import (
     forget,
     is_fluid,
     keep_internal,
-    release,
     take_internal,
 )
-from hydro2d.physics.stress import stress_scale, turn_and_strain, von_mises
+from hydro2d.physics.stress import release, stress_scale, turn_and_strain, von_mises
 from hydro2d.physics.traction import along_normal
 from strength.dispatch import flow_stress, shear_modulus, turn, weakened
 from strength.melting import melts, solid_modulus

@@ -6,7 +6,7 @@ from hydro2d.jit import cell_rows, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.physics.interfaces import line_centre, youngs_difference
-from hydro2d.physics.plasticity import release
+from hydro2d.physics.stress import release
 
 #: zones of a cell
 OUTSIDE, HARD, BOUNDARY_LAYER, SLIP_LAYER = range(4)

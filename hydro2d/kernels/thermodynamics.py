@@ -32,8 +32,7 @@ from hydro2d.mesh.fields import DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import volume_loss
-from hydro2d.physics.plasticity import release
-from hydro2d.physics.stress import largest_principal, von_mises
+from hydro2d.physics.stress import largest_principal, release, von_mises
 from hydro2d.physics.viscosity import (
     directional_viscosity,
     length_along,

@@ -1,7 +1,7 @@
 """Work of deviators, their return to the yield surface, and conditions under which they are zero."""
 
 from hydro2d.jit import point
-from hydro2d.mesh.fields import INTERNAL, SRR, SRZ, SZZ
+from hydro2d.mesh.fields import INTERNAL
 from strength.dispatch import WITH_INTERNAL, back_stress, harden, kinematic_modulus, melted
 
 
@@ -25,17 +25,6 @@ def carries_no_stress(damage, rho, cutoff_density):
 def is_fluid(modulus):
     """Whether the shear ``modulus`` has fallen to zero, as in a melt, which carries no deviator; False for a NaN."""
     return modulus <= 0.0
-
-
-@point
-def release(m, j, i, q):
-    """Sets the deviator of body m in cell (j, i) to zero.
-
-    Updates  q (deviators) [k, m, j, i]
-    """
-    q[SRR, m, j, i] = 0.0
-    q[SZZ, m, j, i] = 0.0
-    q[SRZ, m, j, i] = 0.0
 
 
 @point

@@ -3,6 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import point
+from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from strength.rotation import turned
 
 
@@ -43,3 +44,14 @@ def stress_scale(solid_mode, solids):
 def normal_pressure(j, i, n_r, n_z, sig_rr, sig_zz, sig_rz):
     """-n . sigma . n of cell (j, i)."""
     return -(n_r * n_r * sig_rr[j, i] + 2.0 * n_r * n_z * sig_rz[j, i] + n_z * n_z * sig_zz[j, i])
+
+
+@point
+def release(m, j, i, q):
+    """Sets the deviator of body m in cell (j, i) to zero.
+
+    Updates  q (deviators) [k, m, j, i]
+    """
+    q[SRR, m, j, i] = 0.0
+    q[SZZ, m, j, i] = 0.0
+    q[SRZ, m, j, i] = 0.0

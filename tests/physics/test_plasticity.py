@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d.mesh.fields import INTERNAL, SRR, SRZ, SZZ
+from hydro2d.mesh.fields import INTERNAL
 from hydro2d.physics import plasticity
 from hydro2d.physics.stress import von_mises
 from strength import STRENGTH_MODELS
@@ -123,10 +123,3 @@ def test_a_return_ends_on_the_surface_that_has_moved(rr, zz, rz, dep):
 
 def test_without_a_centre_a_return_is_a_change_of_size():
     assert returned(3.0, -4.0, 2.0, 10.0, 0.1, 5.0, PLAIN.ID, ROW, np.zeros(0)) == (1.5, -2.0, 1.0)
-
-
-def test_released_material_has_no_deviator():
-    q = np.ones((INTERNAL, 2, 1, 1))
-    plasticity.release.py_func(1, 0, 0, q)
-    assert [k for k in range(INTERNAL) if q[k, 1, 0, 0] == 0.0] == sorted((SRR, SZZ, SRZ))
-    assert (q[:, 0] == 1.0).all()

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hydro2d.mesh.fields import INTERNAL, SRR, SRZ, SZZ
 from hydro2d.physics import stress
 
 turn_and_strain = stress.turn_and_strain.py_func
@@ -170,3 +171,10 @@ def test_in_mode_solid_a_sliver_is_not_made_stiffer_than_twice():
 def test_the_largest_principal_value_is_the_largest_eigenvalue(rr, zz, rz):
     tensor = np.array([[rr, 0.0, rz], [0.0, -(rr + zz), 0.0], [rz, 0.0, zz]])
     assert largest_principal(rr, zz, rz) == pytest.approx(np.linalg.eigvalsh(tensor)[-1], rel=1e-12, abs=1e-6)
+
+
+def test_released_material_has_no_deviator():
+    q = np.ones((INTERNAL, 2, 1, 1))
+    stress.release.py_func(1, 0, 0, q)
+    assert [k for k in range(INTERNAL) if q[k, 1, 0, 0] == 0.0] == sorted((SRR, SZZ, SRZ))
+    assert (q[:, 0] == 1.0).all()

@@ -40,7 +40,7 @@ def test_the_table(study, capsys):
     (blunt,) = (line for line in lines if line.startswith("Ballistic limit, blunt"))
     assert "190.0 m/s (a = 0.80, p = 2.20) by the runs" in blunt
     (round_nose,) = (line for line in lines if line.startswith("Ballistic limit, hemispherical"))
-    assert "needs perforations at 3 velocities at least by the runs" in round_nose
+    assert "needs perforations at 3 or more velocities by the runs" in round_nose
     assert (study / "figure.png").read_bytes()[:4] == b"\x89PNG"
 
 
