@@ -54,6 +54,13 @@ def test_how_long_the_first_compilation_takes_is_said_once():
     assert [name for name, _ in mentions] == ["README.md"], mentions
 
 
+@pytest.mark.parametrize("file", WRITTEN, ids=lambda file: str(file.relative_to(source.ROOT)))
+def test_no_line_begins_with_a_per_cent_sign(file):
+    """MyST takes such a line for a comment, so that the page would lose it."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    assert [number for number, line in enumerate(lines, 1) if line.lstrip().startswith("%") and file.suffix == ".md"] == []
+
+
 def name_of(file) -> str:
     return str(file.relative_to(source.ROOT))
 
