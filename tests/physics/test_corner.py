@@ -66,10 +66,9 @@ def test_sums_over_the_cells_around_a_vertex_are_those_of_their_corners(geometry
     grid, u, v, (rr, zz, tt, rz), kappa = scene(geometry, seed)
     for j in range(3, 5):
         for i in range(3, 6):
-            h_b, h_t = heights(grid)[j - 1], heights(grid)[j]
-            radial = corners.radial_force(i, rr[j - 1], rr[j], tt[j - 1], tt[j], rz[j - 1], rz[j], grid.metrics, h_b, h_t)
-            axial = corners.axial_force(i, zz[j - 1], zz[j], rz[j - 1], rz[j], grid.metrics, h_b, h_t)
-            filtered = corners.hourglass_force(i, kappa[j - 1], kappa[j], u[j - 1], u[j], u[j + 1])
+            radial = corners.radial_force(j, i, rr, tt, rz, grid.metrics, heights(grid))
+            axial = corners.axial_force(j, i, zz, rz, grid.metrics, heights(grid))
+            filtered = corners.hourglass_force(j, i, kappa, u)
             force, hourglass = np.zeros(2), 0.0
             for row, column in ((j - 1, i - 1), (j - 1, i), (j, i - 1), (j, i)):
                 outer, upper = column < i, row < j
@@ -85,15 +84,15 @@ def test_sums_over_the_cells_around_a_vertex_are_those_of_their_corners(geometry
 @pytest.mark.parametrize("seed", range(3))
 def test_a_mirror_image_has_the_same_forces_to_the_last_bit(seed):
     grid, u, v, (rr, zz, tt, rz), kappa = scene("cylindrical", seed)
+    rr, zz, tt, rz, kappa, back = rr[3:5], zz[3:5], tt[3:5], rz[3:5], kappa[3:5], slice(None, None, -1)
+    dz, u = np.array([0.3, 0.4]), u[3:6]
     for i in range(3, 6):
-        there = corners.radial_force(i, rr[3], rr[4], tt[3], tt[4], rz[3], rz[4], grid.metrics, 0.3, 0.4)
-        back = corners.radial_force(i, rr[4], rr[3], tt[4], tt[3], -rz[4], -rz[3], grid.metrics, 0.4, 0.3)
-        assert there == back
-        there = corners.axial_force(i, zz[3], zz[4], rz[3], rz[4], grid.metrics, 0.3, 0.4)
-        back = corners.axial_force(i, zz[4], zz[3], -rz[4], -rz[3], grid.metrics, 0.4, 0.3)
-        assert there == -back
-        there = corners.hourglass_force(i, kappa[3], kappa[4], u[3], u[4], u[5])
-        assert there == corners.hourglass_force(i, kappa[4], kappa[3], u[5], u[4], u[3])
+        there = corners.radial_force(1, i, rr, tt, rz, grid.metrics, dz)
+        assert there == corners.radial_force(1, i, rr[back], tt[back], -rz[back], grid.metrics, dz[back])
+        there = corners.axial_force(1, i, zz, rz, grid.metrics, dz)
+        assert there == -corners.axial_force(1, i, zz[back], -rz[back], grid.metrics, dz[back])
+        there = corners.hourglass_force(1, i, kappa, u)
+        assert there == corners.hourglass_force(1, i, kappa[back], u[back])
 
 
 @pytest.mark.parametrize("seed", range(3))
