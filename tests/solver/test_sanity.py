@@ -210,7 +210,7 @@ def test_a_deck_may_let_it_go_on_but_not_be_trusted(tmp_path, monkeypatch, capsy
     ("viscosity_linear", 5.0, "shortens the time step"), ("viscosity_quadratic", 50.0, "shortens the time step"),
     ("hourglass", 0.6, "unstable"), ("relaxation", 10.0, "overshoot"),
     ("max_growth", 10.0, "must lie between 1 and 2"),
-    ("max_growth", 0.5, "must lie between"), ("clip_limit", 2.0, "between 0 and 1"), ("steepness", 2.5, "new extremes")])
+    ("max_growth", 0.5, "must lie between"), ("clip_limit", 2.0, "between 0 and 1"), ("steepness", 2.5, "new extrema")])
 def test_choices_that_are_never_sound(key, value, reason):
     with pytest.raises(DeckError, match=reason) as refused:
         deck.loads(TEXT, [f"numerics.{key}={value}"])
