@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import point, serial
 
-#: w.share of a body that a cell needs for the detonation to pass through it
+#: share of a body that a cell needs for the detonation to pass through it
 PASSABLE = 0.5
 #: rows of `w.front`: the point from which the detonation comes straight to the cell, and the time at which it was there
 R, Z, TIME = range(3)
