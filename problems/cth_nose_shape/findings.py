@@ -149,7 +149,7 @@ def main(arguments: list[str] | None = None) -> int:
         print("\n".join([*scores(found), ""]))
         for axis in reversed(AXES):
             print("\n".join([*compared(found, rigid_rod.NOSES["hemi"], axis), ""]))
-        print("\n".join(rigid_rod.mixed(results)))
+        print("\n".join(rigid_rod.notes(results)))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError, KeyError) as error:

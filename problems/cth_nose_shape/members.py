@@ -163,7 +163,7 @@ def main(arguments: list[str] | None = None) -> int:
         if not found:
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
-        print("\n".join([*table(found), "", *scores(found), *rigid_rod.mixed(results)]))
+        print("\n".join([*table(found), "", *scores(found), *rigid_rod.notes(results)]))
         if given.figure:
             figures.save(draw(found), given.figure)
     except (StudyError, DeckError, OSError) as error:

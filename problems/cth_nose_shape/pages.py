@@ -33,7 +33,7 @@ def _twelve(cells: float | None = USUAL) -> list[rigid_rod.Result]:
 
 def _shots() -> list[str]:
     runs = _twelve()
-    return [*members.table(members.grouped(runs)), *rigid_rod.mixed(runs)]
+    return [*members.table(members.grouped(runs)), *rigid_rod.notes(runs)]
 
 
 def _scores() -> list[str]:
@@ -43,7 +43,7 @@ def _scores() -> list[str]:
         head, rule, *rows = members.scores(found) if found else ("", "")
         lines = lines or [f"| cells {head}", f"|---{rule}"] if head else lines
         lines += [f"| {cells:g} {row}" for row in rows]
-    return [*lines, *rigid_rod.mixed(_twelve(None))]
+    return [*lines, *rigid_rod.notes(_twelve(None))]
 
 
 def _meshes() -> list[str]:
@@ -53,12 +53,12 @@ def _meshes() -> list[str]:
         if run.shot is not None and run.shot.nose == HEMISPHERICAL:
             column = f"{run.column}, {run.labels[rigid_rod.CELLS]}"
             found.setdefault(column, {}).setdefault(run.shot, []).append(run)
-    return [*members.table(found), *rigid_rod.mixed(runs)]
+    return [*members.table(found), *rigid_rod.notes(runs)]
 
 
 def _holes() -> list[str]:
     runs = [*_twelve(None), *rigid_rod.read(RESULTS / "rigid_rod_failure.csv")]
-    return [*rigid_rod.holes(runs), *rigid_rod.mixed(runs)]
+    return [*rigid_rod.holes(runs), *rigid_rod.notes(runs)]
 
 
 def _transitions() -> list[str]:
@@ -68,7 +68,7 @@ def _transitions() -> list[str]:
 def _of_advection(make: Callable[[findings.Runs], list[str]]) -> Callable[[], list[str]]:
     def lines() -> list[str]:
         runs = rigid_rod.read(findings.FILE)
-        return [*make(findings.grouped(runs)), *rigid_rod.mixed(runs)]
+        return [*make(findings.grouped(runs)), *rigid_rod.notes(runs)]
 
     return lines
 

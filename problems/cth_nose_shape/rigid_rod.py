@@ -215,7 +215,7 @@ def _deeper(depths: dict[float, float], limit: float) -> str:
     return _extent(bisection.bracket(found, NOT_DEEPER, DEPTHS)) if found else "none deeper" if depths else ""
 
 
-def mixed(results: list[Result]) -> list[str]:
+def notes(results: list[Result]) -> list[str]:
     """Lines below the tables: how many runs are not to be trusted, and not of the present version of the method."""
     doubtful = sum(not result.trusted for result in results)
     faults = f"{DOUBTFUL} {several(doubtful, 'run')} with a fault in the audit, such as too much energy lost."
@@ -255,7 +255,7 @@ def main(arguments: list[str] | None = None) -> int:
         if not found:
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
-        print("\n".join([*table(found), "", *transitions(found), "", *holes(results), *mixed(results)]))
+        print("\n".join([*table(found), "", *transitions(found), "", *holes(results), *notes(results)]))
     except (StudyError, DeckError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

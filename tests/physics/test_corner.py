@@ -21,17 +21,13 @@ def scene(geometry, seed):
     return grid, u, v, random.normal(size=(4, *cells)), random.uniform(1.0, 2.0, cells)
 
 
-def heights(grid):
-    return np.diff(grid.z)
-
-
 @GEOMETRIES
 @pytest.mark.parametrize("seed", range(3))
 def test_the_work_of_the_forces_is_minus_that_of_the_stress(geometry, seed):
     grid, u, v, (rr, zz, tt, rz), _ = scene(geometry, seed)
     for j in range(2, 5):
         for i in range(2, 6):
-            h, given = heights(grid)[j], (rr[j, i], zz[j, i], tt[j, i], rz[j, i])
+            h, given = grid.dz[j], (rr[j, i], zz[j, i], tt[j, i], rz[j, i])
             rates = velocity_gradient(i, u[j], u[j + 1], v[j], v[j + 1], grid.metrics, h)
             power = given[0] * rates[0] + given[2] * rates[1] + given[1] * rates[2] + given[3] * (rates[3] + rates[4])
             done, size = 0.0, 0.0
@@ -66,13 +62,13 @@ def test_sums_over_the_cells_around_a_vertex_are_those_of_their_corners(geometry
     grid, u, v, (rr, zz, tt, rz), kappa = scene(geometry, seed)
     for j in range(3, 5):
         for i in range(3, 6):
-            radial = corners.radial_force(j, i, rr, tt, rz, grid.metrics, heights(grid))
-            axial = corners.axial_force(j, i, zz, rz, grid.metrics, heights(grid))
+            radial = corners.radial_force(j, i, rr, tt, rz, grid.metrics, grid.dz)
+            axial = corners.axial_force(j, i, zz, rz, grid.metrics, grid.dz)
             filtered = corners.hourglass_force(j, i, kappa, u)
             force, hourglass = np.zeros(2), 0.0
             for row, column in ((j - 1, i - 1), (j - 1, i), (j, i - 1), (j, i)):
                 outer, upper = column < i, row < j
-                vectors = corners.corner(column, outer, upper, grid.metrics, heights(grid)[row])
+                vectors = corners.corner(column, outer, upper, grid.metrics, grid.dz[row])
                 at = row, column
                 force += corners.corner_force(rr[at], zz[at], tt[at], rz[at], *vectors)
                 sign = 1.0 if outer == upper else -1.0

@@ -160,7 +160,7 @@ def test_kept_results_are_judged_by_the_rule_of_today():
     assert min(words.values()) > 0
 
 
-@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24)])
+@pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", -1)])
 def test_results_on_a_page_are_kept_ones(page, least):
     shown = set(CELL.findall((source.ROOT / f"docs/explanation/{page}.md").read_text(encoding="utf-8")))
     assert len(shown) > least
