@@ -80,7 +80,7 @@ def models_page() -> str:
     """Every equation of state, strength model and failure model, and the melting line."""
     import eos
     import strength
-    from hydro2d.parameters import described
+    from hydro2d.base.parameters import described
     from strength import melting, tensile_pressure
 
     failure = [*strength.DAMAGE_MODELS, tensile_pressure.NAME]
@@ -172,7 +172,7 @@ SHAPES = ("flat", "hemispherical", "ogive", "cone", "sphere", "polygon")
 
 def shapes_page() -> str:
     """A gallery of projectiles: the body as its deck has it, and its picture."""
-    from hydro2d.toml import problems_folder
+    from hydro2d.files.shipped import problems_folder
 
     parts = ["# Shapes", NOTE,
              "The decks are in `problems/shapes`; each picture is what `hydro2d check DECK --picture FILE.png` draws. Any of "
@@ -188,7 +188,7 @@ def shapes_page() -> str:
 def draw_shapes(folder: Path) -> None:
     """The pictures of the gallery, by the command that a reader has."""
     from hydro2d.cli.main import call
-    from hydro2d.toml import problems_folder
+    from hydro2d.files.shipped import problems_folder
 
     folder.mkdir(parents=True, exist_ok=True)
     for name in SHAPES:

@@ -12,7 +12,7 @@ sys.path.insert(0, str(HERE.parent))
 import _generate  # noqa: E402
 from _pages import docstrings  # noqa: E402
 
-from hydro2d import __version__  # noqa: E402
+from hydro2d.base.version import __version__  # noqa: E402
 
 _generate.write(HERE / "reference" / "generated")
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from eos.layout import E0, RHO0, ROW
 from eos.registry import MODELS
-from hydro2d.parameters import REQUIRED, Description, Parameter, by_name, described
+from hydro2d.base.parameters import REQUIRED, Description, Parameter, by_name, described
 
 __all__ = ["E0", "MODELS", "REQUIRED", "RHO0", "ROW", "Description", "Parameter", "describe"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from eos.layout import E0, RHO0, ROW
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "ideal-gas"
 ID = 1

@@ -16,9 +16,9 @@ from math import sqrt
 import numpy as np
 
 from eos.layout import E0, RHO0, ROW
+from hydro2d.base.parameters import ANY, NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
 from hydro2d.mesh.fields import Field
-from hydro2d.parameters import ANY, NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "johnson-holmquist"
 ID = 5

@@ -16,8 +16,8 @@ from __future__ import annotations
 import numpy as np
 
 from eos.layout import E0, RHO0, ROW, TABLE, TABLE_SIZE
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "mie-grueneisen"
 ID = 0

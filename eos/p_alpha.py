@@ -17,9 +17,9 @@ import numpy as np
 
 from eos import solid
 from eos.layout import E0, RHO0, SOLID_AT
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import late, point
 from hydro2d.mesh.fields import Field
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "p-alpha"
 ID = 3

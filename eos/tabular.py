@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from eos.layout import E0, RHO0, ROW
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import apart, point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "tabular"
 ID = 8

@@ -22,8 +22,8 @@ import numpy as np
 
 from eos.layout import E0, RHO0, ROW, TABLE, TABLE_SIZE
 from eos.mie_grueneisen import INVERSE_CV, INVERSE_RHO0, INVERSE_STEP, ORIGIN, cold_temperature
+from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import apart, point
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "tillotson"
 ID = 4

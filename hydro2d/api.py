@@ -9,20 +9,23 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hydro2d import toml
 from hydro2d.analytic import beside
+from hydro2d.base.errors import UnphysicalState, from_extra
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
-from hydro2d.errors import UnphysicalState, from_extra
-from hydro2d.files import plain, write_text
+from hydro2d.files import toml
+from hydro2d.files.whole import plain, write_text
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.running.run import deck_hash
 from hydro2d.running.team import at_most
-from hydro2d.study import cases, cluster, contents, layout
-from hydro2d.study import sweep as sweeps
-from hydro2d.study.choice import Choice
-from hydro2d.study.definition import StudyError
+from hydro2d.study.ensemble import contents
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.records import layout
+from hydro2d.study.run import cluster
+from hydro2d.study.run import sweep as sweeps
+from hydro2d.study.run.choice import Choice
 
 if TYPE_CHECKING:
     import pandas

@@ -9,8 +9,8 @@ from pathlib import Path
 from statistics import median
 from typing import TypeVar
 
-from hydro2d.study import layout
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import StudyError
 
 R = TypeVar("R")
 

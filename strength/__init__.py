@@ -7,7 +7,7 @@ is the shear modulus and slot ``YIELD`` the yield stress of the virgin material 
 
 from __future__ import annotations
 
-from hydro2d.parameters import REQUIRED, Description, Parameter, by_name, described
+from hydro2d.base.parameters import REQUIRED, Description, Parameter, by_name, described
 from strength import tensile_pressure
 from strength.layout import DAMAGE_ROW, ROW, SHEAR, YIELD
 from strength.registry import DAMAGE_MODELS, STRENGTH_MODELS

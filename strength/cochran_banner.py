@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import DAMAGE_ROW
 
 NAME = "cochran-banner"

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength import thermal
 from strength.layout import ROW, SHEAR, YIELD
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import log, point, power
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength import thermal
 from strength.layout import ROW, SHEAR, YIELD
 

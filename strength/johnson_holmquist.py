@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import log, point, power
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "johnson-holmquist"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point, power
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import DAMAGE_ROW
 
 NAME = "johnson-holmquist"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.base.parameters import REQUIRED, Parameter, collect
 from hydro2d.jit import point
 from hydro2d.mesh.fields import Field
-from hydro2d.parameters import REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 from strength.rotation import turned
 

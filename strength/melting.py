@@ -18,8 +18,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import exp, log, point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 
 NAME = "melting"
 EQUATION = """\

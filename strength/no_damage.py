@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.base.parameters import collect
 from hydro2d.jit import point
-from hydro2d.parameters import collect
 from strength.layout import DAMAGE_ROW
 
 NAME = "none"

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point, power
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "power-law"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from hydro2d.base.parameters import POSITIVE, Parameter
 from hydro2d.jit import point
-from hydro2d.parameters import POSITIVE, Parameter
 
 PARAMETERS = (
     Parameter("reference_temperature", "K", 298.0, "temperature at which softening begins", "Tr", POSITIVE),

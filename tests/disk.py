@@ -6,7 +6,7 @@ import errno
 import os
 from pathlib import Path
 
-from hydro2d import files
+from hydro2d.files import whole
 from hydro2d.output import snapshot
 
 
@@ -15,8 +15,8 @@ class Disk:
 
     def __init__(self, monkeypatch):
         self.count, self.full, self.once = 0, 0, False
-        self.sync = files.sync
-        for module in (files, snapshot):
+        self.sync = whole.sync
+        for module in (whole, snapshot):
             monkeypatch.setattr(module, "sync", self)
 
     def __call__(self, path: Path) -> None:

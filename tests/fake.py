@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 
 import eos
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck.mesh_sections import Mesh, Segment
 from hydro2d.deck.sections import Boundaries, Failure, Sliding
-from hydro2d.errors import UnphysicalState
 from hydro2d.materials import library
 from hydro2d.mesh.fields import BODY
 from hydro2d.mesh.grid import Grid

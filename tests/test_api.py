@@ -542,7 +542,7 @@ def test_threads_are_those_of_the_run_alone(deck, tmp_path, monkeypatch):
 
 
 def test_reprs_are_short(deck, shot):
-    from hydro2d.study import layout
+    from hydro2d.study.records import layout
 
     assert repr(deck) == str(deck)
     assert len(repr(deck)) < 120

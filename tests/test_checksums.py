@@ -10,16 +10,16 @@ import h5py
 import numpy as np
 import pytest
 
-from hydro2d import checksums, files
-from hydro2d.checksums import sealed, verified, verified_text
-from hydro2d.errors import Error
-from hydro2d.files import read_json, read_text
+from hydro2d.base.errors import Error
+from hydro2d.files import checksums, whole
+from hydro2d.files.checksums import sealed, verified, verified_text
+from hydro2d.files.strange import StrangeFile
+from hydro2d.files.whole import read_json, read_text
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.output.series import Series
 from hydro2d.results import export
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running import run as runs
-from hydro2d.strange import StrangeFile
 from tests import fake
 
 CHECKED = {"deck.toml", "summary.json", "history.h5", "restart.h5", "series.pvd", "interfaces.pvd", "tracers.pvd"}
@@ -61,7 +61,7 @@ def test_every_file_fits_whenever_it_is_replaced(simulation, tmp_path, monkeypat
         verified(target, Error)
         seen.append(is_sealed(Path(target)))
 
-    monkeypatch.setattr(files.os, "replace", replace)
+    monkeypatch.setattr(whole.os, "replace", replace)
     monkeypatch.setattr(runs, "FLUSH_SECONDS", 0.0)
     monkeypatch.setattr(runs, "FLUSH_SHARE", 1e9)
     monkeypatch.setattr(runs, "PROGRESS_SECONDS", 0.0)

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import hydro2d
-from hydro2d import children
-from hydro2d.compilation import Second
-from hydro2d.study import cluster
+from hydro2d.base import children
+from hydro2d.jit.compilation import Second
+from hydro2d.study.run import cluster
 from tests.materials.made_models import DECK, VOCE
 
 #: further modules that someone might plant; those of `eos`, `strength` and `hydro2d` are determined here

@@ -11,17 +11,17 @@ from types import SimpleNamespace
 import numba
 import pytest
 
-from hydro2d import compilation, jit
-from hydro2d.compilation import Second, announced, expect, is_compiled, once, told_of
+from hydro2d import jit
+from hydro2d.base.terminal import duration
 from hydro2d.deck import deck as decks
-from hydro2d.files import turn
-from hydro2d.jit import cache, phases, recording
+from hydro2d.files.locks import turn
+from hydro2d.jit import cache, compilation, phases, recording
+from hydro2d.jit.compilation import Second, announced, expect, is_compiled, once, told_of
 from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.mesh import sums
 from hydro2d.running import compile_all
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
-from hydro2d.terminal import duration
 from tests.cli.test_main import DECK
 
 

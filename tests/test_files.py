@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-from hydro2d import files
-from hydro2d.files import LockError, holder, locked
+from hydro2d.files import locks
+from hydro2d.files.locks import LockError, holder, locked
 from tests.locks import held
 
 
@@ -61,7 +61,7 @@ def test_one_who_looks_does_not_keep_others_out(tmp_path):
 
 def test_a_lock_that_vanishes_while_one_waits_is_taken_anew(tmp_path, monkeypatch):
     """The previous holder removes the file after it was opened here: a lock on a file without a name excludes nobody."""
-    lock, take, calls = tmp_path / "a.lock", files._take_lock, []
+    lock, take, calls = tmp_path / "a.lock", locks._take_lock, []
 
     def late(file):
         calls.append(file)
@@ -69,7 +69,7 @@ def test_a_lock_that_vanishes_while_one_waits_is_taken_anew(tmp_path, monkeypatc
             lock.unlink()
         return take(file)
 
-    monkeypatch.setattr(files, "_take_lock", late)
+    monkeypatch.setattr(locks, "_take_lock", late)
     with locked(lock):
         assert lock.exists()
         with pytest.raises(LockError), locked(lock):

@@ -6,7 +6,7 @@ import pytest
 
 import eos
 import strength
-from hydro2d.parameters import ANY, POSITIVE, REQUIRED, Parameter, collect
+from hydro2d.base.parameters import ANY, POSITIVE, REQUIRED, Parameter, collect
 
 PARAMETERS = (
     Parameter("stiffness", "Pa", REQUIRED, "a stiffness", "k", POSITIVE),

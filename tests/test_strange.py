@@ -14,13 +14,14 @@ import numpy as np
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.files import LockError, holder, locked, replacing
+from hydro2d.files.locks import LockError, holder, locked
+from hydro2d.files.strange import StrangeFile, own, within
+from hydro2d.files.whole import replacing
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.export import export
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
-from hydro2d.strange import StrangeFile, own, within
-from hydro2d.study import layout
+from hydro2d.study.records import layout
 from tests import fake
 
 SERIES = '<VTKFile><Collection><DataSet timestep="0" file="{}"/></Collection></VTKFile>'

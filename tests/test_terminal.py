@@ -6,12 +6,13 @@ import json
 
 import pytest
 
+from hydro2d.base.terminal import duration, one_line, say, shown
 from hydro2d.cli.main import call
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
-from hydro2d.study import charts, monitor
-from hydro2d.terminal import duration, one_line, say, shown
+from hydro2d.study.report import charts
+from hydro2d.study.run import monitor
 from tests import fake
 from tests.rules import source
 
@@ -87,7 +88,7 @@ def test_tables_on_a_terminal_take_names_as_they_are():
 
 
 def test_lines_of_a_study(tmp_path):
-    from hydro2d.study.layout import Study
+    from hydro2d.study.records.layout import Study
 
     log = io.StringIO()
     board = monitor.Board(Study(tmp_path, NASTY, "a", (), ()), log, quiet=True)
@@ -112,4 +113,4 @@ def test_only_one_function_prints():
     """`say`."""
     names = [name for name, file in source.modules().items() if name.startswith("hydro2d")
              for node in ast.walk(source.tree(file)) if isinstance(node, ast.Name) and node.id == "print"]  # fmt: skip
-    assert sorted(names) == ["hydro2d.terminal"]
+    assert sorted(names) == ["hydro2d.base.terminal"]

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from hydro2d import units
+from hydro2d.base import units
 
 
 @pytest.mark.parametrize(

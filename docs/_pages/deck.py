@@ -110,7 +110,7 @@ class Schema:
 
 def assignment(key: str, value) -> str:
     """A line of a deck."""
-    from hydro2d import toml
+    from hydro2d.files import toml
 
     return f"{key} = {toml.inline(value)}"
 

@@ -11,9 +11,10 @@ from pathlib import Path
 import figures as pictures
 
 from _pages.kinds import spoken
+from hydro2d.files.shipped import problems_folder
+from hydro2d.files.toml import is_study
 from hydro2d.results import figures
-from hydro2d.study import cases
-from hydro2d.toml import is_study, problems_folder
+from hydro2d.study.plan import cases
 
 #: columns of kept results that are no axes begin with the first of these
 FIRST = ("slenderness", "cells_across", "status", "member", "nose")

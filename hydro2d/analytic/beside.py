@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from hydro2d.analytic import model_deck, models
+from hydro2d.base.errors import DeckError
 from hydro2d.deck.deck import Deck
-from hydro2d.errors import DeckError
 from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, and their names in the line: two of eroding rods, and one of a rigid rod

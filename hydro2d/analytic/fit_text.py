@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.files import replacing
+from hydro2d.files.whole import replacing
 from hydro2d.materials.fitting import Fit
 
 

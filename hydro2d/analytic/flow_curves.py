@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.files import replacing
+from hydro2d.base.terminal import cell
+from hydro2d.files.whole import replacing
 from hydro2d.materials import curves
 from hydro2d.materials.material import Material
-from hydro2d.terminal import cell
 
 
 @dataclass(frozen=True)

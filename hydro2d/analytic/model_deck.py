@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d.analytic.model_materials import Given
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
 from hydro2d.deck import shapes
-from hydro2d.errors import DeckError
 from hydro2d.materials.material import Material
 from hydro2d.solver import insertion
 

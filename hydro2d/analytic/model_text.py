@@ -8,10 +8,10 @@ import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from hydro2d import units
 from hydro2d.analytic.model_materials import Given
 from hydro2d.analytic.models import VELOCITY, Case
-from hydro2d.files import replacing
+from hydro2d.base import units
+from hydro2d.files.whole import replacing
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.inputs import FROM_LIBRARY
 from hydro2d.penetration.model import Input, Model, Value

@@ -16,12 +16,12 @@ from hydro2d.analytic import model_deck, models
 from hydro2d.analytic.model_materials import Given
 from hydro2d.analytic.model_text import columns, given_data, shown
 from hydro2d.deck import deck as decks
+from hydro2d.files.shipped import problems_folder
 from hydro2d.materials import library
 from hydro2d.mesh.regime import LEFT
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.model import InputError, Model
 from hydro2d.results import reading
-from hydro2d.toml import problems_folder
 
 STUDY = "cth_nose_shape"
 RULE = "rigid where deeper than the hydrodynamic limit L sqrt(rho_p/rho_t)"

@@ -10,10 +10,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from hydro2d import units
 from hydro2d.analytic import model_materials
 from hydro2d.analytic.model_materials import Given
-from hydro2d.errors import unknown
+from hydro2d.base import units
+from hydro2d.base.errors import unknown
 from hydro2d.materials import library
 from hydro2d.materials.material import Material
 from hydro2d.penetration import catalogue

@@ -59,7 +59,7 @@ def refuse_old_names(arguments: list[str]) -> None:
 
 def quantity(text: str, unit: str, option: str) -> float:
     """The SI value of an argument. Raises UsageError, also for a number without its unit."""
-    from hydro2d import units
+    from hydro2d.base import units
 
     try:
         return units.of_argument(text, unit)

@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
+from hydro2d.base.errors import DeckError
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import UsageError, quantity
-from hydro2d.errors import DeckError
-from hydro2d.files import read_text
-from hydro2d.terminal import say
+from hydro2d.files.whole import read_text
 
 #: exit status of a check that fails; temperature at rest of a table, K
 WRONG, ROOM = 2, 298.0

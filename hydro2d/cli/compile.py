@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hydro2d.terminal import say
+from hydro2d.base.terminal import say
 
 
 def compile_kernels(*decks: Path) -> int:

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import UsageError, import_matplotlib, quantity
-from hydro2d.terminal import say
 
 #: default strains of the table, and default rates
 STRAINS, RATES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5), ("1e3 /s", "1e4 /s", "1e5 /s")

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import Out, UsageError, import_matplotlib
-from hydro2d.terminal import say
 
 
 def diverge(
@@ -45,7 +45,7 @@ def diverge(
     if not 0.0 < size < 1.0:
         raise UsageError(f"--size {size:g}: must lie between 0 and 1, a difference relative to the largest value")
     from hydro2d.results.reading import Results
-    from hydro2d.study import divergence
+    from hydro2d.study.report import divergence
 
     comparison = divergence.compare(Results(first), Results(second), field or ())
     for line in comparison.lines(size):

@@ -8,9 +8,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
-from hydro2d.terminal import say
 
 #: largest number of meshes in a sequence
 MOST_MESHES = 20
@@ -49,7 +49,7 @@ class Chosen:
     def overrides(self, deck: Path, overrides: list[str]) -> list[str]:
         """The overrides that make the chosen member, after those of the user. Raises StudyError, DeckError."""
         from hydro2d.deck import deck as decks
-        from hydro2d.study import definition, members
+        from hydro2d.study.plan import definition, members
 
         tables = {"deck": str(deck), "ensemble": self.table(2)}
         study, *_ = definition.of_tables(tables, f"--member {self.member}", ())
@@ -62,7 +62,7 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
     """Runs all members of an ensemble of a deck as a study, and prints their joint result."""
     from hydro2d.cli.study import run_study
     from hydro2d.deck import deck as decks
-    from hydro2d.study import cases
+    from hydro2d.study.plan import cases
 
     file = decks.find(deck)
     tables = {"title": f"{file.stem}, {chosen.repeats} members", "deck": str(file.resolve()),
@@ -133,13 +133,13 @@ def converge(
         Prints errors only; sweep.log and convergence.json are still written.
     """
     from hydro2d.cli import study
-    from hydro2d.study import convergence
+    from hydro2d.study.ensemble import convergence
 
     workers.check()
     chosen = Chosen(repeats, None, by, seed, None)
     plan = convergence.plan(deck, _meshes(cells), chosen.table(repeats), set_ or [])
     if check:
-        from hydro2d.study import estimate
+        from hydro2d.study.run import estimate
 
         return estimate.show(plan, workers.number)
     place = out or Path(f"runs/{plan.name}_converge")
@@ -150,7 +150,8 @@ def converge(
 
 def _conclude(directory: Path, y, quiet: bool) -> None:
     """Writes and prints the results of all meshes."""
-    from hydro2d.study import contents, convergence, layout
+    from hydro2d.study.ensemble import contents, convergence
+    from hydro2d.study.records import layout
 
     sequences = convergence.sequences(contents.collect(layout.read(directory)), y)
     convergence.write(directory, sequences)

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import UsageError, import_matplotlib, quantity
-from hydro2d.terminal import say
 
 
 def fit_strength(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 
+from hydro2d.base.errors import DeckError, nearest
 from hydro2d.cli import words
-from hydro2d.errors import DeckError, nearest
 from hydro2d.mesh import quantities
 
 #: largest number of suggestions for an unknown name, and of its characters that are compared
@@ -87,8 +87,8 @@ def page(name: str) -> str:
     import eos
     import strength
     from hydro2d.analytic import model_text
+    from hydro2d.base.parameters import described
     from hydro2d.materials import library, outside
-    from hydro2d.parameters import described
     from hydro2d.penetration import catalogue
     from strength import melting
 

@@ -10,7 +10,9 @@ from typing import Annotated
 import cyclopts
 from cyclopts import App, Parameter
 
-from hydro2d import __version__
+from hydro2d.base.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
+from hydro2d.base.terminal import flush, say, wrapped
+from hydro2d.base.version import __version__
 from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.compile import compile_kernels
@@ -26,8 +28,6 @@ from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
 from hydro2d.cli.tabulate import tabulate
 from hydro2d.cli.view import view
-from hydro2d.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
-from hydro2d.terminal import flush, say, wrapped
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -254,9 +254,9 @@ def export(
         Runs the code of outside models that the deck of the run carries; a run without dumps needs it. Use it only for a run
         whose origin you know.
     """
+    from hydro2d.files.strange import own
     from hydro2d.results.export import export as write
     from hydro2d.results.reading import Results
-    from hydro2d.strange import own
 
     for path in write(Results(run, trust=trust), out or own(run / "export"), fields or ("all",)):
         say(f"wrote {path}")

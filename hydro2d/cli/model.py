@@ -7,8 +7,8 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from hydro2d.base.terminal import say, wrapped
 from hydro2d.cli.base import Overrides, UsageError, import_matplotlib, quantity
-from hydro2d.terminal import say, wrapped
 
 #: largest number of rows of --velocity A:B:N
 MOST_ROWS = 100_000

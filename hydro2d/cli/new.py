@@ -8,8 +8,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say, wrapped
 from hydro2d.cli.base import Out, UsageError
-from hydro2d.terminal import say, wrapped
 
 
 def new(kind: str | None = None, *, out: Out | None = None,
@@ -28,7 +28,7 @@ def new(kind: str | None = None, *, out: Out | None = None,
         Lists the kinds.
     """
     from hydro2d.deck import templates
-    from hydro2d.files import write_text
+    from hydro2d.files.whole import write_text
 
     if list_ or kind is None:
         if kind is not None or out is not None:

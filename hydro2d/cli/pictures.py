@@ -8,8 +8,8 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter, validators
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import Out, UsageError, import_matplotlib, quantity
-from hydro2d.terminal import say
 
 #: kinds of pictures whose numbers can be written as a table
 TABLES = ("line", "history", "crater")

@@ -48,7 +48,7 @@ def report(
         origin you know.
     """
     import_matplotlib()
-    from hydro2d.study.report import report as write
+    from hydro2d.study.report.report import report as write
 
     write(directories, out, x=x, y=y or (), by=by or (), movie=movie, view=view, trust=trust)
     return 0

@@ -10,8 +10,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import import_matplotlib
-from hydro2d.terminal import say
 
 #: seconds between two looks at a run in progress
 SECONDS = 2.0
@@ -44,7 +44,7 @@ def status(
     """
     import_matplotlib()
     from hydro2d.results import terminal_charts
-    from hydro2d.study.layout import RUNNING
+    from hydro2d.study.records.layout import RUNNING
 
     terminal = sys.stdout.isatty()
     drawn = bool(quantity) or (terminal and terminal_charts.available()) if plot is None else plot
@@ -69,7 +69,7 @@ def _look(run: Path, quantity: list[str] | None, drawn: bool) -> tuple[tuple[lis
     from hydro2d.results import standing, terminal_charts
     from hydro2d.results.reading import Results
     from hydro2d.running.run import HISTORY
-    from hydro2d.study import layout
+    from hydro2d.study.records import layout
 
     opened = Results(run)
     (case,) = layout.gather([run]).cases
@@ -92,8 +92,8 @@ def _live(run: Path, quantity: list[str] | None, drawn: bool) -> None:
     from rich.live import Live
     from rich.text import Text
 
-    from hydro2d.study.layout import RUNNING
-    from hydro2d.terminal import one_line
+    from hydro2d.base.terminal import one_line
+    from hydro2d.study.records.layout import RUNNING
 
     state = RUNNING
     with Live(auto_refresh=False, vertical_overflow="visible") as live:

@@ -10,9 +10,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say, wrapped
 from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
-from hydro2d.terminal import say, wrapped
 
 #: reduction of the priority of a study in the background
 NICE = 10
@@ -63,7 +63,7 @@ def sweep(
     quiet
         Prints errors only; sweep.log is still written.
     """
-    from hydro2d.study.scaling import Size
+    from hydro2d.study.plan.scaling import Size
 
     workers.check()
     if cells is not None and not 0.0 < cells <= FINEST:
@@ -77,14 +77,14 @@ def sweep(
         return _parts(study, out or _directory(study), set_ or [], size, workers, only or (), check=check, quiet=quiet)
     if status:
         return _status(study, out)
-    from hydro2d.study import cases
+    from hydro2d.study.plan import cases
 
     if background:
         return _in_background(out or _directory(study))
     plan = cases.plan(study, set_, search=False, quiet=quiet, size=size)
     if check:
-        from hydro2d.study import estimate
-        from hydro2d.study.choice import Choice
+        from hydro2d.study.run import estimate
+        from hydro2d.study.run.choice import Choice
 
         choice = Choice(plan, only or (), again=workers.anew)
         ended = estimate.show(replace(plan, cases=choice.selected), workers.number) if choice.selected else 0
@@ -96,9 +96,9 @@ def sweep(
 
 def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), skip: Sequence[str] = (), quiet: bool) -> int:
     """Runs the cases of a plan and prints the joint results of ensembles. Returns the exit status."""
-    from hydro2d.study import layout
-    from hydro2d.study import sweep as sweeps
-    from hydro2d.study.choice import Choice
+    from hydro2d.study.records import layout
+    from hydro2d.study.run import sweep as sweeps
+    from hydro2d.study.run.choice import Choice
 
     choice = Choice(plan, only, skip, again=workers.anew)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
@@ -118,8 +118,9 @@ def _is_of_parts(study: Path) -> bool:
 def _parts(study: Path, place: Path, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
            quiet: bool) -> int:  # fmt: skip
     """Runs the parts of a study in turn. The next part runs despite a failed case, but not after an interrupt."""
-    from hydro2d.study import layout, parts
-    from hydro2d.study.sweep import SOME_FAILED
+    from hydro2d.study import parts
+    from hydro2d.study.records import layout
+    from hydro2d.study.run.sweep import SOME_FAILED
 
     plans = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
     if check:
@@ -145,7 +146,8 @@ def _parts(study: Path, place: Path, overrides: list[str], size, workers: Worker
 
 def _status_of_parts(study: Path, out: Path | None) -> int:
     """Prints how far each part of a study has got."""
-    from hydro2d.study import layout, monitor
+    from hydro2d.study.records import layout
+    from hydro2d.study.run import monitor
 
     for directory in sorted(file.parent for file in (out or _directory(study)).glob(f"*/{layout.STUDY}")):
         say(wrapped(f"{directory.name}: {monitor.counts(list(layout.read(directory).cases))}"))
@@ -154,7 +156,7 @@ def _status_of_parts(study: Path, out: Path | None) -> int:
 
 def _in_background(place: Path) -> int:
     """Starts this command again without --background, detached and at low priority, with its output in a file."""
-    from hydro2d.children import detached
+    from hydro2d.base.children import detached
 
     place.mkdir(parents=True, exist_ok=True)
     log = place / "background.log"
@@ -203,11 +205,11 @@ def transition(
     workers.check()
     if status:
         return _status(study, out)
-    from hydro2d.study import cases
+    from hydro2d.study.plan import cases
 
     plan = cases.plan(study, set_, search=True, quiet=quiet)
     if check:
-        from hydro2d.study import estimate
+        from hydro2d.study.run import estimate
 
         return estimate.show_search(plan, workers.number)
     return run_search(plan, out or plan.out, workers, quiet=quiet)
@@ -215,7 +217,7 @@ def transition(
 
 def run_search(plan, out: Path, workers: Workers, *, quiet: bool) -> int:
     """Runs a search and prints its transitions. Returns the exit status."""
-    from hydro2d.study import transition as transitions
+    from hydro2d.study.search import transition as transitions
 
     return transitions.find(
         plan, out, workers.connect(len(plan.cases)), threads=workers.threads, resume=workers.resume,
@@ -225,7 +227,8 @@ def run_search(plan, out: Path, workers: Workers, *, quiet: bool) -> int:
 
 def _show_ensembles(directory: Path) -> None:
     """Prints the joint results of the members of each case of a study."""
-    from hydro2d.study import contents, ensembles, layout, responses
+    from hydro2d.study.ensemble import contents, ensembles
+    from hydro2d.study.records import layout, responses
 
     results = contents.collect(layout.read(directory))
     for line in ensembles.report(results.ensembles, responses.choose(results.study, results.records).y):
@@ -233,12 +236,13 @@ def _show_ensembles(directory: Path) -> None:
 
 
 def _status(study: Path, out: Path | None) -> int:
-    from hydro2d.study import layout, monitor
+    from hydro2d.study.records import layout
+    from hydro2d.study.run import monitor
 
     opened = layout.read(out or (study if study.is_dir() else _directory(study)))
     lines = monitor.status(opened)
     if opened.search is not None:
-        from hydro2d.study import regimes
+        from hydro2d.study.search import regimes
 
         lines += ["", *regimes.lines(opened, regimes.of_study(opened))]
     for line in lines:
@@ -251,7 +255,7 @@ def _status(study: Path, out: Path | None) -> int:
 
 def _directory(study: Path) -> Path:
     """The directory of a study file's results."""
-    from hydro2d.study import definition
+    from hydro2d.study.plan import definition
 
     defined, *_ = definition.read(study, [])
     return Path(defined.out or f"runs/{study.stem}")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import Out, UsageError, quantity
-from hydro2d.terminal import say
 
 #: default range of densities over that at rest, largest temperature in K, and the numbers of both
 DENSITIES, HOTTEST = (0.8, 3.0), 20000.0
@@ -30,7 +30,7 @@ def tabulate(material: str, *, out: Out, density: str | None = None, temperature
         Largest temperature and the number of temperatures from zero on, as HIGH:NUMBER; the temperature at rest is among them.
         Default: 20000 K and 101.
     """
-    from hydro2d.files import write_text
+    from hydro2d.files.whole import write_text
     from hydro2d.materials import library, sesame, tabulate
 
     chosen = library.load(material)

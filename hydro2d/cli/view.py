@@ -8,8 +8,8 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from hydro2d.base.terminal import say
 from hydro2d.cli.base import Out, import_matplotlib
-from hydro2d.terminal import say
 
 #: environment variables of which a browser with windows needs one
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
@@ -44,9 +44,9 @@ def view(
         Opens the page in the browser, if there is a display. `--no-open` only writes it.
     """
     import_matplotlib()
+    from hydro2d.files.strange import own
     from hydro2d.results.reading import Results
     from hydro2d.results.viewer import page
-    from hydro2d.strange import own
 
     opened = [Results(path) for path in runs]
     file = out or own(runs[0] / page.PAGE)

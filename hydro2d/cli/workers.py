@@ -53,13 +53,13 @@ class Workers:
     @property
     def number(self) -> int:
         """The number of workers on this machine."""
-        from hydro2d.study import cluster
+        from hydro2d.study.run import cluster
 
         return self.workers or cluster.default_workers(self.threads)
 
     def connect(self, most: int):
         """A dask client with these workers; on this machine, at most `most` of them."""
-        from hydro2d.study import cluster
+        from hydro2d.study.run import cluster
 
         if self.scheduler is not None:
             return cluster.joined(self.scheduler)

@@ -8,8 +8,8 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
-from hydro2d import units
-from hydro2d.deck.base import (
+from hydro2d.base import units
+from hydro2d.base.keys import (
     Angle,
     Interval,
     Length,

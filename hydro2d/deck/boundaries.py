@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, create_model
 
-from hydro2d.deck.base import Section, Speed
-from hydro2d.deck.curves import SpeedOverTime
+from hydro2d.base.keys import Section, Speed
+from hydro2d.base.over_time import SpeedOverTime
 from hydro2d.mesh.edges.registry import KINDS, words
 
 if TYPE_CHECKING:

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hydro2d.base.errors import unknown
 from hydro2d.deck import derived
 from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.deck.shapes import outline
-from hydro2d.errors import unknown
 from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS

@@ -16,14 +16,16 @@ from typing import Any
 import numpy as np
 from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validator
 
-from hydro2d import toml, units
-from hydro2d.deck import keys, sections
+from hydro2d.base import units
+from hydro2d.base.errors import MOST_LINES, DeckError, unknown
+from hydro2d.deck import key_messages, sections
 from hydro2d.deck.checks import axial_length, bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
 from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
-from hydro2d.errors import MOST_LINES, DeckError, Sources, spelled, unknown
-from hydro2d.files import plain
+from hydro2d.files import toml
+from hydro2d.files.lines import Sources, spelled
+from hydro2d.files.whole import plain
 from hydro2d.materials import from_files, library
 
 __all__ = [
@@ -197,7 +199,7 @@ def _laid_over(data: dict, overrides: Overrides, sources: Sources) -> dict:
     in_si = toml.SI in (data.get("numbers"), *(value for key, value, _ in entries if key == "numbers"))
     for key, value, said in entries:
         if value is None:
-            if wrong := keys.key_problem(data, key):
+            if wrong := key_messages.key_problem(data, key):
                 raise DeckError(f"{said}: {wrong}")
             data = toml.removed(data, key, said)
             continue
@@ -218,8 +220,8 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
         deck = Deck.model_validate(data, context=_RESOLVING)
         deck._tables = data
     except ValidationError as error:
-        mistakes = keys.causes(error.errors())
-        problems = [str(complaint(*keys.explained(entry, data))) for entry in mistakes[:MOST_LINES]]
+        mistakes = key_messages.causes(error.errors())
+        problems = [str(complaint(*key_messages.explained(entry, data))) for entry in mistakes[:MOST_LINES]]
         problems += [str(complaint(path, message)) for path, message in islice(_unknown_materials(data), MOST_LINES)]
         problems += [f"{len(mistakes) - MOST_LINES} further mistakes"] if len(mistakes) > MOST_LINES else []
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
@@ -310,7 +312,7 @@ def _with_defaults(deck: Deck) -> Deck:
         data["numerics"]["interface_order"] = sorted(names, key=lambda name: -group[names.index(name)])
     for section in ("boundaries", "penetration", "stop", "output", "numerics"):
         if data[section] is not None:
-            kind = keys.section_of(Deck, section)
+            kind = key_messages.section_of(Deck, section)
             update[section] = kind.model_validate(data[section])
     deck = deck.model_copy(update=update)
     return deck if _is_the_shot(deck) else deck.model_copy(update={"experiment": None})

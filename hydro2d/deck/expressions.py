@@ -14,9 +14,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hydro2d import units
-from hydro2d.errors import unknown
-from hydro2d.parsing import parsed
+from hydro2d.base import units
+from hydro2d.base.errors import unknown
+from hydro2d.base.parsing import parsed
 
 #: exponents of m, kg, s, K
 Dimension = tuple[Fraction, ...]

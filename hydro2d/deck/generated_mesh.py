@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 
-from hydro2d import units
+from hydro2d.base import units
+from hydro2d.base.errors import unknown
 from hydro2d.deck.checks import extent, heading
 from hydro2d.deck.mesh import body
 from hydro2d.deck.mesh_sections import GENERATED, Mesh, as_text, radii
 from hydro2d.deck.sections import Deck
-from hydro2d.errors import unknown
 
 #: ratio of the size of a cell to that of the one before, beyond the fine cells
 GROWTH = 1.1

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hydro2d.base.units import written
 from hydro2d.deck.mesh_sections import Segment
 from hydro2d.deck.sections import Deck
-from hydro2d.units import written
 
 #: fraction of a cell by which a segment may miss a whole number of cells; beyond the second value a notice is given
 _FIT, _TOLD = 1e-4, 1e-6

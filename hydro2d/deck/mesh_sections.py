@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator, model_validator
 
-from hydro2d import units
-from hydro2d.deck.base import Length, PositiveLength, Section, within
+from hydro2d.base import units
+from hydro2d.base.keys import Length, PositiveLength, Section, within
 
 _SEGMENTS = (
     "{to, cells}, {to, size}, {cells, size}, {to, ratio}, {cells, ratio}, {to, last}; the last three also take `first`, "

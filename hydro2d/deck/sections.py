@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
-from hydro2d import units
-from hydro2d.deck.base import (
+from hydro2d.base import units
+from hydro2d.base.keys import (
     Fraction,
     Length,
     Name,
@@ -384,7 +384,7 @@ class Deck(Section):
 
     def to_toml(self) -> str:
         """The deck with every default written out and its materials in full; loading it gives the same deck."""
-        from hydro2d.toml import dumps
+        from hydro2d.files.toml import dumps
 
         data = self.model_dump()
         data["materials"] = {name: material.as_deck() for name, material in self.materials.items()}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from hydro2d.errors import DeckError, unknown
-from hydro2d.toml import problems_folder
+from hydro2d.base.errors import DeckError, unknown
+from hydro2d.files.shipped import problems_folder
 
 #: the folder of the templates among the shipped decks
 FOLDER = "templates"

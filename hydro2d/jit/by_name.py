@@ -20,8 +20,8 @@ import inspect
 import linecache
 from types import CodeType, FunctionType
 
+from hydro2d.base.parsing import parsed
 from hydro2d.jit.handle import declared
-from hydro2d.parsing import parsed
 
 #: the parameter that stands for all names, and the prefix of the parameters that replace it
 HANDLE, PREFIX = "w", "w__"

@@ -23,11 +23,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
 
-from hydro2d.errors import Error
-from hydro2d.files import read_json
+from hydro2d.base.errors import Error
+from hydro2d.base.parsing import executed, parsed
+from hydro2d.base.terminal import say
+from hydro2d.files.whole import read_json
 from hydro2d.jit import target
-from hydro2d.parsing import executed, parsed
-from hydro2d.terminal import say
 
 #: this package, and the folder that holds hydro2d, eos and strength
 HERE = Path(__file__).resolve().parent
@@ -37,7 +37,7 @@ SHIPPED, ABOUT = ROOT / "hydro2d" / "_compiled", "about.json"
 #: folders whose files the texts written at run time may all see
 COMPILED = ("hydro2d/physics", "hydro2d/kernels", "eos", "strength")
 #: files of this package that do not change code, only where it is kept
-NO_CODE = ("cache.py", "store.py", "target.py")
+NO_CODE = ("cache.py", "compilation.py", "store.py", "target.py")
 
 
 @functools.cache

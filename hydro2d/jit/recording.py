@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from hydro2d.files import turn
+from hydro2d.files.locks import turn
 from hydro2d.jit import by_name
 from hydro2d.jit.cache import all_folder
 from hydro2d.jit.options import compiler_events, is_cached

@@ -21,9 +21,9 @@ from pathlib import Path
 
 from numba.core import caching, compiler, serialize, sigutils
 
-from hydro2d.files import replacing
+from hydro2d.files.strange import StrangeFile, own
+from hydro2d.files.whole import replacing
 from hydro2d.jit import cache
-from hydro2d.strange import StrangeFile, own
 
 #: the first word of every file, and its ending
 FORM, ENDING = b"hydro2d-code-1", ".code"

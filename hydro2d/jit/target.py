@@ -16,8 +16,8 @@ import llvmlite.binding
 import numba
 from numba.core import registry
 
-from hydro2d.errors import TargetError
-from hydro2d.terminal import say
+from hydro2d.base.errors import TargetError
+from hydro2d.base.terminal import say
 
 
 class Target(NamedTuple):

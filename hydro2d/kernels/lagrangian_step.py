@@ -8,21 +8,23 @@ from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.kernels import (
     acceleration,
     boundaries,
-    contact_checkerboard,
-    contact_geometry,
-    contact_motion,
-    contact_velocities,
-    contact_volumes,
     cracks,
     cut_cells,
     deformation,
-    extension,
     following,
     memory,
     mixed,
     momentum,
     sliding,
     thermodynamics,
+)
+from hydro2d.kernels.contact import (
+    contact_checkerboard,
+    contact_geometry,
+    contact_motion,
+    contact_velocities,
+    contact_volumes,
+    extension,
 )
 
 slip_zones = Phase(

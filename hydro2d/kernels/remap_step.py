@@ -4,18 +4,8 @@
 """
 
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
-from hydro2d.kernels import (
-    acceleration,
-    boundaries,
-    centroids,
-    column_ranges,
-    contact_motion,
-    contact_volumes,
-    edge_sums,
-    interfaces,
-    momentum,
-    remap,
-)
+from hydro2d.kernels import acceleration, boundaries, centroids, column_ranges, edge_sums, interfaces, momentum, remap
+from hydro2d.kernels.contact import contact_motion, contact_volumes
 
 carry_bodies = Phase(
     "carry_bodies",

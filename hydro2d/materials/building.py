@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from types import ModuleType
 
-from hydro2d import units
-from hydro2d.errors import unknown
+from hydro2d.base import units
+from hydro2d.base.errors import unknown
+from hydro2d.base.parameters import Parameter
+from hydro2d.files.toml import PARTS
 from hydro2d.materials.material import CONFIDENCE, FRACTURE, Material, Model, Number, solid_model
-from hydro2d.parameters import Parameter
-from hydro2d.toml import PARTS
 
 #: tables of numbers of a material: those of its models, and its melting line
 TABLES = (*PARTS, "melting")

@@ -14,6 +14,7 @@ from types import ModuleType
 import numpy as np
 
 from eos.layout import RHO0
+from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE
 from hydro2d.materials.contract_case import Broken, Case, require
 from hydro2d.materials.contract_eos import (
     derivatives,
@@ -40,7 +41,6 @@ from hydro2d.materials.contract_strength import (
 )
 from hydro2d.materials.outside import KINDS
 from hydro2d.materials.sesame import Table
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE
 
 
 def row(case: Case) -> None:
@@ -79,7 +79,7 @@ def refused(case: Case, values: Mapping[str, float], words: str) -> None:
     try:
         case.packed(values)
     except ValueError as error:
-        require(words in str(error), f"row says {error}, without {words}: use hydro2d.parameters.collect")
+        require(words in str(error), f"row says {error}, without {words}: use hydro2d.base.parameters.collect")
     else:
         raise Broken(f"row takes a parameter that is wrong ({words})")
 

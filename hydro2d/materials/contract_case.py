@@ -10,9 +10,9 @@ from types import ModuleType
 
 import numpy as np
 
+from hydro2d.base.parameters import Parameter
 from hydro2d.materials.outside import Kind
 from hydro2d.materials.sesame import Table
-from hydro2d.parameters import Parameter
 
 #: an ID that no model has
 NOBODY = 99

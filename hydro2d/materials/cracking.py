@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 
 if TYPE_CHECKING:
     from hydro2d.materials.material import Material

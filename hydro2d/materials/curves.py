@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.materials.material import Material
 
 #: temperature, K, of a material whose equation of state has no initial temperature; longest step in plastic strain

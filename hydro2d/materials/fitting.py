@@ -17,11 +17,11 @@ from types import ModuleType
 
 import numpy as np
 
-from hydro2d.errors import DeckError, unknown
-from hydro2d.files import read_text
+from hydro2d.base.errors import DeckError, unknown
+from hydro2d.base.parameters import NON_NEGATIVE
+from hydro2d.files.whole import read_text
 from hydro2d.materials import curves
 from hydro2d.materials.material import Material
-from hydro2d.parameters import NON_NEGATIVE
 from strength import STRENGTH_MODELS
 
 #: possible columns of a file of points

@@ -8,17 +8,17 @@ import sys
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 
+from hydro2d.base.parameters import Parameter
+from hydro2d.base.parsing import parsed
 from hydro2d.mesh import quantities
 from hydro2d.mesh.fields import Field
-from hydro2d.parameters import Parameter
-from hydro2d.parsing import parsed
 
 #: texts that each model has
 WORDS = ("NAME", "EQUATION", "SOURCE", "VALIDITY")
 #: keys of a model's table in a deck that cannot be parameters
 KEYS = ("model", "file", "code", "code_from", "source", "confidence", "note")
 #: modules of hydro2d that models use, in addition to those of their own package
-GROUND = ("hydro2d.jit", "hydro2d.parameters", "hydro2d.mesh.fields")
+GROUND = ("hydro2d.jit", "hydro2d.base.parameters", "hydro2d.mesh.fields")
 
 
 def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
@@ -76,7 +76,7 @@ def _constants(module: ModuleType, kind) -> Iterator[str]:
 def _parameters(module: ModuleType, kind) -> Iterator[str]:
     given = getattr(module, "PARAMETERS", None)
     if not isinstance(given, tuple) or not all(isinstance(entry, Parameter) for entry in given):
-        yield "needs PARAMETERS, a tuple of hydro2d.parameters.Parameter"
+        yield "needs PARAMETERS, a tuple of hydro2d.base.parameters.Parameter"
         return
     names = [entry.name for entry in given]
     for name in names:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro2d.errors import DeckError
-from hydro2d.files import read_text
-from hydro2d.toml import model_tables
+from hydro2d.base.errors import DeckError
+from hydro2d.files.toml import model_tables
+from hydro2d.files.whole import read_text
 
 Complaint = Callable[[tuple, str], DeckError]
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 
-from hydro2d.errors import DeckError, Sources, unknown
+from hydro2d.base.errors import DeckError, unknown
+from hydro2d.files.lines import Sources
+from hydro2d.files.shipped import problems_folder
+from hydro2d.files.toml import PARTS, merge, parse
 from hydro2d.materials.building import ABOUT, CHOICE, TABLES, Fail, build
 from hydro2d.materials.material import CONFIDENCE, FRACTURE, Material, Model, Number
 from hydro2d.materials.slots import MaterialTable, resolve
-from hydro2d.toml import PARTS, merge, parse, problems_folder
 
 __all__ = [
     "CONFIDENCE",

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from hydro2d.errors import unknown
-from hydro2d.toml import PARTS
+from hydro2d.base.errors import unknown
+from hydro2d.files.toml import PARTS
 
 if TYPE_CHECKING:
     from hydro2d.materials.outside import Outside

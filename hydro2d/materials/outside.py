@@ -21,8 +21,8 @@ import eos.registry
 import strength.registry
 from eos.layout import ROW as EOS_ROW
 from hydro2d import jit
-from hydro2d.errors import DeckError
-from hydro2d.files import read_text
+from hydro2d.base.errors import DeckError
+from hydro2d.files.whole import read_text
 from hydro2d.materials import form
 from hydro2d.mesh import quantities
 from strength.layout import DAMAGE_ROW

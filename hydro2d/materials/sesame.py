@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.toml import MOST_TEXT
+from hydro2d.files.toml import MOST_TEXT
 
 #: the units of the table in SI: Mg/m^3, GPa, MJ/kg
 DENSITY, PRESSURE, ENERGY = 1e3, 1e9, 1e6

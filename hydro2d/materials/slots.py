@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over, require_that_it_fails
 from hydro2d.materials.material import Material, Model, solid_model
 from hydro2d.mesh.fields import INTERNAL, Field

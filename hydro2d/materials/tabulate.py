@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 
 from eos.layout import RHO0
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.materials.material import Material
 from hydro2d.materials.sesame import Table
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
 
 from hydro2d.mesh.station_columns import QUANTITIES as OF_STATIONS
 
@@ -149,3 +152,23 @@ def names(bodies: Iterable[str], stations: Iterable[str], penetrates: bool) -> l
         columns += [name for name in QUANTITIES if name not in WORDS]
         columns += [f"crater_{key}" for key in CRATER]
     return columns
+
+
+class Debris(NamedTuple):
+    """Debris behind a target. Arrays by body have a column for each name in ``bodies``; SI, whole circumference.
+
+    bodies : those that it is made of
+    speeds, by_speed : edges of the bins of axial speed along the flight (n + 1,), and the mass in them (n, bodies)
+    angles, by_angle : edges of the bins of the angle to the axis, rad (n + 1,), and the mass in them (n, bodies)
+    fragments : FRAGMENTS of each, (k, 5), the heaviest first;  kinds : number in ``bodies`` of the main body of each, (k,)
+    totals : DEBRIS by name
+    """
+
+    bodies: list[str]
+    speeds: np.ndarray
+    by_speed: np.ndarray
+    angles: np.ndarray
+    by_angle: np.ndarray
+    fragments: np.ndarray
+    kinds: np.ndarray
+    totals: dict[str, float | int | None]

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from eos.registry import BESIDE, MODULES
-from hydro2d.errors import Error, unknown
+from hydro2d.base.errors import Error, unknown
 from hydro2d.mesh.fields import Field
 from strength.registry import STRENGTH_MODULES
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from hydro2d.errors import Error
+from hydro2d.base.errors import Error
 
 #: largest ratio of a value to its compressed size: that of gzip is 1032, that of LZ4 255
 RATIO = 1100

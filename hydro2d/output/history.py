@@ -19,21 +19,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d import checksums
-from hydro2d.errors import Error, from_extra
-from hydro2d.files import hdf5, replacing
-from hydro2d.mesh.measured import FRAGMENTS, in_file, unit
+from hydro2d.base.errors import Error, from_extra
+from hydro2d.base.terminal import cell
+from hydro2d.files import checksums
+from hydro2d.files.strange import own
+from hydro2d.files.whole import hdf5, replacing
+from hydro2d.mesh.measured import FRAGMENTS, Debris, in_file, unit
 from hydro2d.mesh.regime import REGIMES
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
-from hydro2d.strange import own
-from hydro2d.terminal import cell
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from hydro2d.solver.debris import Debris
 
 #: prefix of the groups of debris behind targets
 DEBRIS = "debris"

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.files import check_place, remove
+from hydro2d.files.locks import check_place, remove
+from hydro2d.files.strange import own_folder
 from hydro2d.output import derived, vtk
 from hydro2d.output.outlines import Filling
-from hydro2d.strange import own_folder
 
 
 def numbered(directory: Path, kind: str) -> list[tuple[int, Path]]:

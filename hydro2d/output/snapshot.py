@@ -17,11 +17,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import checksums
-from hydro2d.errors import Error
-from hydro2d.files import check_place, hdf5, replacing, sync
+from hydro2d.base.errors import Error
+from hydro2d.files import checksums
+from hydro2d.files.locks import check_place
+from hydro2d.files.strange import own
+from hydro2d.files.whole import hdf5, replacing, sync
 from hydro2d.output import foreign
-from hydro2d.strange import own
 
 FORMAT = "hydro2d restart 7"
 NAME, PREVIOUS = "restart.h5", "restart.previous.h5"

@@ -18,9 +18,9 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from hydro2d import checksums
-from hydro2d.errors import Error, unknown
-from hydro2d.files import replacing, write_text
+from hydro2d.base.errors import Error, unknown
+from hydro2d.files import checksums
+from hydro2d.files.whole import replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import derived, foreign

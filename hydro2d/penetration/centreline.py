@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE
+from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE
 from hydro2d.penetration.model import InputError, complain, positive
 
 #: the penetration ends when the interface is no faster than this, m/s, or than this share of its initial velocity

@@ -17,7 +17,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.parameters import ANY, NON_NEGATIVE
+from hydro2d.base.parameters import ANY, NON_NEGATIVE
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output, complain, non_negative, positive
 

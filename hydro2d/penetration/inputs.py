@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydro2d.parameters import ANY, FRACTION, NON_NEGATIVE
+from hydro2d.base.parameters import ANY, FRACTION, NON_NEGATIVE
 from hydro2d.penetration.model import Input
 
 ROD_DENSITY = Input("rod.density", "kg/m^3", "density of the rod", "rho_p")

@@ -10,9 +10,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from hydro2d import units
-from hydro2d.errors import unknown
-from hydro2d.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Required, check_sign, collect
+from hydro2d.base import units
+from hydro2d.base.errors import unknown
+from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Required, check_sign, collect
 
 
 class InputError(ValueError):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.parameters import FRACTION
+from hydro2d.base.parameters import FRACTION
 from hydro2d.penetration.model import InputError, complain, non_negative, positive
 
 #: ratios of head to rod area between which the fold is sought, the largest one tried, and the growth factor of the search

@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.parameters import NON_NEGATIVE
+from hydro2d.base.parameters import NON_NEGATIVE
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
 

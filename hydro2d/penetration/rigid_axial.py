@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.parameters import NON_NEGATIVE
+from hydro2d.base.parameters import NON_NEGATIVE
 from hydro2d.penetration import inputs
 from hydro2d.penetration.cavity import given_or_fitted
 from hydro2d.penetration.forrestal import NOSE_ENTRY, SHOT

@@ -16,7 +16,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.parameters import ANY
+from hydro2d.base.parameters import ANY
 from hydro2d.penetration import inputs
 from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
 from hydro2d.penetration.layers import Layer, Target, stack

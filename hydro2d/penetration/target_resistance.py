@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from hydro2d.parameters import FRACTION, NON_NEGATIVE
+from hydro2d.base.parameters import FRACTION, NON_NEGATIVE
 from hydro2d.penetration import inputs
 from hydro2d.penetration.model import Example, Input, InputError, Model, Output, complain, positive
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import children
-from hydro2d.files import replacing
+from hydro2d.base import children
+from hydro2d.files.whole import replacing
 from hydro2d.output.vtk import Dump
 from hydro2d.results.figures import Shown, body_colours, chosen, cropped
 from hydro2d.results.scales import LINEAR, FigureError

@@ -5,12 +5,12 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from hydro2d.files import replacing
+from hydro2d.files.strange import own, own_folder, within
+from hydro2d.files.whole import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history, vtk
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.running.run import HISTORY
-from hydro2d.strange import own, own_folder, within
 
 
 def names(dump: vtk.Dump, keys) -> list[str]:

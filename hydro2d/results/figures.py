@@ -13,14 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.errors import unknown
-from hydro2d.files import replacing
+from hydro2d.base.errors import unknown
+from hydro2d.base.terminal import shown
+from hydro2d.files.whole import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump
 from hydro2d.results.scales import LINEAR, FigureError, Scale
-from hydro2d.terminal import shown
 
 #: units for the reader: name, and how many of them make one SI unit
 READER = {

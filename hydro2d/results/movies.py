@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.errors import unknown
-from hydro2d.files import replacing
+from hydro2d.base.errors import unknown
+from hydro2d.files.whole import replacing
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.scales import LINEAR, FigureError, balanced

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d import checksums, toml
-from hydro2d.deck import keys
-from hydro2d.errors import Error
+from hydro2d.base.errors import Error
+from hydro2d.base.terminal import shown
+from hydro2d.deck import key_messages
+from hydro2d.files import checksums, toml
+from hydro2d.files.strange import within
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.summaries import summary_of
 from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.running.run import DECK, HISTORY, STUDY, check_own
-from hydro2d.strange import within
-from hydro2d.terminal import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -81,7 +81,7 @@ class Results:
         """
         from hydro2d.deck import deck as decks
 
-        return decks.loads(toml.dumps(keys.renewed(copy.deepcopy(self.tables))), name=self.label, trust=self.trust)
+        return decks.loads(toml.dumps(key_messages.renewed(copy.deepcopy(self.tables))), name=self.label, trust=self.trust)
 
     @property
     def label(self) -> str:
@@ -184,7 +184,7 @@ class Results:
         from hydro2d.deck import deck as decks
 
         saved, _ = snapshot.read_latest(self.directory)
-        text = toml.dumps(keys.renewed(tomllib.loads(saved.deck)))
+        text = toml.dumps(key_messages.renewed(tomllib.loads(saved.deck)))
         deck = decks.loads(text, trust=self.trust)  # before the kernels are loaded: it may have outside models
         for material in deck.materials.values():
             material.from_outside()  # refuses models that are not trusted

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.errors import Error, unknown
+from hydro2d.base.errors import Error, unknown
 
 #: largest number of powers of ten on a logarithmic scale, unless its range is given
 DECADES = 6

@@ -8,8 +8,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from hydro2d.errors import Error
-from hydro2d.files import read_json
+from hydro2d.base.errors import Error
+from hydro2d.files.whole import read_json
 from hydro2d.running.run import DECK, PROGRESS, SUMMARY, deck_hash
 
 #: keys with words, lists of words, tables, and yes or no

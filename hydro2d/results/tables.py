@@ -11,14 +11,14 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from hydro2d.errors import unknown
-from hydro2d.files import replacing
+from hydro2d.base.errors import unknown
+from hydro2d.base.terminal import cell, shown
+from hydro2d.files.whole import replacing
 from hydro2d.output import history
 from hydro2d.results import figures, lines
 from hydro2d.results.figures import HISTORIES, reader_unit
 from hydro2d.results.lines import Line
 from hydro2d.results.scales import FigureError
-from hydro2d.terminal import cell, shown
 
 #: file ending of a table
 ENDING = ".csv"

@@ -6,10 +6,10 @@ from importlib import metadata
 
 import numpy as np
 
-from hydro2d.errors import Error, unknown
+from hydro2d.base.errors import Error, unknown
+from hydro2d.base.terminal import shown
 from hydro2d.output import history
 from hydro2d.results.figures import reader_unit
-from hydro2d.terminal import shown
 
 #: columns drawn for a run with a projectile and a target, and for the first body of any other run
 OF_PROJECTILE, OF_BODY = ("penetration_depth_m", "rod_tail_velocity_m_s"), ("velocity_m_s", "z_max_m")

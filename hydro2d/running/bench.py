@@ -19,14 +19,15 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import jit, moving
-from hydro2d.compilation import announced
+from hydro2d import jit
+from hydro2d.base import moving
+from hydro2d.base.interrupt import Interrupt
+from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
-from hydro2d.interrupt import Interrupt
+from hydro2d.jit.compilation import announced
 from hydro2d.kernels.triad import triad
 from hydro2d.running import bench_compilation, provenance, reporting, run
 from hydro2d.solver.simulation import Simulation
-from hydro2d.terminal import duration, say, several
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
 TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7

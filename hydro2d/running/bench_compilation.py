@@ -15,12 +15,13 @@ import tempfile
 import time
 from collections.abc import Sequence
 
-from hydro2d import children, jit
+from hydro2d import jit
+from hydro2d.base import children
+from hydro2d.base.errors import Error
+from hydro2d.base.terminal import say
 from hydro2d.deck import deck as decks
-from hydro2d.errors import Error
+from hydro2d.files.shipped import problems_folder
 from hydro2d.solver.first_cycle import calls_of_a_cycle
-from hydro2d.terminal import say
-from hydro2d.toml import problems_folder
 
 #: the first shot of the README
 DECK = "cth_nose_shape/hemi_5083_1086_quick.toml"

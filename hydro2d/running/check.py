@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydro2d.base.errors import DeckError
+from hydro2d.base.terminal import duration, one_line, several
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.base import EDGES
@@ -17,7 +18,6 @@ from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.physics.waves import STABLE
 from hydro2d.solver import insertion, memory, sources
-from hydro2d.terminal import duration, one_line, several
 
 #: motion of a body at rest
 AT_REST = (0.0, 0.0), None

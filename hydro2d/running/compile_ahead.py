@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import sys
 
+from hydro2d.base.terminal import say
 from hydro2d.deck import deck as decks
 from hydro2d.solver.first_cycle import calls_of_a_cycle
-from hydro2d.terminal import say
 
 
 def main() -> None:

@@ -11,15 +11,16 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from hydro2d import jit, moving
-from hydro2d.compilation import announced
+from hydro2d import jit
+from hydro2d.base import moving
+from hydro2d.base.errors import TargetError
+from hydro2d.base.terminal import say
 from hydro2d.deck import deck as decks
-from hydro2d.errors import TargetError
-from hydro2d.files import write_json
+from hydro2d.files.shipped import problems_folder
+from hydro2d.files.whole import write_json
 from hydro2d.jit import cache, store, target
+from hydro2d.jit.compilation import announced
 from hydro2d.running import run
-from hydro2d.terminal import say
-from hydro2d.toml import problems_folder
 
 #: decks that together call every kernel: contact; tracers and a mesh that moves; light points of an explosive; a slip layer
 DECKS = ("cth_nose_shape/hemi_5083_1086_quick", "spall/flyer", "explosives/sandwich", "verification/translation")

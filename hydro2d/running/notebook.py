@@ -6,7 +6,7 @@ import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from hydro2d.moving import Page
+from hydro2d.base.moving import Page
 from hydro2d.running.progress import TABLE_SECONDS, Report, values
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from hydro2d.errors import Error
+from hydro2d.base.errors import Error
 
 
 @contextmanager

@@ -14,13 +14,13 @@ from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime
 from typing import NamedTuple, TypeVar
 
-from hydro2d.interrupt import lose_output
+from hydro2d.base.interrupt import lose_output
+from hydro2d.base.moving import LINE_SECONDS
+from hydro2d.base.terminal import duration, one_line, say
 from hydro2d.mesh.measured import unit
-from hydro2d.moving import LINE_SECONDS
 from hydro2d.output.history import Columns
 from hydro2d.running import ending, residual
 from hydro2d.running.ending import End
-from hydro2d.terminal import duration, one_line, say
 
 T = TypeVar("T")
 

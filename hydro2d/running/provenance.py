@@ -12,7 +12,7 @@ from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
-from hydro2d import __version__
+from hydro2d.base.version import __version__
 
 PACKAGES = (
     "numpy", "numba", "llvmlite", "h5py", "vtk", "pyvista", "matplotlib", "pydantic", "pint", "cyclopts", "rich",

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from hydro2d.moving import is_notebook
+from hydro2d.base.moving import is_notebook
+from hydro2d.files.strange import opened
 from hydro2d.running.notebook import Notebook
 from hydro2d.running.progress import Live, Report
-from hydro2d.strange import opened
 
 
 def _kind() -> type[Report]:

@@ -25,13 +25,16 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from hydro2d import __version__
-from hydro2d import interrupt as interrupts
+from hydro2d.base import interrupt as interrupts
+from hydro2d.base.errors import Error, UnphysicalState
+from hydro2d.base.interrupt import Interrupt, signals
+from hydro2d.base.method import METHOD
+from hydro2d.base.version import __version__
 from hydro2d.deck.warnings import warnings
-from hydro2d.errors import Error, UnphysicalState
-from hydro2d.files import locked, remove, write_json, write_text
-from hydro2d.interrupt import Interrupt, signals
-from hydro2d.method import METHOD
+from hydro2d.files.locks import locked, remove
+from hydro2d.files.strange import own
+from hydro2d.files.toml import model_tables
+from hydro2d.files.whole import write_json, write_text
 from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.series import Series, numbered
@@ -43,17 +46,15 @@ from hydro2d.running.reporting import reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
 from hydro2d.solver.record import ColumnError, check, row
-from hydro2d.strange import own
-from hydro2d.toml import model_tables
 
 if TYPE_CHECKING:
-    from hydro2d.compilation import Compilation
+    from hydro2d.jit.compilation import Compilation
 
 DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
-#: file in the directory of a study, see study/layout.py
+#: file in the directory of a study, see study/records/layout.py
 STUDY = "study.json"
 #: cycles between copies of the last good state in memory
 GOOD_EVERY = 100
@@ -511,8 +512,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
 
     Raises RunError, SnapshotError, LockError (another process uses the directory), StrangeFile.
     """
-    from hydro2d.compilation import announced
     from hydro2d.jit import threads
+    from hydro2d.jit.compilation import announced
 
     directory = Path(directory or deck.output.directory)
     interrupt = interrupt or Interrupt()

@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from hydro2d import jit
-from hydro2d.errors import Error
-from hydro2d.terminal import several
+from hydro2d.base.errors import Error
+from hydro2d.base.terminal import several
 
 #: cycles in a trial for each number of threads
 TRIAL = 5

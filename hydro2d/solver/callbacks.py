@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d import units
+from hydro2d.base import units
 
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.kernels import extension, lagrangian_step
+from hydro2d.kernels import lagrangian_step
+from hydro2d.kernels.contact import extension
 from hydro2d.solver.audit import Audit
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from hydro2d.mesh.measured import FRAGMENTS
+from hydro2d.mesh.measured import FRAGMENTS, Debris
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB
 
@@ -14,26 +12,6 @@ from hydro2d.physics.centroids import CRUMB
 SPEEDS, ANGLES = 40, 36
 #: the share of the mass that flies within the cone, and the share that is faster than the leading velocity
 CONE, LEADING = 0.9, 0.01
-
-
-class Debris(NamedTuple):
-    """Debris behind a target. Arrays by body have a column for each name in ``bodies``; SI, whole circumference.
-
-    bodies : those that it is made of
-    speeds, by_speed : edges of the bins of axial speed along the flight (n + 1,), and the mass in them (n, bodies)
-    angles, by_angle : edges of the bins of the angle to the axis, rad (n + 1,), and the mass in them (n, bodies)
-    fragments : FRAGMENTS of each, (k, 5), the heaviest first;  kinds : number in ``bodies`` of the main body of each, (k,)
-    totals : measured.DEBRIS by name
-    """
-
-    bodies: list[str]
-    speeds: np.ndarray
-    by_speed: np.ndarray
-    angles: np.ndarray
-    by_angle: np.ndarray
-    fragments: np.ndarray
-    kinds: np.ndarray
-    totals: dict[str, float | int | None]
 
 
 def find(sim, crater, later: list[int]) -> Debris:

@@ -15,8 +15,8 @@ from itertools import islice
 
 import numpy as np
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck.shapes import Outline, Slab, outline
-from hydro2d.errors import DeckError
 
 #: equation of state of material that has a pressure at any density
 GAS = "ideal-gas"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.mesh.grid import GHOSTS
 from hydro2d.mesh.state import bytes_needed

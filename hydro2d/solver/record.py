@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from hydro2d.errors import Error
+from hydro2d.base.errors import Error
 from hydro2d.mesh.measured import SHORT
 from hydro2d.mesh.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.errors import UnphysicalState
+from hydro2d.base.errors import UnphysicalState
 
 
 class Refusals:

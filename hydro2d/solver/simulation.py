@@ -7,21 +7,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d import compilation, units
+from hydro2d.base import units
+from hydro2d.base.errors import UnphysicalState, unknown
+from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.deck import deck as decks
 from hydro2d.deck import derived
-from hydro2d.errors import UnphysicalState, unknown
-from hydro2d.interrupt import Interrupt, signals
+from hydro2d.jit import compilation
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
+from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
 from hydro2d.solver import bodies, debris, insertion, reach
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
-from hydro2d.solver.debris import Debris
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large

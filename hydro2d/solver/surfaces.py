@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import FILLED
 from hydro2d.solver import bodies, tracers

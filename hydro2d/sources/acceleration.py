@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from hydro2d.deck.curves import AccelerationOverTime, integral
+from hydro2d.base.over_time import AccelerationOverTime, integral
 from hydro2d.sources.base import Source
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from hydro2d.deck.base import Interval, Name, Section
+from hydro2d.base.keys import Interval, Name, Section
 
 
 class Reached(NamedTuple):

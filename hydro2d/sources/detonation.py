@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from hydro2d import units
-from hydro2d.deck.base import PositiveNumber, PositiveSpeed
-from hydro2d.errors import DeckError
+from hydro2d.base import units
+from hydro2d.base.errors import DeckError
+from hydro2d.base.keys import PositiveNumber, PositiveSpeed
 from hydro2d.sources.base import Reached, Source
 
 #: equations of state that a detonation can burn, by name

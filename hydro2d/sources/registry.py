@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from hydro2d.deck.base import one_of
+from hydro2d.base.keys import one_of
 from hydro2d.sources.acceleration import Acceleration
 from hydro2d.sources.base import Source
 from hydro2d.sources.detonation import Detonation

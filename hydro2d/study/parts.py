@@ -8,18 +8,19 @@ from fnmatch import fnmatchcase
 from functools import cached_property
 from pathlib import Path
 
+from hydro2d.base.errors import DeckError
+from hydro2d.base.terminal import say, wrapped
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.running import check
 from hydro2d.running.progress import counted
-from hydro2d.study import cases, keeping
-from hydro2d.study.cases import Plan, Planned
-from hydro2d.study.choice import Choice
-from hydro2d.study.definition import Definition, Overrides, Part, StudyError, read
-from hydro2d.study.monitor import lines
-from hydro2d.study.scaling import Size
-from hydro2d.study.transition import choice_of
-from hydro2d.terminal import say, wrapped
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.cases import Plan, Planned
+from hydro2d.study.plan.definition import Definition, Overrides, Part, StudyError, read
+from hydro2d.study.plan.scaling import Size
+from hydro2d.study.records import keeping
+from hydro2d.study.run.choice import Choice
+from hydro2d.study.run.monitor import lines
+from hydro2d.study.search.transition import choice_of
 
 HEADS = ("part", "runs", "up to date", "stale", "to run", "core hours", "MB")
 

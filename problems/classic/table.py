@@ -18,8 +18,8 @@ from pathlib import Path
 from hydro2d.output.history import HistoryError
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.solver.audit import CLIPS
-from hydro2d.study import layout
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import StudyError
 from problems import kept
 
 ADVECTION = ("ke", "momentum", "both")

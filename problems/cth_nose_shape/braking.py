@@ -20,12 +20,12 @@ from pathlib import Path
 
 import numpy as np
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import mesh
-from hydro2d.errors import DeckError
 from hydro2d.output.history import HistoryError
 from hydro2d.results import reading
-from hydro2d.study import layout
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import StudyError
 from problems import kept as results
 
 HERE = Path(__file__).parent

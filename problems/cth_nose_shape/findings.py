@@ -18,9 +18,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from statistics import fmean, median, stdev
 
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.results import figures
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records.layout import StudyError
 from problems.cth_nose_shape import members, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 

@@ -17,10 +17,10 @@ import sys
 from pathlib import Path
 from statistics import median
 
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.results import figures
-from hydro2d.study import chance
-from hydro2d.study.layout import StudyError
+from hydro2d.study.ensemble import chance
+from hydro2d.study.records.layout import StudyError
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import COLOURS, PLATE, Result, Shot
 

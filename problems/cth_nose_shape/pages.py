@@ -14,8 +14,8 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro2d.files import write_text
-from hydro2d.study import keeping
+from hydro2d.files.whole import write_text
+from hydro2d.study.records import keeping
 from problems.cth_nose_shape import findings, members, rigid_rod, transitions
 
 HERE = Path(__file__).parent

@@ -20,13 +20,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hydro2d.analytic import model_transition
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
+from hydro2d.base.terminal import several
 from hydro2d.mesh.regime import LEAST_KEPT
-from hydro2d.study import bisection, keeping, layout
-from hydro2d.study.layout import StudyError
-from hydro2d.study.regimes import DEPTHS, KEPT, NOT_DEEPER, USED_UP, by_depth
-from hydro2d.study.velocities import speed
-from hydro2d.terminal import several
+from hydro2d.study.plan.velocities import speed
+from hydro2d.study.records import keeping, layout
+from hydro2d.study.records.layout import StudyError
+from hydro2d.study.search import bisection
+from hydro2d.study.search.regimes import DEPTHS, KEPT, NOT_DEEPER, USED_UP, by_depth
 
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")

@@ -12,8 +12,10 @@ import sys
 from pathlib import Path
 
 from hydro2d.mesh.regime import LEAST_KEPT
-from hydro2d.study import keeping, layout, logit, velocities
-from hydro2d.study.layout import StudyError
+from hydro2d.study.plan import velocities
+from hydro2d.study.records import keeping, layout
+from hydro2d.study.records.layout import StudyError
+from hydro2d.study.search import logit
 from problems.kept import grouped
 
 HERE = Path(__file__).parent

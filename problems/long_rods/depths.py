@@ -25,14 +25,14 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d import units
 from hydro2d.analytic import model_deck, models
-from hydro2d.errors import DeckError
+from hydro2d.base import units
+from hydro2d.base.errors import DeckError
 from hydro2d.penetration.model import InputError
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
-from hydro2d.study import layout
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import StudyError
 from problems import kept
 
 HERE = Path(__file__).parent

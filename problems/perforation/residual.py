@@ -19,9 +19,9 @@ import numpy as np
 from hydro2d.penetration import lambert_jonas
 from hydro2d.penetration.model import InputError
 from hydro2d.results import figures
-from hydro2d.study import layout
-from hydro2d.study.layout import StudyError
-from hydro2d.study.record import Record
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import StudyError
+from hydro2d.study.records.record import Record
 
 COLOURS = {"blunt": "#1f4e79", "hemispherical": "#b5651d"}
 

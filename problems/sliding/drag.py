@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from hydro2d.analytic import model_deck, models
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.output.history import HistoryError
 from hydro2d.results import reading
 

@@ -21,8 +21,8 @@ from scipy.integrate import solve_ivp
 
 import eos
 from eos.dispatch import evaluate
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.mesh import quantities
 from hydro2d.output import vtk
 from hydro2d.results import reading

@@ -13,7 +13,7 @@ import numpy as np
 
 from hydro2d.results import figures
 from hydro2d.results.scales import FigureError
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records.layout import StudyError
 from problems import kept
 from problems.verification.accuracy import BY_NAME, Problem
 from problems.verification.table import CURVE_COLUMNS, CURVES

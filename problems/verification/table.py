@@ -16,8 +16,8 @@ import time
 from pathlib import Path
 
 import hydro2d
-from hydro2d.errors import Error, UnphysicalState
-from hydro2d.files import write_json
+from hydro2d.base.errors import Error, UnphysicalState
+from hydro2d.files.whole import write_json
 from hydro2d.solver.simulation import Simulation
 from problems import kept
 from problems.verification.accuracy import BY_NAME, FOLDER, PROBLEMS, Problem

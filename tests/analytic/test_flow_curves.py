@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
-from hydro2d.errors import DeckError
 from hydro2d.materials import curves, library
 from strength import STRENGTH_MODELS
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.cli import info, words
 from hydro2d.cli.main import call
-from hydro2d.errors import DeckError
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 #: a word, and what its page must say

@@ -3,7 +3,7 @@
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.study.monitor import lines
+from hydro2d.study.run.monitor import lines
 from tests.rules import source
 from tests.running.test_progress import recorded
 from tests.study import fake

@@ -7,9 +7,9 @@ import pytest
 
 import eos
 import strength
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter
 from hydro2d.materials import contract, contract_strength, tabulate
 from hydro2d.materials.outside import KINDS
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter
 from strength import dispatch, tensile_pressure
 
 SOLID = {

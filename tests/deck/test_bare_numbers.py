@@ -2,10 +2,10 @@
 
 import pytest
 
-from hydro2d import units
+from hydro2d.base import units
 from hydro2d.deck import deck
-from hydro2d.study import cases
-from hydro2d.study.definition import StudyError
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.definition import StudyError
 
 TEXT = """\
 title = "a flyer"

@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydro2d.deck import deck, keys
+from hydro2d.base.errors import nearest
+from hydro2d.deck import deck, key_messages
 from hydro2d.deck.mesh import axis_edges
-from hydro2d.errors import line_of, nearest
+from hydro2d.files.lines import line_of
 
 TEXT = """\
 title = "a rod and a plate"
@@ -332,14 +333,14 @@ def test_wrong_overrides(override, fragment):
 def test_a_resolved_deck_of_an_older_version_gets_the_keys_of_today():
     now = tomllib.loads(deck.loads(TEXT).to_toml())
     old = copy.deepcopy(now)
-    for before, after in keys.RENAMED.items():
+    for before, after in key_messages.RENAMED.items():
         (section, key), (place, name) = before.split("."), after.split(".")
         old[section][key] = old[place].pop(name)
     assert old != now
-    assert keys.renewed(old) == now
+    assert key_messages.renewed(old) == now
     del old["numbers"]
-    assert keys.renewed(old) == now
-    assert keys.renewed({"numerics": 3}) == {"numerics": 3, "numbers": "SI"}
+    assert key_messages.renewed(old) == now
+    assert key_messages.renewed({"numerics": 3}) == {"numerics": 3, "numbers": "SI"}
 
 
 def test_the_resolved_deck_is_complete_and_loads_to_the_same():

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from hydro2d.base.units import to_si
 from hydro2d.deck.expressions import DIMENSIONS, SPELLED, ExpressionError, in_words, parse
-from hydro2d.units import to_si
 
 KNOWN = {"depth": "m", "length0": "m", "u": "m/s", "energy": "J", "mass": "kg", "body_front plate_mass_kg": "kg", "ratio": "1"}
 NUMBERS = dict(zip(KNOWN, (0.03, 0.06, 800.0, 4.0, 2.0, 0.5, 3.0), strict=True))

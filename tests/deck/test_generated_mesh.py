@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.study import members, meshes
+from hydro2d.study.plan import members, meshes
 
 ROD = """
 [[body]]

@@ -6,11 +6,11 @@ import tomllib
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError, nearest, unknown
 from hydro2d.cli.main import call
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError, nearest, unknown
 from hydro2d.running import run
-from hydro2d.study import definition
+from hydro2d.study.plan import definition
 from tests.solver.test_sanity import TEXT
 
 TRACED = TEXT + '''

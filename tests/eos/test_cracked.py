@@ -5,8 +5,8 @@ import pytest
 
 from eos import cracked, dispatch, mie_grueneisen
 from eos.layout import SOLID_AT
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from tests.decks import box, material, mesh, stop, table
 

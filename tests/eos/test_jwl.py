@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 from eos import jwl
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from hydro2d.materials import library, slots
 
 TNT = {"reference_density": 1630.0, "A": 371.2e9, "B": 3.231e9, "R1": 4.15, "R2": 0.95, "omega": 0.30,

@@ -7,8 +7,8 @@ import pytest
 
 from eos import dispatch, ideal_gas, mie_grueneisen, p_alpha
 from eos.layout import RHO0, SOLID_AT
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.materials import library
 
 SOLID = {"sound_speed": 5350.0, "hugoniot_slope": 1.34, "grueneisen": 2.0, "specific_heat": 890.0}

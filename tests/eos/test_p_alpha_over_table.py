@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 
 from eos import cracked, dispatch, mie_grueneisen, p_alpha, tabular
 from eos.layout import RHO0, SOLID_AT
+from hydro2d.base.errors import DeckError, UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError, UnphysicalState
 from hydro2d.materials import library, sesame, tabulate
 from hydro2d.solver.simulation import Simulation
 

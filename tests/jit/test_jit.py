@@ -93,7 +93,7 @@ def test_constants_of_any_folder_are_among_the_sources():
     """A kernel of the solver once kept old columns: their file next to it was not in the hash."""
     assert "hydro2d/mesh/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
     assert "hydro2d/mesh/fields.py" in seen_by("hydro2d/kernels/remap.py")
-    assert not {"hydro2d/__init__.py", "hydro2d/files.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
+    assert not {"hydro2d/__init__.py", "hydro2d/files/whole.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
 
 
 #: features that numba does not promise to keep: (object, attribute, words that its signature must have)
@@ -164,7 +164,7 @@ def test_an_edit_compiles_again_what_can_see_it_and_nothing_else():
     assert {"deformation", "mixed"} <= sees_strength
     assert not sees_strength & {"remap", "momentum", "interfaces", "contact_geometry", "contact_motion", "contact_velocities",
                                 "contact_volumes", "acceleration", "sliding", "column_ranges", "following", "boundaries"}
-    assert "hydro2d/physics/interfaces.py" in seen_by("hydro2d/kernels/contact_volumes.py")
+    assert "hydro2d/physics/interfaces.py" in seen_by("hydro2d/kernels/contact/contact_volumes.py")
     assert "hydro2d/physics/interfaces.py" not in seen_by("hydro2d/kernels/momentum.py")
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from hydro2d.errors import TargetError
+from hydro2d.base.errors import TargetError
 from hydro2d.jit import cache, target
 from hydro2d.running import compile_all
 from tests.jit.test_store import PROGRAM

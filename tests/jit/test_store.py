@@ -11,7 +11,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from hydro2d import files
+from hydro2d.files import locks
 from hydro2d.jit import cache, options, store
 from tests import error_output
 from tests.disk import Disk
@@ -270,5 +270,5 @@ def test_a_file_system_that_is_full(size, tmp_path):
 
 def test_a_turn_is_nobodys_where_no_file_can_be_made(tmp_path):
     (tmp_path / "file").write_text("")
-    with files.turn(tmp_path / "file" / "a.lock"):
+    with locks.turn(tmp_path / "file" / "a.lock"):
         pass

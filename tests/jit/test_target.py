@@ -9,8 +9,8 @@ import llvmlite.binding
 import numba
 import pytest
 
-from hydro2d.errors import TargetError
-from hydro2d.files import write_json
+from hydro2d.base.errors import TargetError
+from hydro2d.files.whole import write_json
 from hydro2d.jit import cache, target
 from tests import error_output
 from tests.jit import test_store

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.kernels import acceleration, boundaries, column_ranges, contact_motion, remap
+from hydro2d.kernels import acceleration, boundaries, column_ranges, remap
+from hydro2d.kernels.contact import contact_motion
 from tests.kernels.cells import handle
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from hydro2d import jit
 from hydro2d.deck import deck
-from hydro2d.kernels import contact_motion, extension
+from hydro2d.kernels.contact import contact_motion, extension
 from hydro2d.mesh import state
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.cells import source

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import contact_checkerboard as kernels
+from hydro2d.kernels.contact import contact_checkerboard as kernels
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import Grid
 from tests.kernels.cells import handle

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import contact_volumes, interfaces
-from hydro2d.kernels.contact_volumes import OTHERS, contact_fluxes, contact_shares
+from hydro2d.kernels import interfaces
+from hydro2d.kernels.contact import contact_volumes
+from hydro2d.kernels.contact.contact_volumes import OTHERS, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
 from hydro2d.physics.contact import GAP
 from tests.kernels.cells import handle

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import contact_geometry, contact_velocities, momentum
-from hydro2d.kernels.contact_geometry import HARD_R, HARD_Z, REACH
-from hydro2d.kernels.contact_velocities import settle, warm_contact
-from hydro2d.kernels.contact_volumes import EVENING, even_out, warm_evened
+from hydro2d.kernels import momentum
+from hydro2d.kernels.contact import contact_geometry, contact_velocities
+from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z, REACH
+from hydro2d.kernels.contact.contact_velocities import settle, warm_contact
+from hydro2d.kernels.contact.contact_volumes import EVENING, even_out, warm_evened
+from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
-from hydro2d.kernels.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact import GAP

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import extension
-from hydro2d.kernels.contact_geometry import REACH
-from hydro2d.kernels.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
+from hydro2d.kernels.contact import extension
+from hydro2d.kernels.contact.contact_geometry import REACH
+from hydro2d.kernels.contact.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
 from hydro2d.mesh.grid import Grid
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump

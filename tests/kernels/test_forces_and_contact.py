@@ -6,9 +6,20 @@ In the contact the hard body fills columns 2 and 3, the soft one columns 5 and b
 import numpy as np
 import pytest
 
-from hydro2d.kernels import acceleration, contact_geometry, contact_motion, contact_volumes
-from hydro2d.kernels.contact_geometry import CONSTANT, HARD_FIRST, HARD_R, HARD_Z, LINE_R, LINE_Z, SHARE, SOFT_AFTER, SOFT_R
-from hydro2d.kernels.contact_motion import SEED
+from hydro2d.kernels import acceleration
+from hydro2d.kernels.contact import contact_geometry, contact_motion, contact_volumes
+from hydro2d.kernels.contact.contact_geometry import (
+    CONSTANT,
+    HARD_FIRST,
+    HARD_R,
+    HARD_Z,
+    LINE_R,
+    LINE_Z,
+    SHARE,
+    SOFT_AFTER,
+    SOFT_R,
+)
+from hydro2d.kernels.contact.contact_motion import SEED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from tests.kernels.cells import Cells

@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from hydro2d import toml
+from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
-from hydro2d.errors import DeckError
+from hydro2d.files import shipped
 from hydro2d.materials import curves, fitting, library
 from strength import STRENGTH_MODELS
 
@@ -191,7 +191,7 @@ def test_the_librarys_steels_against_measurements(hardness, rate, temperature, s
 
 
 #: the file of points of docs/how-to/fit-a-strength-model.md; arguments of a hardness, in addition to `--heated-from "100 /s"`
-POINTS = toml.problems_folder() / "materials" / "flow_stress_4340.txt"
+POINTS = shipped.problems_folder() / "materials" / "flow_stress_4340.txt"
 FITS = [
     (32, "johnson-cook", {}, 0.044, 0.108),
     (32, "zerilli-armstrong", {}, 0.048, 0.128),

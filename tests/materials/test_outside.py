@@ -6,11 +6,11 @@ import tomllib
 
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.materials import outside
 from hydro2d.running import run
-from hydro2d.study import cases
+from hydro2d.study.plan import cases
 from tests.materials.made_models import DECK, VOCE, python
 
 
@@ -137,7 +137,7 @@ def test_the_schema_takes_files():
 
 
 FIELD = 'INTERNAL = (Field("softness", "", "body", "1", 1, "mass", True, "how soft it is", 0.0, 1.0),)'
-INTERNAL = VOCE.replace("from hydro2d.parameters", "from hydro2d.mesh.fields import Field\nfrom hydro2d.parameters")
+INTERNAL = VOCE.replace("from hydro2d.base.parameters", "from hydro2d.mesh.fields import Field\nfrom hydro2d.base.parameters")
 INTERNAL = INTERNAL.replace("EXAMPLE", f"{FIELD}\nEXAMPLE", 1)
 
 

@@ -48,7 +48,7 @@ WRONG = [
     (VOCE, '"voce"', '"johnson-cook"', "the NAME 'johnson-cook' is taken by a strength model of hydro2d"),
     (VOCE, '"voce"', '"my model"', "the NAME 'my model' has blanks"),
     (VOCE, 'SOURCE = "Voce', 'SOURCE = "" #', "needs SOURCE, a text"),
-    (VOCE, "PARAMETERS = (", "PARAMETERS = (1.0,", "needs PARAMETERS, a tuple of hydro2d.parameters.Parameter"),
+    (VOCE, "PARAMETERS = (", "PARAMETERS = (1.0,", "needs PARAMETERS, a tuple of hydro2d.base.parameters.Parameter"),
     (VOCE, '"saturation", "Pa", 0.0', '"shear_modulus", "Pa", 0.0', "has the parameter shear_modulus twice"),
     (VOCE, '"saturation", "Pa", 0.0', '"code", "Pa", 0.0', "has a parameter 'code', which cannot be a key"),
     (VOCE, "def row(", "def rows(", "needs a function row(values)"),

@@ -8,9 +8,9 @@ import tomllib
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError, UnphysicalState
 from hydro2d.cli.main import app
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError, UnphysicalState
 from hydro2d.materials import library, sesame, tabulate
 from hydro2d.mesh.fields import DMG
 from hydro2d.running import run

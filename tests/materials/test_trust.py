@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 import hydro2d
-from hydro2d import toml
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
+from hydro2d.files import toml
 from hydro2d.materials.outside import ModelError
 from hydro2d.output import snapshot, vtk
-from hydro2d.study import contents, layout, record
+from hydro2d.study.ensemble import contents
+from hydro2d.study.records import layout, record
 from tests.materials.made_models import GAS, VOCE
 
 SHOT = "problems/cth_nose_shape/hemi_5083_1086.toml"

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from hydro2d.analytic import models
-from hydro2d.parameters import ANY, FRACTION, POSITIVE
+from hydro2d.base.parameters import ANY, FRACTION, POSITIVE
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.model import InputError, Model
 

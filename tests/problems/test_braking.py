@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d.study import cases
+from hydro2d.study.plan import cases
 from problems.cth_nose_shape import braking
 from tests.rules import source
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records.layout import StudyError
 from problems import kept
 
 

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from hydro2d.study import cases
+from hydro2d.study.plan import cases
 from problems.long_rods import depths
 from tests.rules import source
 

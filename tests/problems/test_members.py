@@ -4,8 +4,8 @@ from statistics import median
 
 import pytest
 
-from hydro2d.method import METHOD
-from hydro2d.study import keeping
+from hydro2d.base.method import METHOD
+from hydro2d.study.records import keeping
 from problems.cth_nose_shape import members, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 

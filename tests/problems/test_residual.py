@@ -7,7 +7,7 @@ import pytest
 
 from hydro2d import Deck
 from hydro2d.penetration import lambert_jonas
-from hydro2d.study import cases
+from hydro2d.study.plan import cases
 from problems.perforation import residual
 
 SHOTS = Path(residual.__file__).with_name("weldox_velocities.toml")

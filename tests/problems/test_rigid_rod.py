@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import pytest
 
+from hydro2d.base.method import METHOD
 from hydro2d.mesh.regime import DEFORMING, ERODING, RIGID, regime
-from hydro2d.method import METHOD
-from hydro2d.study import cases, keeping, layout
-from hydro2d.study.choice import Choice
-from hydro2d.study.scaling import Size
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.scaling import Size
+from hydro2d.study.records import keeping, layout
+from hydro2d.study.run.choice import Choice
 from problems import kept
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot

@@ -4,8 +4,9 @@ from collections import Counter
 
 import pytest
 
-from hydro2d.method import METHOD
-from hydro2d.study import cases, keeping
+from hydro2d.base.method import METHOD
+from hydro2d.study.plan import cases
+from hydro2d.study.records import keeping
 from problems.cth_nose_shape import transitions
 from tests.rules import source
 

@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from hydro2d import files
 from hydro2d.deck import deck
+from hydro2d.files import whole
 from hydro2d.output import vtk
 from hydro2d.running import run
 from problems.validation import bar
@@ -28,7 +28,7 @@ def filled(length, foot, shank=3.2e-3, low=0.0):
 def wrote(directory, bars, text=None, fields=("Volume Fraction for bar", "Plastic Strain of bar")):
     """A run directory, not ended, with dumps of bars by time in s."""
     (directory / vtk.FOLDER).mkdir(parents=True)
-    files.write_text(directory / run.DECK, text or deck.load(DECK).to_toml())
+    whole.write_text(directory / run.DECK, text or deck.load(DECK).to_toml())
     entries = []
     for number, (time, (share, strain)) in enumerate(bars.items()):
         entries.append((time, f"{vtk.FOLDER}/dump_{number:06d}.vtr"))

@@ -7,7 +7,7 @@ import pytest
 import xarray
 
 from hydro2d.deck import deck as decks
-from hydro2d.study import cases
+from hydro2d.study.plan import cases
 from problems import kept
 from problems.whipple import read
 from tests.rules import source

@@ -18,12 +18,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from hydro2d import jit, toml
+from hydro2d import jit
 from hydro2d.cli.main import app, call
 from hydro2d.deck import deck as decks
 from hydro2d.deck import templates
-from hydro2d.study import cases, cluster, parts
-from hydro2d.study.scaling import AS_IT_IS
+from hydro2d.files import toml
+from hydro2d.study import parts
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.scaling import AS_IT_IS
+from hydro2d.study.run import cluster
 from tests.rules import source
 
 #: cycles of a run, enough to make a hole

@@ -10,7 +10,7 @@ import tomllib
 import pytest
 from PIL import Image
 
-from hydro2d.units import to_si
+from hydro2d.base.units import to_si
 from problems.whipple import read
 from tests.rules import source
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.files import write_json, write_text
+from hydro2d.files.whole import write_json, write_text
 from hydro2d.output import history, vtk
 from hydro2d.output.station_arrays import KEYS
 from hydro2d.running.run import DECK, HISTORY, SUMMARY

@@ -12,7 +12,7 @@ from hydro2d.output import history, vtk
 from hydro2d.results import figures
 from hydro2d.results.reading import ResultsError
 from hydro2d.running.run import run as start
-from hydro2d.study import layout
+from hydro2d.study.records import layout
 from tests import fake
 
 

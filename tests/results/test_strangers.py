@@ -11,19 +11,20 @@ import numpy as np
 import pandas
 import pytest
 
-from hydro2d import toml
-from hydro2d.checksums import verified_text
+from hydro2d.base.errors import Error
 from hydro2d.cli.main import call
-from hydro2d.errors import Error
-from hydro2d.files import read_json, write_json
+from hydro2d.files import toml
+from hydro2d.files.checksums import verified_text
+from hydro2d.files.whole import read_json, write_json
 from hydro2d.mesh import quantities
 from hydro2d.output import datasets, history, vtk
 from hydro2d.results import standing
 from hydro2d.results.reading import Results
 from hydro2d.results.viewer import page
 from hydro2d.running.run import run
-from hydro2d.study import layout, monitor
-from hydro2d.study.table import to_csv
+from hydro2d.study.records import layout
+from hydro2d.study.records.table import to_csv
+from hydro2d.study.run import monitor
 from tests import fake
 from tests.cli.test_main import DECK
 from tests.locks import held

@@ -4,8 +4,9 @@ import pytest
 
 from hydro2d.analytic.model_transition import experiments
 from hydro2d.deck import deck
-from hydro2d.study import cases, parts
-from hydro2d.study.scaling import AS_IT_IS
+from hydro2d.study import parts
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.scaling import AS_IT_IS
 from tests.rules import source
 
 PROBLEMS = source.PROBLEMS

@@ -17,7 +17,7 @@ from pydantic import TypeAdapter
 import eos
 import hydro2d
 import strength
-from hydro2d import units
+from hydro2d.base import units
 from hydro2d.deck import bodies, deck, mesh_sections, sections
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities

@@ -103,7 +103,7 @@ def test_messages_and_pages_name_extras_that_there_are():
 
 
 def test_versions_agree():
-    from hydro2d import __version__
+    from hydro2d.base.version import __version__
 
     assert project()["project"]["version"] == __version__
     assert f"\nversion: {__version__}\n" in (source.ROOT / "CITATION.cff").read_text()

@@ -11,17 +11,24 @@ from tests.rules import source
 
 #: from the bottom to the top; a name represents itself and all modules inside it, and a * any text
 LAYERS = (
-    ("hydro2d.jit", "hydro2d.units", "hydro2d.files", "hydro2d.checksums", "hydro2d.strange", "hydro2d.parameters",
-     "hydro2d.errors", "hydro2d.toml", "hydro2d.interrupt", "hydro2d.children", "hydro2d.method", "hydro2d.parsing",
-     "hydro2d.terminal", "hydro2d.moving", "hydro2d.compilation"),
+    ("hydro2d.base",),
+    ("hydro2d.files",),
+    ("hydro2d.jit",),
     ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration", "hydro2d.problems"),
-    ("hydro2d.materials",),
-    ("hydro2d.physics", "hydro2d.deck", "hydro2d.sources"),
+    ("hydro2d.sources", "hydro2d.materials"),
+    ("hydro2d.physics", "hydro2d.deck"),
     ("hydro2d.kernels",),
-    ("hydro2d.solver", "hydro2d.output"),
+    ("hydro2d.output",),
+    ("hydro2d.solver",),
     ("hydro2d.running",),
     ("hydro2d.results",),
     ("hydro2d.analytic",),
+    ("hydro2d.study.plan",),
+    ("hydro2d.study.records",),
+    ("hydro2d.study.run",),
+    ("hydro2d.study.search",),
+    ("hydro2d.study.ensemble",),
+    ("hydro2d.study.report",),
     ("hydro2d.study",),
     ("hydro2d.api",),
     ("hydro2d.cli", "hydro2d.__main__"),
@@ -29,12 +36,12 @@ LAYERS = (
 OURS = ("hydro2d", "eos", "strength")
 #: packages that import these modules of hydro2d and no others
 NARROW = {
-    "eos": ("eos", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
-    "strength": ("strength", "hydro2d.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
+    "eos": ("eos", "hydro2d.base.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
+    "strength": ("strength", "hydro2d.base.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
                         "hydro2d.materials.rows", "eos", "strength"),
-    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.units", "hydro2d.parameters", "hydro2d.errors"),
+    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.base.units", "hydro2d.base.parameters", "hydro2d.base.errors"),
 }
 
 
@@ -100,9 +107,16 @@ def test_no_circles():
 
 def test_the_package_itself_imports_nothing_at_once():
     """``import hydro2d`` is instant; its names are imported when they are used."""
-    body = source.tree(source.modules()["hydro2d"]).body
-    at_once = ast.Module([node for node in body if isinstance(node, (ast.Import, ast.ImportFrom))], [])
-    assert {name.split(".")[0] for name, _ in source.imports(at_once, frozenset())} <= sys.stdlib_module_names
+    waiting, seen = ["hydro2d"], set()
+    while waiting:
+        name = waiting.pop()
+        seen.add(name)
+        body = source.tree(source.modules()[name]).body
+        at_once = ast.Module([node for node in body if isinstance(node, (ast.Import, ast.ImportFrom))], [])
+        imported = {other for other, _ in source.imports(at_once, frozenset(source.modules()))}
+        assert {other.split(".")[0] for other in imported} <= {"hydro2d", *sys.stdlib_module_names}
+        waiting += (imported & source.modules().keys()) - seen
+    assert seen == {"hydro2d", "hydro2d.base.start", "hydro2d.base.version"}
 
 
 @pytest.mark.parametrize(
@@ -131,13 +145,14 @@ def users(library: str) -> set[str]:
                    "hydro2d.jit.barrier", "hydro2d.jit.handle", "hydro2d.jit.phases")),
         ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
-        ("pint", ("hydro2d.units",)),
+        ("pint", ("hydro2d.base.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.materials.fitting", "hydro2d.solver.crater", "hydro2d.solver.debris",
                    "hydro2d.solver.reach", "hydro2d.output.outlines",
-                   "hydro2d.deck.mesh", "hydro2d.study.chance", "hydro2d.study.extrapolation", "hydro2d.study.logit")),
-        ("plotly", ("hydro2d.study.charts", "hydro2d.study.page")),
-        ("jinja2", ("hydro2d.study.page",)),
-        ("pandas", ("hydro2d.study.table", "hydro2d.api", "hydro2d.output.history")),
+                   "hydro2d.deck.mesh", "hydro2d.study.ensemble.chance", "hydro2d.study.ensemble.extrapolation",
+                   "hydro2d.study.search.logit")),
+        ("plotly", ("hydro2d.study.report.charts", "hydro2d.study.report.page")),
+        ("jinja2", ("hydro2d.study.report.page",)),
+        ("pandas", ("hydro2d.study.records.table", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact", "hydro2d.solver.following",
                              "hydro2d.solver.cycle", "hydro2d.solver.given", "hydro2d.solver.sanity", "hydro2d.solver.sources",
@@ -153,13 +168,13 @@ def test_only_these_import(library, allowed):
     [
         ("hydro2d.mesh.grid", "from hydro2d.solver.cycle import advance"),
         ("hydro2d.kernels.eos_sweep", "from hydro2d.mesh.state import State"),
-        ("eos.ideal_gas", "from hydro2d import units"),
+        ("eos.ideal_gas", "from hydro2d.base import units"),
         ("strength.steinberg_guinan", "import eos.dispatch"),
         ("hydro2d.penetration.tate", "def f():\n    from hydro2d.solver.simulation import Simulation"),
     ],
 )
 def test_a_forbidden_import_is_found(name, text):
-    known = frozenset({"hydro2d.units", "hydro2d.mesh.state", "hydro2d.solver.cycle", "hydro2d.solver.simulation",
+    known = frozenset({"hydro2d.base.units", "hydro2d.mesh.state", "hydro2d.solver.cycle", "hydro2d.solver.simulation",
                        "eos.dispatch"})
     assert breaches(name, source.imports(ast.parse(text), known)) != []
 

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from hydro2d.base.terminal import duration
 from hydro2d.deck import deck as decks
 from hydro2d.running import check
-from hydro2d.terminal import duration
 
 #: measured cycles of whole runs: a bar against a wall, a rod on a mesh that follows it, an eroding rod, a crater
 CYCLES = [

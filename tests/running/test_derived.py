@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run
 from hydro2d.solver.simulation import Simulation

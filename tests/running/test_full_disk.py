@@ -7,8 +7,8 @@ import pytest
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running import run as runs
 from hydro2d.running.run import COSTS, run
-from hydro2d.study.case import run_case
-from hydro2d.study.layout import state
+from hydro2d.study.records.layout import state
+from hydro2d.study.run.case import run_case
 from tests import fake
 from tests.disk import Disk
 
@@ -70,9 +70,9 @@ def test_no_space_at_any_write_of_a_run(deck, tmp_path, monkeypatch, once):
 
 
 def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
-    monkeypatch.setattr("hydro2d.compilation.once", lambda key, compile: None)
-    monkeypatch.setattr("hydro2d.study.case.kernels", lambda deck: "")
-    monkeypatch.setattr("hydro2d.study.case.decks.loads", lambda text: deck)
+    monkeypatch.setattr("hydro2d.jit.compilation.once", lambda key, compile: None)
+    monkeypatch.setattr("hydro2d.study.run.case.kernels", lambda deck: "")
+    monkeypatch.setattr("hydro2d.study.run.case.decks.loads", lambda text: deck)
     text, disk = deck.to_toml(), Disk(monkeypatch)
     assert run_case(tmp_path / "whole", text).status == "done"
     number, whole = disk.count, outcome(tmp_path / "whole")

@@ -9,10 +9,11 @@ import time
 
 import pytest
 
-from hydro2d.files import LostPlaceError, check_place, locked, remove, replacing, write_text
+from hydro2d.files.locks import LostPlaceError, check_place, locked, remove
+from hydro2d.files.whole import replacing, write_text
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run
-from hydro2d.study import layout
+from hydro2d.study.records import layout
 from tests import fake
 from tests.cli.test_main import DECK
 

@@ -4,7 +4,7 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-from hydro2d import moving
+from hydro2d.base import moving
 
 CELLS = [
     "import hydro2d\n"

@@ -10,10 +10,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hydro2d import compilation, jit
+from hydro2d import jit
+from hydro2d.base.interrupt import Interrupt
 from hydro2d.deck.sections import Sliding
-from hydro2d.files import LockError
-from hydro2d.interrupt import Interrupt
+from hydro2d.files.locks import LockError
+from hydro2d.jit import compilation
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running.run import Due, RunError, exit_status, run
 from tests import fake
@@ -185,7 +186,7 @@ def test_a_run_on_one_thread_compiles_in_one_process(simulation, tmp_path, monke
         return nullcontext()
 
     monkeypatch.setattr("hydro2d.jit.threads", lambda: threads)
-    monkeypatch.setattr("hydro2d.compilation.announced", announced)
+    monkeypatch.setattr("hydro2d.jit.compilation.announced", announced)
     monkeypatch.setattr("hydro2d.running.run.Run", lambda *args, **named: SimpleNamespace(execute=lambda interrupt: {}))
     run(fake.FakeDeck(), tmp_path / "a", quiet=True, second=second)
     assert [deck is not None for deck in processes] == [helped]

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.mesh import measured, quantities, station_columns, sums
 from hydro2d.output import derived
 from hydro2d.results.reading import Results

@@ -5,8 +5,8 @@ import os
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.mesh.fields import Field
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State, bytes_needed

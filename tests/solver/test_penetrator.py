@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from hydro2d import toml
 from hydro2d.deck import deck
+from hydro2d.files import shipped
 from hydro2d.mesh.regime import (
     DEFORMING,
     ERODED_LENGTH,
@@ -213,7 +213,7 @@ def test_a_run_does_not_end_while_the_tail_feeds_the_head():
 
 
 def ball(*options):
-    text = (toml.problems_folder() / "perforation" / "sphere.toml").read_text()
+    text = (shipped.problems_folder() / "perforation" / "sphere.toml").read_text()
     text = text.replace("cells = 25", "cells = 9").replace("cells_across = 12.5", "cells_across = 4.5")
     stands = ['mesh.follow="none"', 'mesh.z_start="-12 mm"', 'mesh.z=[{ cells = 44, size = "1.1 mm" }]']
     return Simulation(deck.loads(text.replace("1500 m/s", "5.8 km/s"), [*stands, *options]))

@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.errors import UnphysicalState
 from hydro2d.running.run import exit_status, run
 from hydro2d.solver.audit import totals
 from hydro2d.solver.sanity import doubts

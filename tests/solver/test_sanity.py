@@ -6,8 +6,8 @@ import json
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError, UnphysicalState
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError, UnphysicalState
 from hydro2d.running.run import exit_status, run
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import Simulation

@@ -6,9 +6,9 @@ import h5py
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.mesh.measured import PASSAGE
 from hydro2d.output import history
 from hydro2d.results import figures

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.materials import library
 from hydro2d.solver.simulation import Simulation
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from eos import jwl
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.running.check import check
 from hydro2d.solver.simulation import Simulation

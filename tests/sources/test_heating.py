@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d.deck import curves, deck
-from hydro2d.errors import DeckError
+from hydro2d.base import over_time
+from hydro2d.base.errors import DeckError
+from hydro2d.deck import deck
 from hydro2d.mesh.grid import Grid
 from hydro2d.solver.simulation import Simulation
 from hydro2d.sources.base import Source
@@ -41,12 +42,12 @@ ROWS = ((1.0, 2.0), (3.0, 4.0), (4.0, 0.0))
     (3.0, 3.0, 0.0), (-5.0, 1.5, 1.125),
 ])  # fmt: skip
 def test_the_integral_of_a_table(first, last, expected):
-    assert curves.integral(ROWS, first, last) == pytest.approx(expected, abs=1e-15)
+    assert over_time.integral(ROWS, first, last) == pytest.approx(expected, abs=1e-15)
 
 
 @pytest.mark.parametrize(("time", "expected"), [(0.0, 2.0), (2.0, 3.0), (3.5, 2.0), (9.0, 0.0)])
 def test_the_value_of_a_table(time, expected):
-    assert curves.at(ROWS, time) == expected
+    assert over_time.at(ROWS, time) == expected
 
 
 @pytest.mark.parametrize(("override", "words"), [

@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.study import chance, logit, sequence
+from hydro2d.study.ensemble import chance
+from hydro2d.study.search import logit, sequence
 
 #: the first seed; tests use those from 0 on
 FIRST = 500_000

@@ -12,8 +12,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from hydro2d.running.run import deck_hash
-from hydro2d.study import cases, transition
-from hydro2d.study.case import Outcome
+from hydro2d.study.plan import cases
+from hydro2d.study.run.case import Outcome
+from hydro2d.study.search import transition
 from tests.study import fake
 
 REGIMES = {"rigid": 0.001, "deforming": 0.1, "eroding": 0.4, "left the mesh": 0.9}

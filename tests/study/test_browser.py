@@ -5,7 +5,7 @@ from unicodedata import normalize
 
 import pytest
 
-from hydro2d.study.report import report
+from hydro2d.study.report.report import report
 from tests.study import fake
 
 AXES = {

@@ -11,15 +11,15 @@ from contextlib import ExitStack, contextmanager, nullcontext
 
 import pytest
 
-from hydro2d import compilation
-from hydro2d.checksums import verified_text
+from hydro2d.base.errors import Error
+from hydro2d.base.interrupt import Interrupt
 from hydro2d.deck import deck as decks
-from hydro2d.errors import Error
-from hydro2d.interrupt import Interrupt
+from hydro2d.files.checksums import verified_text
+from hydro2d.jit import compilation
 from hydro2d.output import history, snapshot
 from hydro2d.running.run import deck_hash
-from hydro2d.study import layout
-from hydro2d.study.case import kernels, run_case
+from hydro2d.study.records import layout
+from hydro2d.study.run.case import kernels, run_case
 from tests.cli.test_main import DECK
 from tests.locks import held
 
@@ -183,7 +183,7 @@ def _locked(place, text, age):
 
 @pytest.mark.parametrize("skew", [1e4, 0.0, -1e4])
 def test_the_lock_of_another_machine_that_shows_no_sign_is_taken_over(text, place, monkeypatch, skew):
-    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.5)
+    monkeypatch.setattr("hydro2d.study.run.case.SILENCE", 0.5)
     _locked(place, "elsewhere 1", skew)
     began = time.monotonic()
     assert run_case(place, text).status == "done"
@@ -220,8 +220,8 @@ def _alive(place, skew):
     ],
 )
 def test_a_fault_that_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
-    monkeypatch.setattr("hydro2d.study.case.SILENCE", 0.5)
-    monkeypatch.setattr("hydro2d.study.case.ENDING", 0.1)
+    monkeypatch.setattr("hydro2d.study.run.case.SILENCE", 0.5)
+    monkeypatch.setattr("hydro2d.study.run.case.ENDING", 0.1)
     place = tmp_path / "cases" / "case"
     place.parent.mkdir()
     with spoil(place) or nullcontext():

@@ -10,10 +10,10 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.study import draws, members
-from hydro2d.study.case import Outcome
-from hydro2d.study.definition import Ensemble
-from hydro2d.study.report import report
+from hydro2d.study.plan import draws, members
+from hydro2d.study.plan.definition import Ensemble
+from hydro2d.study.report.report import report
+from hydro2d.study.run.case import Outcome
 from tests.study import fake, made_up, test_transition, tubes
 from tests.study.html import Page
 

@@ -9,8 +9,8 @@ import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.study import cluster
-from hydro2d.study.definition import StudyError
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.run import cluster
 from tests.study import tubes
 
 JOB = """

@@ -6,11 +6,13 @@ import json
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
-from hydro2d.study import convergence, extrapolation, layout, members, meshes
-from hydro2d.study.contents import collect
+from hydro2d.study.ensemble import convergence, extrapolation
+from hydro2d.study.ensemble.contents import collect
+from hydro2d.study.plan import members, meshes
+from hydro2d.study.records import layout
 from tests.study import fake
 
 SHOT = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"

@@ -6,8 +6,8 @@ import tomllib
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.study import cases, ranges
-from hydro2d.study.definition import Range, StudyError
+from hydro2d.study.plan import cases, ranges
+from hydro2d.study.plan.definition import Range, StudyError
 from tests.rules import source
 from tests.study import tubes
 

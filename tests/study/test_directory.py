@@ -8,12 +8,14 @@ import pytest
 import rich.console
 
 import hydro2d
+from hydro2d.base.method import METHOD
 from hydro2d.cli.main import call
-from hydro2d.files import write_json
-from hydro2d.method import METHOD
-from hydro2d.study import cases, layout, monitor, sweep
-from hydro2d.study.definition import StudyError
-from hydro2d.study.velocities import Velocities
+from hydro2d.files.whole import write_json
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.velocities import Velocities
+from hydro2d.study.records import layout
+from hydro2d.study.run import monitor, sweep
 from tests.locks import held
 from tests.study import tubes
 

@@ -10,7 +10,7 @@ from hydro2d.cli.main import call
 from hydro2d.output import vtk
 from hydro2d.output.history import History
 from hydro2d.results.reading import Results
-from hydro2d.study import divergence
+from hydro2d.study.report import divergence
 from tests.study import fake
 
 #: growth time in s, first difference in m, and times of dumps

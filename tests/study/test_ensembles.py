@@ -8,10 +8,12 @@ import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.study import charts, ensembles, layout, outcomes, panels, responses, rods
-from hydro2d.study.chance import wilson
-from hydro2d.study.contents import collect
-from hydro2d.study.report import report
+from hydro2d.study.ensemble import ensembles, outcomes
+from hydro2d.study.ensemble.chance import wilson
+from hydro2d.study.ensemble.contents import collect
+from hydro2d.study.records import layout, responses
+from hydro2d.study.report import charts, panels, rods
+from hydro2d.study.report.report import report
 from tests.study import fake
 from tests.study.html import Page
 

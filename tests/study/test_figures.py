@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from hydro2d.output.outlines import Filling
-from hydro2d.study import charts, layout, panels, responses, rods, series, theory
-from hydro2d.study.contents import collect
+from hydro2d.study.ensemble.contents import collect
+from hydro2d.study.records import layout, responses
+from hydro2d.study.report import charts, panels, rods, series, theory
 from tests.study import fake
 
 

@@ -6,11 +6,13 @@ from dataclasses import replace
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.files import write_json
-from hydro2d.study import cases, keeping, layout, transition
-from hydro2d.study.choice import Choice
-from hydro2d.study.definition import StudyError
-from hydro2d.study.scaling import AS_IT_IS, Size
+from hydro2d.files.whole import write_json
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.scaling import AS_IT_IS, Size
+from hydro2d.study.records import keeping, layout
+from hydro2d.study.run.choice import Choice
+from hydro2d.study.search import transition
 from tests.study import fake, tubes
 
 

@@ -7,8 +7,8 @@ import socket
 
 import pytest
 
-from hydro2d.study import layout
-from hydro2d.study.layout import StudyError
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import StudyError
 from tests.locks import held
 from tests.study import fake
 

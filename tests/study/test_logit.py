@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from hydro2d.study import chance, logit, sequence, v50
+from hydro2d.study.ensemble import chance
+from hydro2d.study.search import logit, sequence, v50
 from tests.study import coverage
 from tests.study.coverage import within
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.study import cases, chance, members
-from hydro2d.study.definition import Ensemble, StudyError
+from hydro2d.study.ensemble import chance
+from hydro2d.study.plan import cases, members
+from hydro2d.study.plan.definition import Ensemble, StudyError
 
 SHOT = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 BAR = "problems/classic/taylor_bar.toml"

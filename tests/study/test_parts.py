@@ -5,9 +5,10 @@ import signal
 
 import pytest
 
-from hydro2d.study import layout, parts
-from hydro2d.study.definition import StudyError
-from hydro2d.study.scaling import AS_IT_IS, Size
+from hydro2d.study import parts
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.scaling import AS_IT_IS, Size
+from hydro2d.study.records import layout
 from tests.study import tubes
 
 PARTS = """
@@ -95,7 +96,7 @@ def test_mistakes(tmp_path, text, message):
 
 
 def test_a_study_of_parts_is_no_sweep(tmp_path):
-    from hydro2d.study import cases
+    from hydro2d.study.plan import cases
 
     with pytest.raises(StudyError, match="the study is made of others; run it with `hydro2d sweep"):
         cases.plan(write(tmp_path))

@@ -8,7 +8,7 @@ import pytest
 import hydro2d
 from hydro2d.deck import deck as decks
 from hydro2d.running.run import run
-from hydro2d.study import cases
+from hydro2d.study.plan import cases
 from tests.study import tubes
 
 ENSEMBLE = ["--repeats", 3, "--by", "first step"]

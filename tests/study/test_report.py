@@ -7,13 +7,14 @@ import sys
 
 import pytest
 
-from hydro2d import __version__
+from hydro2d.base.version import __version__
 from hydro2d.cli.main import call
 from hydro2d.results import movies
 from hydro2d.results.scales import FigureError
-from hydro2d.study import layout, pictures
-from hydro2d.study.contents import collect
-from hydro2d.study.report import report
+from hydro2d.study.ensemble.contents import collect
+from hydro2d.study.records import layout
+from hydro2d.study.report import pictures
+from hydro2d.study.report.report import report
 from tests.study import fake
 from tests.study.html import Page
 

@@ -5,9 +5,10 @@ import shutil
 import numpy as np
 import pytest
 
-from hydro2d.study import charts, layout, panels, residual, responses, series, table, theory
-from hydro2d.study.contents import collect
-from hydro2d.study.definition import StudyError
+from hydro2d.study.ensemble.contents import collect
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.records import layout, responses, table
+from hydro2d.study.report import charts, panels, residual, series, theory
 from tests.study import fake
 
 SPHERE = "problems/shapes/sphere.toml"

@@ -9,9 +9,10 @@ import pytest
 
 from hydro2d.results import reading
 from hydro2d.results.summaries import plausible
-from hydro2d.study import layout, panels, responses, table
-from hydro2d.study.contents import collect
-from hydro2d.study.page import page
+from hydro2d.study.ensemble.contents import collect
+from hydro2d.study.records import layout, responses, table
+from hydro2d.study.report import panels
+from hydro2d.study.report.page import page
 from tests.study import fake
 
 WRONG = ["text", 7, -1.5, True, [], [1, "x"], {}, {"a": {"b": []}}, None, float("nan"), float("inf")]

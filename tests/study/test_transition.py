@@ -11,9 +11,10 @@ import pytest
 import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.mesh.regime import RULE
-from hydro2d.study import cases, regimes
-from hydro2d.study.case import Outcome
-from hydro2d.study.definition import StudyError
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.run.case import Outcome
+from hydro2d.study.search import regimes
 from tests.decks import mesh, plate, rod, stop, table
 from tests.study import made_up, tubes
 from tests.study.html import Page

@@ -25,8 +25,8 @@ EVERY = 10
 
 def judged(text: str) -> dict:
     """How a deck ends: {"ended": one of SOUND, or "beyond", "crash", "disagrees"} and the message."""
+    from hydro2d.base.errors import DeckError, UnphysicalState
     from hydro2d.deck import deck as decks
-    from hydro2d.errors import DeckError, UnphysicalState
     from hydro2d.running.check import check
     from hydro2d.solver.simulation import Simulation
     from tests.trials.screen import Screen

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 
-from hydro2d import units
+from hydro2d.base import units
 from hydro2d.materials import library
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import words

@@ -29,7 +29,8 @@ def finished(tmp_path_factory):
     (folder / "shot.toml").write_text(DECK)
     assert spoil.judge(["run", str(folder / "shot.toml"), *FEW, "--quiet", "--out", str(folder / "run")])[0] == 0
     (folder / "study.toml").write_text(STUDY)
-    from hydro2d.study import cases, layout
+    from hydro2d.study.plan import cases
+    from hydro2d.study.records import layout
 
     plan = cases.plan(folder / "study.toml")
     layout.make(folder / "study")

@@ -13,9 +13,9 @@ import tomllib
 
 import numpy as np
 
-from hydro2d import toml
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.errors import UnphysicalState
+from hydro2d.files import toml
 from hydro2d.mesh.fields import RHO, SRZ, E
 from hydro2d.solver.simulation import Simulation
 from tests.solver import audited

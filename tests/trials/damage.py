@@ -15,10 +15,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.errors import Error
+from hydro2d.base.errors import Error
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results import export, reading
-from hydro2d.study import layout, record
+from hydro2d.study.records import layout, record
 
 #: bytes of a block that is zeroed
 BLOCKS = (64, 512, 4096)

@@ -6,7 +6,7 @@ import time
 import pytest
 
 import hydro2d
-from hydro2d.errors import DeckError
+from hydro2d.base.errors import DeckError
 from tests.cli.test_main import DECK
 from tests.trials import spoil
 from tests.trials.test_texts import SEARCH, STUDY

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from hydro2d.toml import problems_folder
+from hydro2d.files.shipped import problems_folder
 from tests.cli.test_main import DECK
 from tests.solver.test_sanity import TEXT
 from tests.trials import spoil

@@ -6,7 +6,7 @@ The bands contain the errors of `problems/verification/README.md`, in per cent. 
 import pytest
 
 import hydro2d
-from hydro2d.errors import UnphysicalState
+from hydro2d.base.errors import UnphysicalState
 from problems.verification.accuracy import BY_NAME, FOLDER
 
 

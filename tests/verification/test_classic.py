@@ -5,9 +5,9 @@ import tomllib
 import pytest
 
 import hydro2d
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
 from hydro2d.deck.sections import Numerics
-from hydro2d.errors import UnphysicalState
 from hydro2d.solver.simulation import Simulation
 from problems.classic import table
 from tests.verification.running import advection

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.errors import DeckError
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, contact, material, mesh, rod, stop, table, walls
 from tests.verification.running import ADVECTION, advection

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.errors import DeckError
 from hydro2d.mesh.fields import FAILED, SRR, SRZ
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, plate, rod, stop, table, walls

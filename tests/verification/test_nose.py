@@ -5,10 +5,10 @@ import functools
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.errors import UnphysicalState
-from hydro2d.kernels import contact_velocities
-from hydro2d.kernels.extension import TIED
+from hydro2d.kernels.contact import contact_velocities
+from hydro2d.kernels.contact.extension import TIED
 from hydro2d.mesh.fields import EP, SRR, SRZ
 from hydro2d.solver import given
 from hydro2d.solver.audit import Audit

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.errors import UnphysicalState
 from hydro2d.solver.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
 from problems.verification.exact import impact, riemann

@@ -7,6 +7,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from hydro2d.base.terminal import shown
 from hydro2d.mesh.regime import REGIMES
 from hydro2d.output import history, station_arrays
 from hydro2d.output.outlines import Filling
@@ -14,7 +15,6 @@ from hydro2d.output.vtk import Dump, read_grid
 from hydro2d.results.viewer import packing
 from hydro2d.results.viewer.fields import Ranges, Stored, ViewError, arrays, asked, short, unit_of
 from hydro2d.running.run import HISTORY
-from hydro2d.terminal import shown
 
 #: fields that every page has, to show the bodies
 SHARES = ("volume_fraction", "material")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hydro2d.errors import Error
+from hydro2d.base.errors import Error
 from hydro2d.mesh import quantities
 from hydro2d.mesh.quantities import Quantity
 from hydro2d.output.datasets import COMPONENTS, quantities_of

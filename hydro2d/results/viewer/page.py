@@ -10,13 +10,13 @@ from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
 
-from hydro2d import __version__
-from hydro2d.files import write_text
+from hydro2d.base.terminal import shown
+from hydro2d.base.version import __version__
+from hydro2d.files.whole import write_text
 from hydro2d.results.figures import BODY_COLOURS
 from hydro2d.results.viewer.contents import contents
 from hydro2d.results.viewer.fields import CLIPS, ViewError
 from hydro2d.results.viewer.packing import BITS, DEFAULT_BITS
-from hydro2d.terminal import shown
 
 PAGE = "view.html"
 #: the parts of the program, in order

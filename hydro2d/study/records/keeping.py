@@ -1,0 +1,213 @@
+"""The rows that a study keeps in the folder of its file: a CSV with one row for every run that has ended, on any machine.
+
+A row identifies its run by the labels of the case, cells across the projectile, and member; by the set-up, a hash of everything
+in the deck that can change a result; and by the version of the method. A run with a row of its set-up and of this method is up
+to date, and a sweep does not repeat it. The row of another set-up or method is stale. It stays until its run has been made.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from hydro2d.base.method import METHOD
+from hydro2d.base.terminal import cell, several
+from hydro2d.deck import deck as decks
+from hydro2d.files.whole import read_text, write_text
+from hydro2d.running.run import DECK
+from hydro2d.study.plan.cases import Plan, Planned
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.members import cells_across, projectile
+from hydro2d.study.records import layout
+from hydro2d.study.records.layout import DONE, UNPHYSICAL, Case
+from hydro2d.study.records.table import ratio
+
+#: statuses of runs that have a row
+ENDED = (DONE, UNPHYSICAL)
+#: tables and keys of a deck that change no result
+TOLD = ("name", "title", "output", "experiment", "tracer", "materials")
+#: letters of a hash, and significant digits of a number, in a row
+LETTERS, DIGITS = 12, 6
+
+CELLS, MEMBER, SETUP, OF_METHOD = "cells_across", "member", "setup", "method"
+#: columns after the labels of a case
+RESULTS = ("status", "stop_reason", "trustworthy", "depth_m", "length_ratio", "radius_ratio", "mass_ratio", "tail_velocity_m_s",
+           "residual_velocity_m_s", "regime", "hole_m3", "energy_dropped", "time_s", "cycles", "wall_s")  # fmt: skip
+ORIGIN = (SETUP, OF_METHOD, "commit", "date")
+
+Row = dict[str, str]
+
+
+def setup(deck: decks.Deck) -> str:
+    """A hash of everything in a deck that can change its results, without keys that have their default values.
+
+    Titles, outputs, tracers and the experiment are left out. A new key of a later version leaves the hash alone.
+    """
+    data = deck.model_dump(mode="json", exclude=set(TOLD), exclude_defaults=True)
+    materials = {name: {key: value for key, value in material.as_deck().items() if key != "title"}
+                 for name, material in deck.materials.items()}  # fmt: skip
+    text = json.dumps(data | {"materials": materials}, sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()[:LETTERS]
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A case of a plan, with the entries that its row must have to be up to date."""
+
+    case: Planned
+    axes: tuple[str, ...]
+
+    @cached_property
+    def deck(self) -> decks.Deck:
+        return decks.loads(self.case.text)
+
+    @cached_property
+    def setup(self) -> str:
+        return setup(self.deck)
+
+    @cached_property
+    def about(self) -> Row:
+        """The columns that identify the run."""
+        radius = projectile(self.deck)[1]
+        cells = "" if radius is None else f"{cells_across(self.deck, radius):.4g}"
+        return {**{name: cell(self.case.values[name]) for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
+
+    def row(self, case: Case) -> Row:
+        """The row of a run that has ended."""
+        summary = case.summary
+        origin = summary.get("provenance") or {}
+        commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
+        entries = {**_results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
+                   "date": (origin.get("written") or "")[:10]}  # fmt: skip
+        return self.about | {name: _text(value) for name, value in entries.items()}
+
+
+def _results(summary: Mapping) -> dict[str, object]:
+    audit = summary.get("conservation") or {}
+    dropped = (audit.get("sinks") or {}).get("advection", {}).get("energy_J")
+    results = {
+        "status": summary["status"], "stop_reason": summary.get("stop_reason"), "trustworthy": summary.get("trustworthy"),
+        "depth_m": summary.get("penetration_depth_m"), "tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
+        "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"), "regime": summary.get("regime"),
+        "hole_m3": (summary.get("crater") or {}).get("volume_m3"),
+        "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
+        "time_s": summary.get("time_s"), "cycles": summary.get("cycles"), "wall_s": summary.get("wall_s"),
+        "length_ratio": ratio(summary.get("rod_length_m"), summary.get("rod_initial_length_m")),
+        "radius_ratio": ratio(summary.get("rod_max_radius_m"), summary.get("rod_initial_radius_m")),
+        "mass_ratio": ratio(summary.get("rod_mass_kg"), summary.get("rod_initial_mass_kg")),
+    }  # fmt: skip
+    return {name: results[name] for name in RESULTS}
+
+
+def _text(value) -> str:
+    if value is None:
+        return ""
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else cell(str(value))
+
+
+def read(path: Path) -> list[Row]:
+    """The rows of a file; none if there is no such file. Raises StudyError."""
+    if not path.exists():
+        return []
+    rows = list(csv.DictReader(read_text(path, StudyError).splitlines()))
+    if rows and (missing := {*ORIGIN, *RESULTS, CELLS, MEMBER} - set(rows[0])):
+        raise StudyError(f"{path}: holds no rows of a study: it has no column {', '.join(sorted(missing))}")
+    return rows
+
+
+def of_directory(directory: Path) -> list[Row]:
+    """The rows of the ended runs of a study directory. Raises StudyError, DeckError."""
+    study = layout.read(directory)
+    axes = tuple(axis.name for axis in study.axes)
+    rows = []
+    for case in study.cases:
+        if case.status in ENDED:
+            text = read_text(case.directory / DECK, StudyError)
+            planned = Planned(case.name, case.values, case.base, list(case.overrides), text, "", case.of, case.member)
+            rows.append(Wanted(planned, axes).row(case))
+    return rows
+
+
+def labels(row: Row) -> Row:
+    """The labels of the case of a row, and its cells across the projectile."""
+    others = {MEMBER, *RESULTS, *ORIGIN}
+    return {name: text for name, text in row.items() if text and name not in others}
+
+
+def methods(versions: Iterable[str]) -> str:
+    """A note for a table on the versions of its runs: empty if all are of this method, else those that are not."""
+    counts = Counter(version or "unknown" for version in versions)
+    others = {name: number for name, number in counts.items() if name != METHOD}
+    if not others:
+        return ""
+    listed = ", ".join(f"{number} of {name}" for name, number in sorted(others.items()))
+    return f"Not all runs are of the method of {METHOD}: {listed}."
+
+
+class Keeper:
+    """The kept rows of a plan: those of its cases that are up to date, and new ones as cases end.
+
+    plan : with `keep`;  cases that a search adds later are found by their decks
+    """
+
+    def __init__(self, plan: Plan):
+        self.path, self.axes = plan.keep, tuple(axis["name"] for axis in plan.axes)
+        self.order = {axis["name"]: {label: n for n, label in enumerate(axis["values"])} for axis in plan.axes}
+        self.rows = read(self.path)
+        if self.rows and (strange := [name for name in self.axes if name not in self.rows[0]]):
+            raise StudyError(f"{self.path}: is of another study: it has no column {strange[0]}")
+        self.wanted = {case.name: Wanted(case, self.axes) for case in plan.cases if case.text}
+
+    def fresh(self, names: Iterable[str]) -> set[str]:
+        """Those of the cases of the plan that are up to date."""
+        return self.fresh_of(self.wanted[name].case for name in names if name in self.wanted)
+
+    def fresh_of(self, cases: Iterable[Planned]) -> set[str]:
+        """The names of those cases that are up to date, of the plan or not."""
+        known = {row[SETUP] for row in self.rows if row[OF_METHOD] == METHOD}
+        wanted = (self.wanted.get(case.name) or Wanted(case, self.axes) for case in cases)
+        return {each.case.name for each in wanted if each.setup in known} if known else set()
+
+    def stale(self, names: Sequence[str]) -> int:
+        """The number of cases that have a row, but none that is up to date."""
+        fresh, known = self.fresh(names), {self._identity(row) for row in self.rows}
+        return sum(self._identity(self.wanted[name].about) in known for name in names
+                   if name in self.wanted and name not in fresh)  # fmt: skip
+
+    def told(self, names: Sequence[str]) -> str:
+        """The numbers of cases that are up to date, stale, or without a row, in words."""
+        fresh, stale = self.fresh(names), self.stale(names)
+        missing = len(names) - len(fresh) - stale
+        return f"{self.path}: {several(len(fresh), 'run')} up to date, {stale} stale, {missing} not made"
+
+    def _identity(self, row: Row) -> tuple[str, ...]:
+        return *(row[name] for name in self.axes), row[CELLS], row[MEMBER]
+
+    def add(self, cases: Iterable[Case], planned: Iterable[Planned] = ()) -> None:
+        """Writes the rows of those cases that have ended; planned : cases that the plan did not have. Raises OSError."""
+        self.wanted |= {case.name: Wanted(case, self.axes) for case in planned if case.text and case.name not in self.wanted}
+        new = [self.wanted[case.name].row(case) for case in cases if case.status in ENDED and case.name in self.wanted]
+        new = [row for row in new if row[OF_METHOD] == METHOD and row not in self.rows]
+        if not new:
+            return
+        self.rows = read(self.path)  # another sweep may have added some
+        kept = {self._identity(row): row for row in (*self.rows, *new)}
+        self.rows = sorted(kept.values(), key=self._place)
+        self.path.parent.mkdir(exist_ok=True)
+        text = io.StringIO()
+        table = csv.DictWriter(text, (*self.axes, CELLS, MEMBER, *RESULTS, *ORIGIN), restval="", lineterminator="\n")
+        table.writeheader()
+        table.writerows(self.rows)
+        write_text(self.path, text.getvalue())
+
+    def _place(self, row: Row) -> tuple:
+        """Finer meshes later, cases in the order of the study, members of a case one after another."""
+        labels = [self.order[name].get(row[name], len(self.order[name])) for name in self.axes]
+        return float(row[CELLS] or 0.0), *labels, *self._identity(row)[: len(self.axes)], int(row[MEMBER])

@@ -1,0 +1,104 @@
+"""Recht-Ipson and Lambert-Jonas models for the residual velocities of a series of runs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydro2d.penetration import lambert_jonas, recht_ipson
+from hydro2d.penetration.model import InputError
+from hydro2d.study.records.record import Record
+from hydro2d.study.records.responses import RESIDUAL, raw
+
+POINTS = 121
+#: share of length and diameter of a projectile up to which a plate is thin enough for a plug
+THIN = 0.5
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A model's residual velocity over the impact velocity, both (n,) in m/s; the colour of its series, or none."""
+
+    title: str
+    velocity: np.ndarray
+    residual: np.ndarray
+    colour: str = ""
+
+
+@dataclass(frozen=True)
+class Shots:
+    """Ended runs of one projectile and plate: impact and residual velocities in m/s, 0 for stopped projectiles."""
+
+    velocity: tuple[float, ...]
+    residual: tuple[float, ...]
+
+    @property
+    def limit(self) -> tuple[float, float] | None:
+        """Velocities of the fastest stopped run and the slowest perforation, m/s; None if one of them is missing."""
+        stopped = [v for v, left in zip(self.velocity, self.residual, strict=True) if left == 0.0]
+        through = [v for v, left in zip(self.velocity, self.residual, strict=True) if left > 0.0]
+        return (max(stopped), min(through)) if stopped and through and max(stopped) < min(through) else None
+
+
+def shots(records: Sequence[Record]) -> Shots:
+    """The runs that have ended, sorted by impact velocity."""
+    pairs = [(record.velocity, raw(record, RESIDUAL)) for record in records if not record.unfinished]
+    known = sorted((v, max(left, 0.0)) for v, left in pairs if v is not None and left is not None)
+    return Shots(tuple(v for v, _ in known), tuple(left for _, left in known))
+
+
+def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Curve], list[str]]:
+    """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is missing."""
+    ended, velocity = shots(records), np.linspace(low, high, POINTS)
+    drawn, notes, fit = [], [], None
+    try:
+        fit = _fit(ended)
+    except InputError as error:
+        notes.append(f"Lambert-Jonas is not drawn: {error}")
+    else:
+        left = [lambert_jonas.residual_velocity(v, limit_velocity=fit.limit_velocity, a=fit.a, p=fit.p) for v in velocity]
+        drawn.append(Curve("Lambert-Jonas", velocity, np.array(left)))
+        fixed = " (p = 2 taken, there are two perforations)" if _perforations(ended) == 2 else ""
+        notes.append(f"Lambert-Jonas, fitted to these runs: a = {fit.a:.3f}, p = {fit.p:.3g}{fixed}, ballistic limit "
+                     f"{fit.limit_velocity:.0f} m/s, standard error {fit.standard_error:.1f} m/s")  # fmt: skip
+    if ended.limit:
+        limit = 0.5 * sum(ended.limit)
+        origin = f"midway between {ended.limit[0]:.0f} m/s, stopped, and {ended.limit[1]:.0f} m/s, through"
+    elif fit:
+        limit, origin = fit.limit_velocity, "of the fit"
+    else:
+        reason = "needs a ballistic limit, from a run that is stopped and a faster one that goes through, or from the fit"
+        return drawn, [*notes, f"Recht-Ipson is not drawn: it {reason}"]
+    ratio, why = _plug(records[0])
+    for name, mass_ratio in (("Recht-Ipson, plug", ratio), ("Recht-Ipson, no plug", 0.0)):
+        if mass_ratio is not None:
+            left = [recht_ipson.residual_velocity(v, limit_velocity=limit, plug_mass_ratio=mass_ratio) for v in velocity]
+            drawn.append(Curve(name, velocity, np.array(left)))
+    return drawn, [*notes, f"Recht-Ipson with a ballistic limit of {limit:.0f} m/s, {origin}; {why}"]
+
+
+def _perforations(ended: Shots) -> int:
+    return len({v for v, left in zip(ended.velocity, ended.residual, strict=True) if left > 0.0})
+
+
+def _fit(ended: Shots) -> lambert_jonas.Fit:
+    """Three constants, or two with p = 2 if there are two perforations. Raises InputError."""
+    p = 2.0 if _perforations(ended) == 2 else None
+    return lambert_jonas.fit(ended.velocity, ended.residual, p=p)
+
+
+def _plug(record: Record) -> tuple[float | None, str]:
+    """Mass of a plug as wide as the projectile, over the mass of the projectile; or None and the reason."""
+    setup = record.setup
+    mass = record.first.get("rod_mass_kg")
+    if setup is None or setup.thickness is None or not mass:
+        return None, "without a plug, since the masses of plug and projectile are not known"
+    if not setup.thickness < THIN * min(setup.length, setup.diameter):
+        return None, f"without a plug, which a plate thinner than {THIN:g} of the projectile's length and diameter has"
+    if record.target_density is None:
+        return None, "without a plug, since the projectile meets several plates"
+    ratio = record.target_density * math.pi / 4.0 * setup.diameter**2 * setup.thickness / mass
+    return ratio, f"the plug, as wide as the projectile, has {ratio:.2g} of its mass"

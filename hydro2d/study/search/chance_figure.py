@@ -1,0 +1,91 @@
+"""The files of a search with a budget: its shots as CSV, and a picture of the shots with the fitted curve and its band."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from hydro2d.files.strange import own
+from hydro2d.files.whole import write_text
+from hydro2d.results import figures
+from hydro2d.results.figures import verbatim
+from hydro2d.study.plan import draws
+from hydro2d.study.records import table
+from hydro2d.study.records.layout import Study
+from hydro2d.study.search import v50
+from hydro2d.study.search.regimes import Transitions
+
+CSV, PICTURE = "transition.csv", "transition.png"
+#: panels in a row; width and height of one, inches; points of a curve; distance of dots of the same velocity, in probability
+COLUMNS, SIZE, POINTS, APART = 3, (5.2, 3.6), 300, 0.035
+
+
+def write(study: Study, results: Sequence[Transitions]) -> list[Path]:
+    """Writes both files into the directory of a study and returns them. Raises OSError, FigureError."""
+    files = [own(study.directory / name) for name in (CSV, PICTURE)]
+    rows = [row for each in results for row in v50.rows(each.values, each.estimate, _draws(study, each))]
+    write_text(files[0], table.to_csv(rows))
+    figures.save(draw(results), files[1])
+    return files
+
+
+def _draws(study: Study, result: Transitions) -> list[dict]:
+    """The changes of every shot by column; None for one that has not begun."""
+    cases = {case.name: case for case in study.cases}
+    begun = [cases[shot.case].deck or {} for shot in result.estimate.shots]
+    keys = {column: key.split(".") for column, key in draws.KEYS.items()}
+    return [{column: deck.get(section, {}).get(name) for column, (section, name) in keys.items()} for deck in begun]
+
+
+def draw(results: Sequence[Transitions]):
+    """A figure with a panel for each combination: shots as dots, probability of the outcome of fast shots, its 90 % band."""
+    columns = min(len(results), COLUMNS)
+    rows = -(-len(results) // columns)
+    figure, axes = figures.new_figure(SIZE[0] * columns, SIZE[1] * rows, rows, columns)
+    for place, each in zip(axes.flat, results, strict=False):
+        _panel(place, each)
+    for place in axes.flat[len(results) :]:
+        place.set_visible(False)
+    return figure
+
+
+def _panel(axes, result: Transitions) -> None:
+    each = result.estimate
+    slow, fast = each.outcomes
+    _dots(axes, each)
+    if each.fit is not None:
+        low, high = axes.get_xlim()
+        speeds = np.linspace(low, high, POINTS)
+        axes.fill_between(speeds, *each.fit.band(speeds), color="C0", alpha=0.2, linewidth=0, label="90 % band")
+        axes.plot(speeds, each.fit.probability(speeds), color="C0", linewidth=1.4, label=f"v50 = {each.fit.v50:.1f} m/s")
+        ends = [end for end in (each.fit.v50_low, each.fit.v50_high) if end is not None]
+        axes.plot(ends, [0.5] * len(ends), color="black", linewidth=1.2, marker="|")
+        axes.set_xlim(low, high)
+    if each.military is not None:
+        label = f"MIL-STD-662F {each.military[0]:.1f} m/s"
+        axes.axvline(each.military[0], color="C3", linestyle="--", linewidth=1.0, label=label)
+    axes.set_ylim(-0.22, 1.22)
+    axes.set_yticks([0.0, 0.5, 1.0], [f"{slow}  0", "0.5", f"{fast}  1"], fontsize=7)
+    axes.set_xlabel("impact velocity [m/s]", fontsize=8)
+    axes.set_title(verbatim(f"{result.title}: {each.name}"), fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.grid(alpha=0.3)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=7, loc="center right")
+
+
+def _dots(axes, each: v50.Estimate) -> None:
+    """The shots; those of nearly one velocity are stacked away from the curve."""
+    known = each.known
+    speeds = np.array([shot.velocity for shot in known])
+    near = np.ptp(speeds) / 120.0 if len(speeds) else 1.0
+    counts: Counter = Counter()
+    for shot in sorted(known, key=lambda shot: shot.velocity):
+        up = shot.outcome == each.outcomes[1]
+        bin_of = (up, round(shot.velocity / near) if near else 0)
+        height = (1.0 if up else 0.0) + (APART if up else -APART) * (1 + counts[bin_of])
+        counts[bin_of] += 1
+        axes.plot(shot.velocity, np.clip(height, -0.19, 1.19), "o", markersize=3.5, color="C2" if up else "C1", alpha=0.8)

@@ -1,0 +1,380 @@
+"""The results of a search: transitions by regime and by depth, with experiments, the CTH study and analytic models."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+
+from hydro2d.analytic import model_transition, models
+from hydro2d.analytic.model_text import columns
+from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
+from hydro2d.base.version import __version__
+from hydro2d.files.whole import write_json
+from hydro2d.mesh.regime import DEFORMING, ERODED_MASS, ERODING, GROWING, LEAST_KEPT, RULE
+from hydro2d.penetration.model import InputError
+from hydro2d.study.plan import velocities
+from hydro2d.study.records import experiments, record
+from hydro2d.study.records.layout import Interval, Study
+from hydro2d.study.records.record import Record
+from hydro2d.study.search import bisection, v50
+
+FILE = "transition.json"
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Outcomes of a search: regimes in the order of velocity, and names of transitions by the regime they lead to."""
+
+    order: tuple[str, ...]
+    names: Mapping[str, str]
+
+
+STOPPED, PERFORATED = "stopped", "perforated"
+KEPT, USED_UP = "kept", "used up"
+HOLDS, ERODES = "not eroding", ERODING
+SHALLOW, DEEP = "shallower", "deeper"
+SCHEMES = {
+    "regime": Scheme(GROWING, {DEFORMING: "rigid to deforming", ERODING: "to eroding"}),
+    "length": Scheme((KEPT, USED_UP), {USED_UP: "a third of the length lost"}),
+    "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
+    "erosion": Scheme((HOLDS, ERODES), {ERODES: "to eroding"}),
+    "deeper": Scheme((SHALLOW, DEEP), {DEEP: "depth reached"}),
+    "shallower": Scheme((DEEP, SHALLOW), {SHALLOW: "depth no longer reached"}),
+}
+#: searches with transitions that analytic models and experiments also have
+OF_ROD = ("regime", "erosion", "length")
+FALL, LIMIT = "depth falls", "hydrodynamic limit"
+DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
+_BY_DEPTH = {
+    FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
+    LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
+}
+_OF_DEPTH = {DEEP: "the largest depth of the run is at least `depth` of the study", SHALLOW: "it is less"}
+#: meanings of the terms of a search
+CRITERIA = {
+    "regime": RULE | _BY_DEPTH,
+    "length": {
+        KEPT: "at least two thirds of the projectile's length are left at the end", USED_UP: "less is left", **_BY_DEPTH,
+    },
+    "perforation": {
+        PERFORATED: "the leading end is at least the radius of the projectile beyond the rear face of the target",
+        "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
+    },
+    "erosion": {ERODES: RULE[ERODING], HOLDS: "less has, whether the projectile is rigid or deforming", **_BY_DEPTH},
+    "deeper": _OF_DEPTH,
+    "shallower": _OF_DEPTH,
+}  # fmt: skip
+
+
+def criteria(study: Study) -> dict[str, str]:
+    """The definitions of the terms of a search."""
+    if study.search is None:
+        return CRITERIA["regime"]
+    terms = CRITERIA[study.search.of]
+    if study.search.budget is None:
+        return terms
+    kept = {name: words for name, words in terms.items() if name not in (FALL, LIMIT, "ballistic limit")}
+    return kept | v50.CRITERIA | (v50.MILITARY_CRITERION if study.search.of == "perforation" else {})
+
+
+@dataclass(frozen=True)
+class Run:
+    """One case: its velocity in m/s, and its regime, or None and the reason."""
+
+    record: Record
+    velocity: float
+    regime: str | None
+    reason: str = ""
+
+    def data(self) -> dict:
+        """For programs, SI."""
+        case, summary = self.record.case, self.record.case.summary
+        names = ("rod_length_m", "rod_initial_length_m", "rod_max_radius_m", "rod_initial_radius_m", "rod_core_mass_kg")
+        return {
+            "case": case.name, "velocity_m_s": self.velocity, "status": case.status, "regime": self.regime,
+            "reason": self.reason, "depth_m": self.record.depth, "perforated": self.record.perforated,
+            **{name: summary.get(name) for name in names},
+            "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"),
+            "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
+        }  # fmt: skip
+
+    def row(self) -> tuple[str, ...]:
+        """Velocity, regime, depth; length, radius and core mass relative to their initial values; and how the run ended."""
+        value, first = self.record.case.summary.get, self.record.first.get("rod_mass_kg")
+        depth = "" if self.record.depth is None else f"{_at_least(self)}{100 * self.record.depth:.2f} cm"
+        return (
+            f"{self.velocity:g} m/s", self.regime or self.record.case.status, depth,
+            _share(value("rod_length_m"), value("rod_initial_length_m")),
+            _share(value("rod_max_radius_m"), value("rod_initial_radius_m")),
+            _share(value("rod_core_mass_kg"), first), self.reason or self._end(),
+        )  # fmt: skip
+
+    def _end(self) -> str:
+        """How the run ended, and the residual velocity after a perforation."""
+        value = self.record.case.summary.get
+        left = value("rod_residual_velocity_m_s")
+        return str(value("stop_reason") or "") + ("" if left is None else f", {left:.0f} m/s left")
+
+
+HEADS = ("velocity", "regime", "depth", "length", "radius", "core mass", "end")
+
+
+def _share(value: float | None, first: float | None) -> str:
+    return "" if value is None or not first else f"{value / first:.3f}"
+
+
+def _at_least(run: Run) -> str:
+    return "at least " if run.record.at_least else ""
+
+
+def judge(record: Record, of: str = "regime", depth: float | None = None) -> Run:
+    """The outcome of a case: its regime at the end, or the outcome that `of` of a study file names; depth : threshold in m.
+
+    None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
+    without this regime, such a rod is recognised by its loss of mass.
+    """
+    case = record.case
+    velocity = record.velocity if record.velocity is not None else velocities.speed(case.values[velocities.AXIS])
+    if not record.done:
+        reason = case.message.splitlines()[0] if case.message else ""
+        return Run(record, velocity, None, f"{case.status}: {reason}" if reason else case.status)
+    if of == "perforation" and (record.perforated or not record.left):
+        return Run(record, velocity, PERFORATED if record.perforated else STOPPED)
+    if depth is not None:
+        return _by_threshold(record, velocity, depth)
+    first, mass = record.first.get("rod_mass_kg"), record.value("rod_mass_kg")
+    if record.perforated and (record.left or (first and mass < (1.0 - ERODED_MASS) * first)):
+        why = "the projectile went through the target and left the mesh; stop.perforation = true ends a run before that"
+        return Run(record, velocity, None, why)
+    if record.left:
+        return Run(record, velocity, None, "the projectile left the mesh before it came to rest")
+    if of == "length":
+        kept = record.value("rod_length_m") >= LEAST_KEPT * record.value("rod_initial_length_m")
+        return Run(record, velocity, KEPT if kept else USED_UP)
+    regime = case.summary.get("regime")
+    if of == "erosion":
+        return Run(record, velocity, ERODES if regime == ERODING else HOLDS)
+    return Run(record, velocity, regime)
+
+
+def _by_threshold(record: Record, velocity: float, depth: float) -> Run:
+    """Whether a case reached a depth in m; unknown for a rod that left the mesh, or the target, before it."""
+    if record.depth is None:
+        return Run(record, velocity, None, "it has no depth")
+    if record.depth < depth and record.at_least:
+        return Run(record, velocity, None, f"the projectile left the target or the mesh before a depth of {100 * depth:g} cm")
+    return Run(record, velocity, DEEP if record.depth >= depth else SHALLOW)
+
+
+@dataclass(frozen=True)
+class Transitions:
+    """The results of the runs of one combination of the axes.
+
+    values : labels of the axes except the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
+    settled : by name of a bracket of regimes, whether no further run could narrow it
+    notes : open questions with reasons, regimes out of order, runs that did not end at rest
+    comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
+    estimate : of a search with a budget, whose bracket is the interval of v50
+    """
+
+    title: str
+    values: dict[str, str]
+    brackets: list[Bracket]
+    settled: dict[str, bool]
+    runs: list[Run]
+    notes: list[str]
+    comparison: Comparison | None
+    estimate: v50.Estimate | None = None
+
+    @property
+    def known(self) -> list[Bracket]:
+        """Brackets of experiments and of the CTH study."""
+        return self.comparison.brackets[:-1] if self.comparison else []
+
+    @property
+    def predictions(self) -> list[Prediction]:
+        """The predictions of the analytic models."""
+        return self.comparison.predictions if self.comparison else []
+
+    def lines(self) -> list[str]:
+        """The results as lines of text."""
+        lines = [self.title, *columns((each.name, extent(each), each.source) for each in self.brackets)]
+        lines += [f"  {note}" for note in self.notes]
+        lines += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
+        if self.comparison is not None:
+            heading, _, *rest = self.comparison.lines(inputs=False)
+            lines += ["", f"  {heading}", *rest]
+        return lines
+
+    def data(self) -> dict:
+        """For programs, SI."""
+        return {
+            "title": self.title,
+            "values": self.values,
+            "transitions": [{"name": each.name, "low_m_s": each.low, "high_m_s": each.high, "in_words": each.source,
+                             "settled": self.settled.get(each.name)} for each in self.brackets],
+            "estimate": self.estimate and self.estimate.data(),
+            "notes": self.notes,
+            "runs": [run.data() for run in self.runs],
+            "comparison": self.comparison and self.comparison.data(),
+        }  # fmt: skip
+
+
+def label(values: Mapping[str, str]) -> str:
+    """A combination in words, by its axes without the velocity."""
+    return ", ".join(f"{name} = {value}" for name, value in values.items() if name != velocities.AXIS)
+
+
+def so_far(outcomes: Mapping[float, str], of: str = "regime") -> list[str]:
+    """The transitions of regimes by velocity in m/s, in words."""
+    scheme = SCHEMES[of]
+    return [
+        f"{name} {extent(Bracket(name, *bisection.bracket(outcomes, regime, scheme.order), ''))}"
+        for regime, name in scheme.names.items()
+    ]
+
+
+def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Transitions]:
+    """The transitions of every combination of the axes of a search. ``records`` : those of the cases, if already read."""
+    groups: dict[str, list[Record]] = {}
+    for each in records if records is not None else map(record.read, study.cases):
+        groups.setdefault(label(each.case.values), []).append(each)
+    return [_transitions(study, words or study.title, members) for words, members in groups.items()]
+
+
+def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transitions:
+    of = study.search.of
+    in_turn = [judge(each, of, study.search.depth) for each in members]
+    runs = sorted(in_turn, key=lambda run: run.velocity)
+    known = [run for run in runs if run.regime is not None]
+    values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
+    cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
+    moving = [f"runs that did not end at rest, whose regime is that at their end: {', '.join(cut)}"] if cut else []
+    if study.search.budget is None:
+        brackets, settled, notes = _by_bisection(study.search, runs, known)
+        estimate = None
+    else:
+        shots = [v50.Shot(run.record.case.name, run.velocity, run.regime, run.record.done) for run in in_turn]
+        estimate = v50.estimate(study.search, SCHEMES[of], shots)
+        brackets, settled, notes = [estimate.bracket], {estimate.name: estimate.spent}, estimate.notes
+    comparison, problem = _compared(known, brackets[0]) if of in OF_ROD else (None, "")
+    notes += [*moving, *([problem] if problem else [])]
+    return Transitions(title, values, brackets, settled, runs, notes, comparison, estimate)
+
+
+def _by_bisection(search: Interval, runs: Sequence[Run],
+                  known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:  # fmt: skip
+    """Brackets, which of them are settled, and notes."""
+    scheme = SCHEMES[search.of]
+    outcomes = {run.velocity: run.regime for run in known}
+    brackets, settled, notes = [], {}, []
+    for regime, name in scheme.names.items():
+        bracket = Bracket(name, *bisection.bracket(outcomes, regime, scheme.order), "")
+        brackets.append(replace(bracket, source=_ends(bracket, outcomes)))
+        settled[name], why = _settled(bracket, search, runs)
+        notes += [f"{name}: {why}"] if why else []
+    notes += _disordered(outcomes, scheme.order)
+    if search.of in OF_ROD:
+        limit, disordered = _limit(known)
+        brackets += [*_fall(known), *limit]
+        notes += disordered
+    return brackets, settled, notes
+
+
+def _ends(bracket: Bracket, outcomes: Mapping[float, str]) -> str:
+    """The regimes at both ends."""
+    return ", ".join(f"{outcomes[end]} at {end:g} m/s" for end in (bracket.low, bracket.high) if end is not None)
+
+
+def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple[bool, str]:
+    """Whether no further run could narrow a bracket, and why it is wider than the tolerance if it is."""
+    low, high, slowest, fastest = bracket.low, bracket.high, interval.speeds[0], interval.speeds[-1]
+    if low is not None and high is not None and high - low <= interval.tolerance * (1.0 + velocities.SAME):
+        return True, ""
+    if high is None and low == fastest:
+        return True, f"open, not reached at {fastest:g} m/s, the fast end of the interval"
+    if low is None and high == slowest:
+        return True, f"open, reached already at {slowest:g} m/s, the slow end of the interval"
+    lost = [f"{run.velocity:g} m/s {run.reason}" for run in runs
+            if run.regime is None and (low or 0.0) < run.velocity < (high or 2.0 * fastest)]  # fmt: skip
+    return False, f"not narrowed to {interval.tolerance:g} m/s: " + ("; ".join(lost) or "not all runs were made")
+
+
+def _fall(known: Sequence[Run]) -> list[Bracket]:
+    """The velocities between which the depth falls: from the deepest run to the next faster one."""
+    deep = [run for run in known if run.record.depth is not None]
+    if not deep:
+        return []
+    deepest = max(deep, key=lambda run: (run.record.depth, run.velocity))
+    after = next((run for run in deep if run.velocity > deepest.velocity), None)
+    depths = [f"{_at_least(run)}{100 * run.record.depth:.2f} cm" for run in (deepest, after) if run]
+    words = ", then ".join(depths) if after else f"{depths[0]} at the fastest run: no fall is seen"
+    return [Bracket(FALL, deepest.velocity, after.velocity if after else None, words)]
+
+
+def by_depth(depths: Mapping[float, float], limit: float) -> Mapping[float, str]:
+    """Whether rods went deeper than the hydrodynamic limit, ``DEEPER`` or ``NOT_DEEPER``, by velocity.
+
+    Slow rods, which stop before they reach it, are left out; so are all if none is deeper, since the
+    depth does not show whether they were too slow or used up.
+    """
+    first = min((speed for speed, depth in depths.items() if depth > limit), default=math.inf)
+    return {speed: DEEPER if depth > limit else NOT_DEEPER for speed, depth in depths.items() if speed >= first}
+
+
+def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
+    """Velocities from which the depth is no longer above the hydrodynamic limit, if a run is deeper; and notes on order."""
+    deep = [run for run in known if run.record.depth is not None and run.record.shot]
+    if not deep:
+        return [], []
+    shot, setup = deep[0].record.shot, deep[0].record.setup
+    limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
+    outcomes = by_depth({run.velocity: run.record.depth for run in deep}, limit)
+    if not outcomes:
+        return [], []
+    return ([Bracket(LIMIT, *bisection.bracket(outcomes, NOT_DEEPER, DEPTHS), f"{100 * limit:.2f} cm")],
+            _disordered(outcomes, DEPTHS))
+
+
+def _disordered(outcomes: Mapping[float, str], order: Sequence[str]) -> list[str]:
+    """Notes on regimes out of order."""
+    return [f"out of order: {outcomes[slow]} at {slow:g} m/s, {outcomes[fast]} at {fast:g} m/s; the slowest change is given"
+            for slow, fast in bisection.disordered(outcomes, order)]  # fmt: skip
+
+
+def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
+    """Models, experiments and the CTH study for the rod and target of the first run, or why there is no comparison."""
+    first = next((run.record for run in known if run.record.shot), None)
+    if first is None:
+        why = next((run.record.without_models for run in known if run.record.without_models),
+                   "there are no projectile and target")
+        return None, f"nothing to compare with: {why if known else 'no run is done'}"
+    shot = first.shot
+    try:
+        comparison = model_transition.compare(models.Request(rod=shot.rod, target=shot.target, geometry=shot.values), shot.nose)
+    except InputError as error:
+        return None, f"the analytic models: {error}"
+    shots = experiments.of_materials(first.setup)
+    other = shots and not any(experiments.same_geometry(each, first.setup) for each in shots)
+    problem = f"the experiments' rods were {shots[0].length * 1e3:.4g} x {shots[0].diameter * 1e3:.4g} mm" if other else ""
+    return replace(comparison, brackets=[*comparison.brackets, replace(bracket, name="hydro2d")]), problem
+
+
+def write(study: Study, combinations: Sequence[Transitions]) -> None:
+    """Writes transition.json. Raises OSError."""
+    interval = study.search
+    data = {
+        "title": study.title, "version": __version__, "key": interval.key, "from_m_s": interval.speeds[0],
+        "to_m_s": interval.speeds[-1], "tolerance_m_s": interval.tolerance, "of": interval.of,
+        "depth_m": interval.depth, "budget": interval.budget and asdict(interval.budget), "criteria": criteria(study),
+        "complete": all(all(each.settled.values()) for each in combinations),
+        "combinations": [each.data() for each in combinations],
+    }  # fmt: skip
+    write_json(study.directory / FILE, data)
+
+
+def lines(study: Study, combinations: Sequence[Transitions]) -> list[str]:
+    """The transitions of a study in words, and the criteria."""
+    text = [line for each in combinations for line in (*each.lines(), "")]
+    return [*text, "criteria", *columns(criteria(study).items())]

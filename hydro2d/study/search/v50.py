@@ -1,0 +1,167 @@
+"""The result of a search with a budget: v50 and width of a transition whose outcome is partly chance, and uncertainties."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from hydro2d.analytic.model_transition import Bracket
+from hydro2d.files.whole import plain
+from hydro2d.study.plan.velocities import Velocities
+from hydro2d.study.records.layout import Interval
+from hydro2d.study.search import logit, sequence
+
+#: of MIL-STD-662F: shots with each outcome, and the largest difference of their velocities, m/s: 60, 90 and 125 ft/s. They
+#: are from memory, not checked against the text of the standard, which was not at hand
+MILITARY = ((5, 38.0), (3, 27.0), (2, 18.0))
+CRITERIA = {
+    "v50": "the velocity at which both outcomes are equally frequent, by logistic regression with Firth's correction",
+    "width": "from the velocity with 10 % of the outcome of fast shots to that with 90 %",
+    "90 % interval": "by the profile of the penalised likelihood; it is of chance on this mesh, not of the mesh or the models",
+}
+MILITARY_CRITERION = {
+    "V50 of MIL-STD-662F": "mean velocity of the fastest stopped shots and as many of the slowest perforating ones: "
+    + ", or ".join(f"{count} of each within {spread:g} m/s" for count, spread in MILITARY)
+    + "; the spreads are not checked against the text of the standard"
+}
+
+
+class Shot(NamedTuple):
+    """A run of a search: its case, its velocity in m/s, its outcome (None if it has none), whether it is done."""
+
+    case: str
+    velocity: float
+    outcome: str | None
+    done: bool
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Result of the shots of one combination of the axes for one transition.
+
+    name : of the transition;  outcomes : of slow and of fast shots;  shots : in the order of the search
+    budget : number of runs allowed;  spent : whether no further run is to be made
+    fit : None if the shots do not determine it
+    military : V50 of MIL-STD-662F in m/s, with the number of shots; None if no shots qualify; for a ballistic limit only
+    """
+
+    name: str
+    outcomes: tuple[str, str]
+    shots: tuple[Shot, ...]
+    budget: int
+    spent: bool
+    fit: logit.Fit | None
+    ballistic: bool
+    military: tuple[float, int] | None
+
+    @property
+    def bracket(self) -> Bracket:
+        """The interval of v50, as a bracket."""
+        low, high = (self.fit.v50_low, self.fit.v50_high) if self.fit else (None, None)
+        rounded = (None if end is None else round(end, 1) for end in (low, high))
+        words = f"90 % interval of v50 = {self.fit.v50:.1f} m/s" if self.fit else "v50 is not known"
+        return Bracket(self.name, *rounded, words)
+
+    @property
+    def known(self) -> list[Shot]:
+        """The shots that have an outcome."""
+        return [shot for shot in self.shots if shot.outcome is not None]
+
+    @property
+    def notes(self) -> list[str]:
+        """v50, its interval, the width, and the runs made of the budget, in words."""
+        known, (slow, fast) = self.known, self.outcomes
+        number = sum(shot.outcome == fast for shot in known)
+        done = sum(shot.done for shot in self.shots)
+        notes = [*self._in_words(), f"bought with {done} of {self.budget} runs: {number} {fast}, {len(known) - number} {slow}"
+                 + (f", {done - len(known)} without an outcome" if done > len(known) else "")]  # fmt: skip
+        if self.ballistic:
+            notes.append("V50 of MIL-STD-662F: " + (f"{self.military[0]:.1f} m/s from {self.military[1]} shots" if self.military
+                         else "none, since no shots lie as close together as it requires"))  # fmt: skip
+        return notes if self.spent else [*notes, "the budget is not spent; --resume continues"]
+
+    @property
+    def in_short(self) -> str:
+        """v50 and its interval, or why they are not known."""
+        return self._in_words()[0]
+
+    def _in_words(self) -> list[str]:
+        if self.fit is None:
+            return [self._unknown()]
+        fit = self.fit
+        width = f"width, 10 to 90 %: {fit.width:.3g} m/s, {_range(fit.width_low or None, fit.width_high, '.3g')}"
+        sudden = [] if fit.overlap else ["the outcomes do not overlap: a sudden change fits the shots as well as a gradual one"]
+        return [f"v50 = {fit.v50:.1f} m/s, {_range(fit.v50_low, fit.v50_high, '.1f')}", width, *sudden]
+
+    def _unknown(self) -> str:
+        """Why there is no estimate."""
+        seen, speeds = {shot.outcome for shot in self.known}, [shot.velocity for shot in self.known]
+        if not seen:
+            return "v50 is not known: no run has an outcome"
+        if len(seen) == 1:
+            side = f"above {max(speeds):g}" if seen == {self.outcomes[0]} else f"below {min(speeds):g}"
+            return f"v50 is not known: {len(speeds)} of {len(speeds)} shots {seen.pop()}; it lies {side} m/s, or chance hid it"
+        return f"v50 is not known: shots that are {self.outcomes[1]} were no faster than those that are {self.outcomes[0]}"
+
+    def data(self) -> dict:
+        """For programs, SI."""
+        names = ("v50", "v50_low", "v50_high", "width", "width_low", "width_high")
+        numbers = {f"{name}_m_s": getattr(self.fit, name) if self.fit else None for name in names}
+        return plain({
+            "outcome": self.outcomes[1], "level": logit.LEVEL, **numbers, "overlap": self.fit and self.fit.overlap,
+            "runs": sum(shot.done for shot in self.shots), "budget": self.budget,
+            "mil_std_662f_m_s": self.military and self.military[0], "mil_std_662f_shots": self.military and self.military[1],
+        })  # fmt: skip
+
+
+def _range(low: float | None, high: float | None, form: str) -> str:
+    """A 90 % interval in words."""
+    if low is None or high is None:
+        known = [f"{word} {end:{form}} m/s" for word, end in (("at least", low), ("at most", high)) if end is not None]
+        return f"90 % interval {known[0]}" if known else "90 % interval open at both ends"
+    return f"90 % interval {low:{form}} to {high:{form}} m/s"
+
+
+def estimate(search: Interval | Velocities, scheme, shots: Sequence[Shot]) -> Estimate:
+    """v50 and width from the runs of one combination, in the order of the search; scheme : of regimes.SCHEMES."""
+    in_order = tuple(shots)
+    slow, fast = scheme.order
+    known = [shot for shot in in_order if shot.outcome is not None]
+    outcomes = [None if shot.outcome is None else shot.outcome == fast for shot in in_order]
+    successes = [shot.outcome == fast for shot in known]
+    speeds = [shot.velocity for shot in known]
+    all_done = all(shot.done for shot in in_order)
+    return Estimate(
+        name=scheme.names[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
+        spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
+        fit=logit.fit(speeds, successes) if known else None, ballistic=search.of == "perforation",
+        military=military(speeds, successes) if search.of == "perforation" else None,
+    )  # fmt: skip
+
+
+def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float, int] | None:
+    """V50 by MIL-STD-662F in m/s and the number of shots in it; None if no shots lie close enough together.
+
+    It is the mean of the highest velocities that were stopped and of as many of the lowest that perforated, for the largest
+    number of shots whose velocities differ by no more than MILITARY allows.
+    """
+    v, y = np.asarray(speeds, float), np.asarray(perforated, bool)
+    stopped, through = np.sort(v[~y])[::-1], np.sort(v[y])
+    for count, spread in MILITARY:
+        group = np.concatenate([stopped[:count], through[:count]])
+        if len(group) == 2 * count and np.ptp(group) <= spread:
+            return float(group.mean()), 2 * count
+    return None
+
+
+def rows(values: dict[str, str], estimate: Estimate, draws: Sequence[dict]) -> list[dict]:
+    """Rows of the CSV: one for each shot of a combination, with its changes."""
+    return [
+        {**values, "transition": estimate.name, "shot": number, "case": shot.case, "velocity_m_s": shot.velocity,
+         "outcome": shot.outcome, **draw,
+         "fitted_probability": float(estimate.fit.probability([shot.velocity])[0]) if estimate.fit else None}
+        for number, (shot, draw) in enumerate(zip(estimate.shots, draws, strict=True), 1)
+    ]  # fmt: skip
