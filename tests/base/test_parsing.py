@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 from hydro2d.base import parsing
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 def test_no_two_threads_parse_at_once(monkeypatch):

@@ -1,0 +1,1 @@
+"""hydro2d/files: whole files, locks, checksums, strange files."""
