@@ -8,7 +8,7 @@ import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.study.ensemble import ensembles, outcomes
+from hydro2d.study.ensemble import agreement, ensembles
 from hydro2d.study.ensemble.chance import wilson
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.records import layout, responses
@@ -112,10 +112,10 @@ def test_a_score_rewards_the_true_probability():
     """Eight of ten shots end one way: members that do so in 80 % score better than members that always or half do."""
     def of(agreeing):
         shares = [wilson(agreeing, 1000)] * 8 + [wilson(1000 - agreeing, 1000)] * 2
-        return outcomes.score(shares).probability
+        return agreement.score(shares).probability
 
     assert of(800) > max(of(500), of(950), of(1000))
-    assert outcomes.score([]) is None
+    assert agreement.score([]) is None
 
 
 def test_the_page_and_the_files_have_the_ensembles(study, tmp_path):

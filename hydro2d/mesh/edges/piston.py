@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.mesh.edges.base import Key
+from hydro2d.base.parameters import ANY, REQUIRED, Parameter
 from hydro2d.mesh.edges.velocity import Velocity
 
 
@@ -13,7 +13,8 @@ class Piston(Velocity):
 
     name = "piston"
     meaning = "the normal velocity is a table over time; material crosses the edge as at a constant velocity"
-    keys = (Key("piston", "m/s", "normal velocity over time", [["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)
+    keys = (Parameter("piston", "m/s", REQUIRED, "normal velocity over time", sign=ANY,
+                      example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)  # fmt: skip
     sink = "piston"
     sink_meaning = "momentum that pistons take, and the work that they do (negative)"
 

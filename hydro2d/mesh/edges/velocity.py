@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from hydro2d.mesh.edges.base import BOTH_WAYS, Edge, Key
+from hydro2d.base.parameters import ANY, REQUIRED, Parameter
+from hydro2d.mesh.edges.base import BOTH_WAYS, Edge
 
 
 class Velocity(Edge):
@@ -10,7 +11,7 @@ class Velocity(Edge):
 
     name = "velocity"
     meaning = "the normal velocity is prescribed; where it points inward, more of the material next to the edge comes in"
-    keys = (Key("velocity", "m/s", "normal velocity", "100 m/s"),)
+    keys = (Parameter("velocity", "m/s", REQUIRED, "normal velocity", sign=ANY, example="100 m/s"),)
     sink = "walls"
 
     @classmethod
