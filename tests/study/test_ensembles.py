@@ -101,7 +101,7 @@ def test_members_make_no_series_of_their_own(tmp_path):
 def test_an_experiment_is_scored_by_how_probable_its_outcome_was(contents):
     """45 cm at 1086 m/s is deeper than the limit of 25 cm, as are four of five; 20 cm at 1200 m/s is not, as is one."""
     shares = {each.name: each.outcome and (each.outcome[0], each.outcome[1][:2]) for each in contents.ensembles}
-    deeper, shallower = outcomes.DEEPER, outcomes.NOT_DEEPER
+    deeper, shallower = agreement.DEEPER, agreement.NOT_DEEPER
     assert shares == {"1086m-s": (deeper, (4, 5)), "1150m-s": None, "1200m-s": (shallower, (1, 5))}
     score = ensembles.score(contents.ensembles)
     assert score[:4] == (2, 5, 10, 1)
