@@ -148,8 +148,7 @@ def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
         needed = {f"{edge}_{key.name}" for key in kind.keys} if kind else set()
         for key in sorted(needed):
             if table[key] is None:
-                what = "a piston" if kind.name == "piston" else "an edge with a velocity"
-                yield ("boundaries", edge), f"{what} needs {key}"
+                yield ("boundaries", edge), f"{kind.in_words} needs {key}"
         if needed and deck.sliding.method == "contact":
             yield ("boundaries", edge), "a contact allows no edge with a velocity: each body group would need its own"
         for other in KINDS:
@@ -238,8 +237,8 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
         if BY_NAME[kind].holds() or BY_NAME[kind].traction() == PUSH:
-            what = {"wall": "a wall", "anvil": "an anvil"}.get(kind, "an edge with a velocity")
-            yield ("boundaries", key), f'a mesh that follows "{name}" must have open ends along z; {what} cannot travel with it'
+            yield ("boundaries", key), (f'a mesh that follows "{name}" must have open ends along z; {BY_NAME[kind].in_words} '
+                                        "cannot travel with it")  # fmt: skip
     ahead, behind = room(deck, z)
     radius = extent(body(deck, name), deck, "r")[1]
     if ahead < (radius if np.isfinite(radius) else 0.0):

@@ -30,6 +30,8 @@ class Edge:
     edges: ClassVar[tuple[str, ...]] = EDGES
     meaning: ClassVar[str]
     keys: ClassVar[tuple[Parameter, ...]] = ()
+    #: the edge in a message
+    in_words: ClassVar[str] = "an open edge"
     #: its sink in the audit, and the meaning of that sink if hydro2d.mesh.sinks does not have it
     sink: ClassVar[str] = "outflow"
     sink_meaning: ClassVar[str] = ""

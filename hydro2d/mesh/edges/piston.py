@@ -12,6 +12,7 @@ class Piston(Velocity):
     """The velocity is linear between the rows of the table, and constant before the first and after the last one."""
 
     name = "piston"
+    in_words = "a piston"
     meaning = "the normal velocity is a table over time; material crosses the edge as at a constant velocity"
     keys = (Parameter("piston", "m/s", REQUIRED, "normal velocity over time", sign=ANY,
                       example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)  # fmt: skip

@@ -10,6 +10,7 @@ class Velocity(Edge):
     """Material crosses the edge at the velocity that the deck gives."""
 
     name = "velocity"
+    in_words = "an edge with a velocity"
     meaning = "the normal velocity is prescribed; where it points inward, more of the material next to the edge comes in"
     keys = (Parameter("velocity", "m/s", REQUIRED, "normal velocity", sign=ANY, example="100 m/s"),)
     sink = "walls"
