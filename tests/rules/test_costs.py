@@ -16,7 +16,7 @@ NAMED = {
     "flat_rounded": r"flat[-_]rounded|FlatRounded",
     "walker_anderson_finite": r"walker[-_]anderson[-_]finite",
     "perforation": r"outcomes\.perforation import Perforation|\bPerforation[,(]",
-    "curve": r"cli\.curve\b|^def curve",
+    "fit_strength": r"cli\.fit_strength|^def fit_strength",
 }
 
 
