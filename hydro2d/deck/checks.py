@@ -8,7 +8,8 @@ import numpy as np
 
 from hydro2d.base.errors import unknown
 from hydro2d.deck import derived
-from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
+from hydro2d.deck.layout import axis_edges, extent, layout
+from hydro2d.deck.mesh import SegmentError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
@@ -258,11 +259,6 @@ def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, ho
     return f'"{name}" {how} the mesh: {axis} from {low:g} to {high:g} m, the mesh from {mesh[0]:g} to {mesh[-1]:g} m'
 
 
-def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
-    """Smallest and largest coordinate of a body along an axis."""
-    return entry.outline(deck.mesh.r_start).extent(axis)
-
-
 def axial_length(deck: Deck, entry) -> float | None:
     """Length along the axis, m, of a rod or solid ball that lies on it alone and wholly in the mesh; None for all others.
 
@@ -272,7 +268,8 @@ def axial_length(deck: Deck, entry) -> float | None:
     if not entry.lies_on_axis or joined or deck.mesh.r_start != 0.0:
         return None
     (low, high), z = extent(entry, deck, "z"), axis_edges(deck, "z")
-    before = [chord for other in deck.body[: deck.body.index(entry)] for chord in other.outline(0.0).chords("z", BESIDE_AXIS)]
+    earlier = layout(deck).bodies[: deck.body.index(entry)]
+    before = [chord for other in earlier for chord in other.outline.chords("z", BESIDE_AXIS)]
     alone = all(min(end, high) - max(start, low) <= BESIDE_AXIS for start, end in before)
     return high - low if alone and z[0] <= low and high <= z[-1] else None
 

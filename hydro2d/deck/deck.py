@@ -19,9 +19,10 @@ from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validat
 from hydro2d.base import units
 from hydro2d.base.errors import MOST_LINES, DeckError, unknown
 from hydro2d.deck import key_messages, sections
-from hydro2d.deck.checks import axial_length, bars_to_follow, extent, faces, heading, inconsistencies, room, travel, unsupported
+from hydro2d.deck.checks import axial_length, bars_to_follow, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
-from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
+from hydro2d.deck.layout import body_groups, edges, extent, layout, slots
+from hydro2d.deck.mesh import body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import toml
 from hydro2d.files.lines import Sources, spelled
@@ -40,6 +41,7 @@ __all__ = [
     "extent",
     "find",
     "impact_velocity",
+    "layout",
     "load",
     "loads",
     "of_tables",
@@ -345,22 +347,6 @@ def _in_the_way(deck: Deck, rod, plates: list) -> list[str]:
 def written_segments(deck: Deck) -> dict[str, Any]:
     """Overrides by key that write out the segments of a mesh described by cells_across and reach; empty for other meshes."""
     return as_segments(deck, deck._tables)
-
-
-def slots(deck: Deck) -> list[str]:
-    """Names of the bodies with their own place in the arrays, in the order of index m."""
-    return [entry.name for entry in deck.body if entry.join is None]
-
-
-def body_groups(deck: Deck) -> list[int]:
-    """Body group of every slot, that is, its velocity field: 1 for the hard bodies of a contact, else 0."""
-    hard = deck.sliding.hard if deck.sliding.method == "contact" else ()
-    return [int(name in hard) for name in slots(deck)]
-
-
-def edges(deck: Deck) -> tuple[np.ndarray, np.ndarray]:
-    """Edges of the cells in m without ghosts: float64[nr + 1] in r, float64[nz + 1] in z."""
-    return axis_edges(deck, "r"), axis_edges(deck, "z")
 
 
 def sliding_widths(deck: Deck) -> tuple[float, float]:

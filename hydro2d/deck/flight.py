@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.deck.checks import extent, travel
+from hydro2d.deck.checks import travel
+from hydro2d.deck.layout import extent
 from hydro2d.deck.mesh import body, cells_between
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes.registry import AnyBody

@@ -10,7 +10,8 @@ import math
 
 from hydro2d.base import units
 from hydro2d.base.errors import unknown
-from hydro2d.deck.checks import extent, heading
+from hydro2d.deck.checks import heading
+from hydro2d.deck.layout import extent
 from hydro2d.deck.mesh import body
 from hydro2d.deck.mesh_sections import GENERATED, Mesh, as_text, radii
 from hydro2d.deck.sections import Deck

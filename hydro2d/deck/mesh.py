@@ -43,7 +43,7 @@ def body_radius(deck: Deck, name: str) -> float | None:
     return next((entry.own_radius for entry in deck.body if entry.name == name), None)
 
 
-def axis_edges(deck: Deck, axis: str) -> np.ndarray:
+def edges_along(deck: Deck, axis: str) -> np.ndarray:
     """Edges along "r" or "z", float64[n + 1]. Raises SegmentError for a segment that cannot be divided into cells."""
     edges = [deck.mesh.r_start if axis == "r" else deck.mesh.z_start]
     for *_, new in _laid(deck, axis):

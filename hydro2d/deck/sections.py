@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, WithJsonSchema, model_validator
 
 from hydro2d.base import units
 from hydro2d.base.keys import (
@@ -354,6 +354,9 @@ class Penetration(Section):
 
 class Deck(Section):
     """The tables of an input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
+
+    #: the layout of its bodies on its mesh, once `layout.layout` has made it
+    _layout: Any = PrivateAttr(None)
 
     name: Name = Field("deck", description="name of the run; default: the name of the file", examples=["shot_4344"])
     title: str = Field(

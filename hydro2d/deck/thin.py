@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from itertools import chain, pairwise
 from typing import NamedTuple
 
-from hydro2d.deck.checks import extent, travel
+from hydro2d.deck.checks import travel
 from hydro2d.deck.flight import AXES, Count, Flights
-from hydro2d.deck.mesh import axis_edges, body
+from hydro2d.deck.layout import axis_edges, extent, layout
+from hydro2d.deck.mesh import body
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes.outlines import Outline
 
@@ -109,7 +110,7 @@ def _lines(flights: Flights, axis: str) -> Iterator[Line]:
     """Lines along an axis, three between every two levels of the other axis."""
     across = AXES[1 - AXES.index(axis)]
     window, (first, last) = _window(flights, axis), _window(flights, across)
-    shapes = [(entry.join or entry.name, entry.outline(flights.deck.mesh.r_start)) for entry in flights.deck.body]
+    shapes = [(each.body.join or each.body.name, each.outline) for each in layout(flights.deck).bodies]
     inside = {level for _, shape in shapes for level in _levels(shape, across) if first < level < last}
     for band, (low, high) in enumerate(pairwise(sorted({first, last, *inside}))):
         for place, share in PLACES.items():

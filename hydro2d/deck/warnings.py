@@ -7,8 +7,9 @@ from itertools import combinations
 
 import numpy as np
 
-from hydro2d.deck.checks import AHEAD, extent, room
-from hydro2d.deck.mesh import axis_edges, body, misfits
+from hydro2d.deck.checks import AHEAD, room
+from hydro2d.deck.layout import axis_edges, extent, layout
+from hydro2d.deck.mesh import body, misfits
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes.outlines import shared_volume
 from hydro2d.deck.thin import thin_things
@@ -61,8 +62,7 @@ def _leaving(deck: Deck) -> Iterator[str]:
 
 def _overlaps(deck: Deck) -> Iterator[str]:
     """Bodies that partly overlap an earlier one, which takes the space. Wholly overlapping an earlier one is intended."""
-    placed = [(entry, shape, shape.extent("r"), shape.extent("z"))
-              for entry, shape in ((entry, entry.outline(deck.mesh.r_start)) for entry in deck.body)]
+    placed = [(each.body, each.outline, *each.extent.values()) for each in layout(deck).bodies]
     r, z = ((float(edges[0]), float(edges[-1])) for edges in (axis_edges(deck, "r"), axis_edges(deck, "z")))
     planar = deck.mesh.geometry == "planar"
     for (other, first, *reach), (entry, second, *its) in combinations(placed, 2):

@@ -16,6 +16,7 @@ from itertools import islice
 import numpy as np
 
 from hydro2d.base.errors import DeckError
+from hydro2d.deck.layout import layout
 from hydro2d.deck.shapes.outlines import Outline, Slab
 
 #: equation of state of material that has a pressure at any density
@@ -178,7 +179,7 @@ def _snapped(vof: np.ndarray) -> np.ndarray:
 
 
 def _body_shares(deck, grid) -> tuple[np.ndarray, np.ndarray]:
-    outlines = [body.outline(deck.mesh.r_start) for body in deck.body]
+    outlines = [placed.outline for placed in layout(deck).bodies]
     return shares_and_moments(outlines, grid.r_edges, grid.z_edges, grid.cylindrical)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.deck.layout import layout
 from hydro2d.mesh.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
 from hydro2d.solver import tracers
 from hydro2d.solver.surfaces import Follower
@@ -80,7 +81,7 @@ class Stations:
 
 def _group(sim, deck, r: float, z: float) -> int:
     """Body group of the body of the deck that is at (r, z) at the start; NO_GROUP if there is none."""
-    for body in deck.body:
-        if any(low <= z <= high for low, high in body.outline(deck.mesh.r_start).chords("z", r)):
-            return int(sim.state.group[sim.table.names.index(body.join or body.name)])
+    for placed in layout(deck).bodies:
+        if any(low <= z <= high for low, high in placed.outline.chords("z", r)):
+            return int(sim.state.group[sim.table.names.index(placed.body.join or placed.body.name)])
     return NO_GROUP
