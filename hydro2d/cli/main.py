@@ -208,7 +208,7 @@ def check(
         import_matplotlib()
         from hydro2d.results import figures, start_figure
 
-        figures.save(start_figure.draw(checked.dump, checked.deck), picture)
+        figures.save_figure(start_figure.draw(checked.dump, checked.deck), picture)
         say(f"wrote     {picture}")
     return 0
 

@@ -137,7 +137,7 @@ def estimate(search: Interval | Velocities, scheme, shots: Sequence[Shot]) -> Es
     return Estimate(
         name=scheme.names[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
         spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
-        fit=logit.fit(speeds, successes) if known else None, ballistic=search.of == "perforation",
+        fit=logit.fit_transition(speeds, successes) if known else None, ballistic=search.of == "perforation",
         military=military(speeds, successes) if search.of == "perforation" else None,
     )  # fmt: skip
 
