@@ -135,7 +135,7 @@ def draw_models(folder: Path) -> None:
             low, high = entry.example.velocities
             case = models.example(entry)
             velocities = [low + (high - low) * n / (POINTS - 1) for n in range(POINTS)]
-            figures.save(model_figures.draw(case, case.rows(velocities)), file)
+            figures.save_figure(model_figures.draw(case, case.rows(velocities)), file)
 
 
 def results_page() -> str:

@@ -17,15 +17,21 @@ from typing import TYPE_CHECKING  # noqa: E402
 from hydro2d.base.version import __version__ as __version__  # noqa: E402
 
 if TYPE_CHECKING:
-    from hydro2d.api import Study, open_run, open_study, run, sweep
+    from hydro2d.api import Study, fit_residual_velocity, open_run, open_study, penetration_model, run, sweep
     from hydro2d.base.errors import DeckError, Error, UnphysicalState
+    from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
+    from hydro2d.results.figures import new_figure, save_figure
     from hydro2d.results.reading import Results, ResultsError
     from hydro2d.running.run import RunError
     from hydro2d.solver.callbacks import every
     from hydro2d.solver.simulation import Simulation
+    from hydro2d.study.ensemble.chance import wilson
     from hydro2d.study.plan.definition import StudyError
+    from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
+    from hydro2d.study.records.layout import Case
+    from hydro2d.study.search.logit import fit_transition
 
 #: modules of the public names, imported on first use, so that `import hydro2d` costs nothing
 _PLACES = {
@@ -38,6 +44,17 @@ _PLACES = {
     "sweep": "hydro2d.api",
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
+    "Case": "hydro2d.study.records.layout",
+    "kept_rows": "hydro2d.study.records.keeping",
+    "KeptRow": "hydro2d.study.records.keeping",
+    "method_note": "hydro2d.study.records.keeping",
+    "penetration_model": "hydro2d.api",
+    "fit_residual_velocity": "hydro2d.api",
+    "fit_transition": "hydro2d.study.search.logit",
+    "wilson": "hydro2d.study.ensemble.chance",
+    "to_si": "hydro2d.base.units",
+    "new_figure": "hydro2d.results.figures",
+    "save_figure": "hydro2d.results.figures",
     "register": "hydro2d.materials.outside",
     "Error": "hydro2d.base.errors",
     "DeckError": "hydro2d.base.errors",
@@ -48,9 +65,11 @@ _PLACES = {
 }
 
 __all__ = [
+    "Case",
     "Deck",
     "DeckError",
     "Error",
+    "KeptRow",
     "Results",
     "ResultsError",
     "RunError",
@@ -59,11 +78,20 @@ __all__ = [
     "StudyError",
     "UnphysicalState",
     "every",
+    "fit_residual_velocity",
+    "fit_transition",
+    "kept_rows",
+    "method_note",
+    "new_figure",
     "open_run",
     "open_study",
+    "penetration_model",
     "register",
     "run",
+    "save_figure",
     "sweep",
+    "to_si",
+    "wilson",
 ]
 
 

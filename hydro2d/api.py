@@ -1,6 +1,6 @@
-"""The interface for programs and notebooks: `hydro2d.run`, `open_run`, `open_study`, `sweep`.
+"""The interface for programs and notebooks: `hydro2d.run`, `open_run`, `open_study`, `sweep`, and analytic models.
 
-`Deck` and `Simulation`, which are also in `hydro2d.__all__`, are the classes that the program itself uses.
+The other names in `hydro2d.__all__`, such as `Deck` and `Simulation`, are what the program itself uses.
 """
 
 from __future__ import annotations
@@ -9,12 +9,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hydro2d.analytic import beside
+from hydro2d.analytic import beside, model_deck, models
 from hydro2d.base.errors import UnphysicalState, from_extra
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
 from hydro2d.files.whole import plain, write_text
+from hydro2d.penetration import lambert_jonas
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.running.run import deck_hash
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
     from hydro2d.solver.simulation import Simulation
 
-__all__ = ["Study", "open_run", "open_study", "run", "sweep"]
+__all__ = ["Study", "fit_residual_velocity", "open_run", "open_study", "penetration_model", "run", "sweep"]
 
 
 def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads: int | None = None, restart: bool = False,
@@ -99,7 +100,7 @@ class Study(layout.Study):
     ----------
     title, name : title and name of the study
     axes : the varied quantities, in the order of the study file; empty for a folder of runs
-    cases : the cases, each with name, values on the axes, status, directory, and the summary once it has ended
+    cases : the cases, see `Case`
     """
 
     def table(self, *, members: bool = False) -> pandas.DataFrame:
@@ -210,3 +211,37 @@ def _name(key: str, axes: Mapping[str, object]) -> str:
     last = [toml.key_parts(each)[-1] for each in axes]
     own = toml.key_parts(key)[-1]
     return own if last.count(own) == 1 else key
+
+
+def penetration_model(name: str, deck: Deck, inputs: Mapping[str, float | str] | None = None) -> models.Case:
+    """An analytic penetration model for the rod and the target of a deck, as `hydro2d model NAME --deck DECK` evaluates it.
+
+    Parameters
+    ----------
+    name : name of the model, such as "tate" or "forrestal"
+    deck : a deck with a rod on the axis and one target
+    inputs : inputs by name in SI units, such as ``{"target.strength": 0.4e9}``, in place of those of the deck
+
+    Returns
+    -------
+    models.Case
+        ``values`` has all inputs by name; ``rows(velocities)`` has a dict of the outputs for each impact velocity in m/s;
+        ``transition()`` is the velocity above which the rod is no longer rigid, m/s. All in SI units.
+
+    Raises DeckError if the deck has no such rod and target, ValueError for an unknown model or an impossible input.
+    """
+    shot = model_deck.shot(deck)
+    return models.resolve(models.named(name), models.Request(shot.rod, shot.target, inputs or {}, shot.values))
+
+
+def fit_residual_velocity(velocities: Sequence[float], residual_velocities: Sequence[float], *,
+                          p: float | None = None) -> lambert_jonas.Fit:  # fmt: skip
+    """The formula of Lambert and Jonas fitted to shots through a plate: v_r = a (V^p - v_bl^p)^(1/p) above the limit v_bl.
+
+    velocities, residual_velocities : of each shot before and behind the plate, m/s; 0 behind a plate that stopped it
+    p : the exponent; by default it is fitted as well
+
+    The result has ``limit_velocity``, the ballistic limit v_bl in m/s, ``a``, ``p``, ``standard_error`` of v_r in m/s, and the
+    number of ``shots``. Raises ValueError if fewer shots perforated than there are constants to fit.
+    """
+    return lambert_jonas.fit(velocities, residual_velocities, p=p)

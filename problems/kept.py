@@ -9,30 +9,29 @@ from pathlib import Path
 from statistics import median
 from typing import TypeVar
 
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 
 R = TypeVar("R")
 
 
 def rows(path: Path, columns: Collection[str]) -> list[dict[str, str]]:
-    """The rows of a file that has at least these columns. Raises StudyError, OSError."""
+    """The rows of a file that has at least these columns, without lines that begin with #. Raises StudyError, OSError."""
     with open(path, encoding="utf-8", newline="") as file:
-        table = csv.DictReader(file)
+        table = csv.DictReader(line for line in file if not line.startswith("#"))
         if missing := set(columns) - {*(table.fieldnames or ())}:
-            raise StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
+            raise hydro2d.StudyError(f"{path}: no file of results: it has no column {', '.join(sorted(missing))}")
         return list(table)
 
 
-def read(path: Path, columns: Collection[str], of_row: Callable[[dict[str, str]], R], of_case: Callable[[layout.Case], R],
-         ended: Collection[str] = (layout.DONE,)) -> list[R]:  # fmt: skip
+def read(path: Path, columns: Collection[str], of_row: Callable[[dict[str, str]], R], of_case: Callable[[hydro2d.Case], R],
+         ended: Collection[str] = ("done",)) -> list[R]:  # fmt: skip
     """The results in a file with these columns, or of the cases of a study directory that have one of the states `ended`.
 
     Raises StudyError, OSError, and the errors of `of_row` and `of_case`.
     """
     if path.is_file():
         return [of_row(row) for row in rows(path, columns)]
-    return [of_case(case) for case in layout.read(path).cases if case.status in ended]
+    return [of_case(case) for case in hydro2d.open_study(path).cases if case.status in ended]
 
 
 def write(path: Path, columns: Sequence[str], records: Iterable[dict[str, object]]) -> None:

@@ -31,7 +31,30 @@ def calibrated(path: str) -> float:
     same: hydro2d.Results = hydro2d.open_run("runs/shot")
     everything: xarray.Dataset = same.fields
     table: pandas.DataFrame = hydro2d.sweep(deck, {"body.rod.velocity": [900.0, 1000.0]}, directory="runs/study")
-    cases = hydro2d.open_study("runs/study").cases
-    print(resolved, everything, table, [case.status for case in cases])
+    cases: tuple[hydro2d.Case, ...] = hydro2d.open_study("runs/study").cases
+    print(resolved, everything, table, [case.status for case in cases], studied(deck))
+    drawn(shot.history)
     depth: float = shot.summary["penetration_depth_m"]
     return depth
+
+
+def studied(deck: hydro2d.Deck) -> list[float]:
+    """Models, fits and kept rows."""
+    rows: list[hydro2d.KeptRow] = hydro2d.kept_rows("runs/study")
+    labels: list[dict[str, str]] = [row.labels for row in rows]
+    print(labels, hydro2d.method_note(row["method"] for row in rows), hydro2d.wilson(3, len(rows)).words)
+    speeds: list[float] = [hydro2d.to_si(row["velocity"], "m/s") for row in rows]
+    fit = hydro2d.fit_transition(speeds, [row["regime"] == "eroding" for row in rows])
+    limit: float = hydro2d.fit_residual_velocity([900.0, 800.0, 700.0], [500.0, 350.0, 100.0]).limit_velocity
+    model = hydro2d.penetration_model("tate", deck, {"target.strength": 0.4e9})
+    print(model.rows(speeds)[0]["depth"], deck.body_named("rod").name)
+    r, z = deck.edges()
+    return [limit, float(r[-1]), float(z[-1]), fit.v50 if fit else 0.0]
+
+
+def drawn(history: dict[str, np.ndarray]) -> None:
+    """A figure."""
+    figure, ((left, right),) = hydro2d.new_figure(6.0, 4.0, 1, 2, sharey=True)
+    left.plot(history["time"])
+    right.plot(history["time"])
+    hydro2d.save_figure(figure, "time.png")

@@ -27,5 +27,5 @@ def directive(path: str, thing) -> str:
     signature = ""
     if hasattr(thing, "model_fields"):  # a table of the deck: its keys have a page of their own
         text, signature = "[Deck keys](deck.md) has what it holds.\n\n", "()"
-        options = ["   :members: from_file, from_toml, from_dict, to_toml"]
+        options = ["   :members: from_file, from_toml, from_dict, to_toml, edges, body_named"]
     return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {path}{signature}", *options, "```"])

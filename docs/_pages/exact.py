@@ -32,7 +32,7 @@ def draw(folder: Path) -> None:
     for problem in PROBLEMS:
         with tempfile.TemporaryDirectory() as place:
             file = Path(place) / picture(problem)
-            figures.save(drawn(problem, rows), file)
+            figures.save_figure(drawn(problem, rows), file)
             pictures.shrink(file, folder / file.name)
         print(f"{problem.name}: {picture(problem)}", flush=True)
 

@@ -158,7 +158,7 @@ def draw(folder: Path) -> None:
         if study.results:
             with tempfile.TemporaryDirectory() as place:
                 file = Path(place) / study.picture
-                figures.save(chart(study), file)
+                figures.save_figure(chart(study), file)
                 pictures.shrink(file, folder / study.picture)
             print(f"{study.name}: {study.picture}", flush=True)
 

@@ -205,14 +205,15 @@ def _expected(unit: str) -> str:
     return f'expected {kind(unit)}: a number in {unit} or a string such as "1.5 {unit}"'
 
 
-def to_si(value, unit: str) -> float:
+def to_si(value: float | str, unit: str) -> float:
     """SI value of a number (taken as SI, unless it is marked as bare) or of a string with a unit.
 
     Parameters
     ----------
-    value : int, float or str
+    value : float or str
+        A quantity, such as ``"1.2 km/s"``.
     unit : str
-        The SI unit of the quantity, "1" for a plain number.
+        The SI unit of the quantity, such as ``"m/s"``; "1" for a plain number.
 
     Raises
     ------

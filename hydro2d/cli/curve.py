@@ -61,7 +61,7 @@ def curve(
         from hydro2d.results import figures
 
         fine = [strains[-1] * n / 100 for n in range(101)] if strains[-1] > 0.0 else strains
-        figures.save(flow_curves.draw([each.at(fine) for each in curves]), figure)
+        figures.save_figure(flow_curves.draw([each.at(fine) for each in curves]), figure)
     for path in filter(None, (csv, figure)):
         say(f"wrote {path}")
     return 0

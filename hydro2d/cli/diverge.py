@@ -57,6 +57,6 @@ def diverge(
         import_matplotlib()
         from hydro2d.results import figures
 
-        figures.save(divergence.figure(comparison, size), out)
+        figures.save_figure(divergence.figure(comparison, size), out)
         say(f"wrote {out}")
     return 0

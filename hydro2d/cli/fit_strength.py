@@ -79,7 +79,7 @@ def fit_strength(
         import_matplotlib()
         from hydro2d.results import figures
 
-        figures.save(fit_text.draw(fit), figure)
+        figures.save_figure(fit_text.draw(fit), figure)
     for path in filter(None, (csv, figure)):
         say(f"wrote {path}")
     return 0

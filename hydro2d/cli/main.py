@@ -10,6 +10,7 @@ from typing import Annotated
 import cyclopts
 from cyclopts import App, Parameter
 
+from hydro2d.base.errors import Error
 from hydro2d.base.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
 from hydro2d.base.terminal import flush, say, wrapped
 from hydro2d.base.version import __version__
@@ -28,6 +29,7 @@ from hydro2d.cli.status import status
 from hydro2d.cli.study import sweep, transition
 from hydro2d.cli.tabulate import tabulate
 from hydro2d.cli.view import view
+from hydro2d.files.locks import LostPlaceError
 
 WRONG_INPUT, REFUSED = 2, 4
 
@@ -60,26 +62,10 @@ app.command(transition)
 app.command(view)
 
 
-#: modules, and their exceptions for errors that the user can correct
-USER_ERRORS = (
-    ("base.errors", "DeckError"), ("base.errors", "MissingPackage"), ("base.errors", "TargetError"),
-    ("files.locks", "LockError"), ("files.strange", "StrangeFile"),
-    ("penetration.model", "InputError"), ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"),
-    ("output.vtk", "VtkError"), ("mesh.quantities", "FieldError"), ("running.run", "RunError"),
-    ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
-    ("results.terminal_charts", "ChartError"),
-    ("study.plan.definition", "StudyError"),
-)
-
-
-#: modules, and their exceptions for what the machine refuses
-REFUSALS = (("files.locks", "LostPlaceError"),)
-
-
-def _loaded(errors: tuple[tuple[str, str], ...]) -> tuple[type[Exception], ...]:
-    """The exceptions of the modules loaded so far. They are reported as one message, without a traceback."""
-    modules = ((sys.modules.get(f"hydro2d.{module}"), name) for module, name in errors)
-    return tuple(getattr(module, name) for module, name in modules if module is not None)
+def _input_errors() -> tuple[type[Exception], ...]:
+    """The exception of wrong inputs of analytic models, once their module is loaded."""
+    module = sys.modules.get("hydro2d.penetration.model")
+    return (module.InputError,) if module else ()
 
 
 def _set_threads(threads: int | None) -> None:
@@ -208,7 +194,7 @@ def check(
         import_matplotlib()
         from hydro2d.results import figures, start_figure
 
-        figures.save(start_figure.draw(checked.dump, checked.deck), picture)
+        figures.save_figure(start_figure.draw(checked.dump, checked.deck), picture)
         say(f"wrote     {picture}")
     return 0
 
@@ -324,9 +310,9 @@ def call(arguments: list[str]) -> int:
     except BrokenPipeError:
         lose_output()
         return STATUS["SIGPIPE"]
-    except _loaded(REFUSALS) as error:
+    except LostPlaceError as error:
         return _report(error, REFUSED)
-    except (UsageError, *_loaded(USER_ERRORS)) as error:
+    except (UsageError, Error, *_input_errors()) as error:
         return _report(error, WRONG_INPUT)
     except MemoryError as error:
         return _report(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)

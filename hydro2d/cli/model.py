@@ -145,7 +145,7 @@ def _write(case, rows, csv: Path | None, figure: Path | None) -> list[Path]:
         from hydro2d.analytic import model_figures
         from hydro2d.results import figures
 
-        figures.save(model_figures.draw(case, rows), figure)
+        figures.save_figure(model_figures.draw(case, rows), figure)
     return [path for path in (csv, figure) if path is not None]
 
 

@@ -97,17 +97,17 @@ def plot(
             raise UsageError(f"{opened[0].directory}: the mesh is planar, so there is no axis to turn a cut-away about")
         cutaway.draw(opened[0].dump_file(times[0]), out, field, _window(window))
     elif kind == "history":
-        figures.save(figures.histories(opened, quantity or figures.HISTORIES), out)
+        figures.save_figure(figures.histories(opened, quantity or figures.HISTORIES), out)
     elif kind == "crater":
-        figures.save(figures.craters(opened), out)
+        figures.save_figure(figures.craters(opened), out)
     elif kind == "debris":
-        figures.save(lines.debris(opened), out)
+        figures.save_figure(lines.debris(opened), out)
     elif kind == "line":
-        figures.save(lines.line_outs(opened, field, _line(line), times, limits=limits, scale=scale), out)
+        figures.save_figure(lines.line_outs(opened, field, _line(line), times, limits=limits, scale=scale), out)
     elif kind == "xt":
-        figures.save(lines.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
+        figures.save_figure(lines.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
     else:
-        figures.save(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window), limits=limits,
+        figures.save_figure(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window), limits=limits,
                                       scale=scale), out)  # fmt: skip
     say(f"wrote {out}")
     return 0

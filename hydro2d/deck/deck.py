@@ -11,7 +11,7 @@ import copy
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, islice
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validator
@@ -28,6 +28,9 @@ from hydro2d.files import toml
 from hydro2d.files.lines import Sources, spelled
 from hydro2d.files.whole import plain
 from hydro2d.materials import from_files, library
+
+if TYPE_CHECKING:
+    from hydro2d.deck.bodies import AnyBody
 
 __all__ = [
     "Deck",
@@ -132,6 +135,14 @@ class Deck(sections.Deck):
         Raises DeckError.
         """
         return of_tables(tables, overrides, name, folder)
+
+    def edges(self) -> tuple[np.ndarray, np.ndarray]:
+        """Edges of the cells along r and along z, m, shapes (nr + 1,) and (nz + 1,)."""
+        return edges(self)
+
+    def body_named(self, name: str) -> AnyBody:
+        """The entry of ``body`` with this name. Raises KeyError if there is none."""
+        return body(self, name)
 
 
 def find(path: str | Path) -> Path:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +22,9 @@ from hydro2d.output import history
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump
 from hydro2d.results.scales import LINEAR, FigureError, Scale
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: units for the reader: name, and how many of them make one SI unit
 READER = {
@@ -266,14 +270,18 @@ def own_axes(dump: Dump, window: tuple[float, float, float] | None = None, width
     return pyplot.subplots(figsize=(width + 1.2, height + 0.4), layout="constrained")[1]
 
 
-def new_figure(width: float, height: float, rows: int, columns: int):
-    """A figure that belongs to no window, and its axes (rows, columns)."""
+def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, np.ndarray]:
+    """A matplotlib Figure that belongs to no window, and its axes, shape (rows, columns).
+
+    width, height : inches
+    options : of `Figure.subplots`, such as ``sharey=True``
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
-    return figure, figure.subplots(rows, columns, squeeze=False)
+    return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
 
 def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str, mirror: str | None = None,
@@ -401,8 +409,13 @@ def craters(runs: list):
     return figure
 
 
-def save(figure, path: Path) -> None:
-    """Writes a figure; the suffix of the name sets the format. Raises FigureError."""
+def save_figure(figure: Figure, path: str | Path) -> None:
+    """Writes a matplotlib Figure, trimmed and at 160 dots per inch; a file is replaced by a whole one.
+
+    path : of the picture; its ending sets the format, such as ``.png``, ``.pdf`` or ``.svg``
+
+    Raises FigureError for another ending, or a folder that does not exist, and OSError.
+    """
     path = Path(path)
     allowed = figure.canvas.get_supported_filetypes()
     ending = path.suffix.lower().lstrip(".")

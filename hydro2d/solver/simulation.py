@@ -21,7 +21,7 @@ from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
 from hydro2d.solver import bodies, debris, insertion, reach
-from hydro2d.solver.audit import Audit
+from hydro2d.solver.audit import Audit, Totals, totals
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
@@ -361,6 +361,14 @@ class Simulation:
         off = np.abs(self.engine.courses.apart).max(axis=1).tolist()
         result["off_course_cells"] = dict(zip(self.table.names, off, strict=True))
         return result
+
+    def totals(self) -> Totals:
+        """Sums over the mesh, per radian (per unit depth in planar geometry).
+
+        It has ``mass`` and ``internal_of`` of each body, shapes (bodies,), axial ``momentum``, ``internal``, ``kinetic`` and
+        the sum of both as ``energy``.
+        """
+        return totals(self.state)
 
     def faults(self, share: float = TRUSTED) -> list[str]:
         """Reasons not to trust the state, see `sanity.faults`; empty if there are none."""

@@ -134,5 +134,5 @@ def _checked(case: Planned) -> check.Check:
 def mixed(parts: Sequence[Chosen]) -> Iterator[str]:
     """Notes on kept rows that are not all of this method."""
     for path in dict.fromkeys(each.plan.keep for each in parts if each.plan.keep):
-        if sentence := keeping.methods(row[keeping.OF_METHOD] for row in keeping.read(path)):
+        if sentence := keeping.method_note(row[keeping.OF_METHOD] for row in keeping.read(path)):
             yield f"{path.name}: {sentence}"

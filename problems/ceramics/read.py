@@ -14,7 +14,6 @@ from statistics import median
 import numpy as np
 
 import hydro2d
-from hydro2d.deck import deck as decks
 from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "ceramics.csv"
@@ -34,8 +33,8 @@ def ended(directory: Path) -> hydro2d.Results:
 def of_run(directory: Path) -> tuple:
     """The row of a run, in the order of COLUMNS; the depth in the steel is 0 where the rod ends in the tile."""
     run = ended(directory)
-    rod, tile = (next(body for body in run.deck.body if body.name == name) for name in ("rod", "tile"))
-    cells = 0.5 * rod.diameter / float(np.diff(decks.edges(run.deck)[1]).min())
+    rod, tile = map(run.deck.body_named, ("rod", "tile"))
+    cells = 0.5 * rod.diameter / float(np.diff(run.deck.edges()[1]).min())
     thickness = (tile.z[1] - tile.z[0]) * 1e3
     depth = float(run.history["penetration_depth_m"].max()) * 1e3
     density = run.deck.materials[tile.material].eos.values["reference_density"]

@@ -10,16 +10,13 @@ became unphysical, the cell says when and why. `--keep` writes all cases into a 
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from hydro2d.output.history import HistoryError
-from hydro2d.results.reading import Results, ResultsError
-from hydro2d.solver.audit import CLIPS
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 from problems import kept
 
 ADVECTION = ("ke", "momentum", "both")
@@ -33,18 +30,18 @@ class Measure:
     unit: str
     digits: int
     expected: str
-    of: Callable[[Results], float | None]
+    of: Callable[[hydro2d.Results], float | None]
 
 
-def _crater(run: Results) -> float:
+def _crater(run: hydro2d.Results) -> float:
     return 1e3 * run.summary["crater"]["depth_m"]
 
 
-def _body(name: str, key: str, factor: float) -> Callable[[Results], float]:
+def _body(name: str, key: str, factor: float) -> Callable[[hydro2d.Results], float]:
     return lambda run: factor * run.summary["bodies"][name][key]
 
 
-def _pull_back(run: Results) -> float:
+def _pull_back(run: hydro2d.Results) -> float:
     """Fall of the rear's velocity from its peak to the least value in the microsecond after."""
     time, velocity = run.history["time"], run.history["tracer_rear_velocity_z_m_s"]
     peak = velocity.argmax()
@@ -102,8 +99,8 @@ COLUMNS = tuple(field.name for field in fields(Result))
 
 
 def read(path: Path) -> list[Result]:
-    """The ended cases of a study directory, or of a file of results. Raises StudyError, OSError, ResultsError, HistoryError."""
-    return kept.read(path, COLUMNS, _kept, _of, ended=(layout.DONE, layout.UNPHYSICAL))
+    """The ended cases of a study directory, or of a file of results. Raises hydro2d.Error, OSError."""
+    return kept.read(path, COLUMNS, _kept, _of, ended=("done", "unphysical"))
 
 
 def _kept(row: dict[str, str]) -> Result:
@@ -113,12 +110,12 @@ def _kept(row: dict[str, str]) -> Result:
     return Result(**labels, value=value, discarded=discarded, clipped=clipped, time=time, cycles=int(row["cycles"]))
 
 
-def _of(case: layout.Case) -> Result:
+def _of(case: hydro2d.Case) -> Result:
     summary, shot = case.summary, case.values["shot"]
-    ended = case.status == layout.DONE
+    ended = case.status == "done"
     sinks, start = summary["conservation"]["sinks"], summary["conservation"]["start_energy_J"]
     discarded, clipped = (round(100.0 * sinks[name]["energy_J"] / start, 2) for name in ("advection", "ke_bound"))
-    value = MEASURES[shot].of(Results(case.directory)) if ended else None
+    value = MEASURES[shot].of(hydro2d.open_run(case.directory)) if ended else None
     status = ("trusted" if summary["trustworthy"] else "not trusted") if ended else "unphysical"
     return Result(shot, case.values.get("sliding", "none"), case.values["advection"], status,
                   None if value is None else round(value, 3), discarded, clipped, round(1e6 * summary["time_s"], 2),
@@ -127,10 +124,11 @@ def _of(case: layout.Case) -> Result:
 
 def _short(fault: str) -> str:
     """The clip that a fault names; "a hot cell", "a cold cell", "energy discarded"; or the fault."""
+    if clip := re.search(r"(\w+) has removed ", fault):
+        return clip[1]
     doubts = {f"a {what} cell": f'" is too {what} with ' for what in ("hot", "cold")}
     doubts["energy discarded"] = "velocities has discarded "
-    phrases = {**{name: f"{name} has removed " for name in CLIPS}, **doubts}
-    return next((name for name, part in phrases.items() if part in fault), fault)
+    return next((name for name, part in doubts.items() if part in fault), fault)
 
 
 def keep(results: list[Result], path: Path) -> None:
@@ -159,10 +157,10 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         results = [result for path in given.results for result in read(path)]
         if not results:
-            raise StudyError("there is no case that has ended")
+            raise hydro2d.StudyError("there is no case that has ended")
         if given.keep:
             keep(results, given.keep)
-    except (StudyError, ResultsError, HistoryError, OSError) as error:
+    except (hydro2d.Error, OSError) as error:
         print(error, file=sys.stderr)
         return 2
     print("\n".join(table(results)))

@@ -20,12 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.base.errors import DeckError
-from hydro2d.deck import mesh
-from hydro2d.output.history import HistoryError
-from hydro2d.results import reading
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 from problems import kept as results
 
 HERE = Path(__file__).parent
@@ -55,13 +50,13 @@ def section(r_edges, z_edges, fraction, axial, lateral) -> tuple[float, float]:
 
 
 def measure(directory: Path) -> dict[str, str]:
-    """What a run has of MEASURED. Raises ValueError for one that ends too early, ResultsError, HistoryError, DeckError."""
-    run = reading.Results(directory)
+    """What a run has of MEASURED. Raises ValueError for one that ends too early, hydro2d.Error."""
+    run = hydro2d.open_run(directory)
     history, time = run.history, run.history["time"]
     if time[-1] < FORCE_TO:
         raise ValueError(f"{directory}: ends at {1e6 * time[-1]:.0f} us")
     before, after = np.interp([FORCE_FROM, FORCE_TO], time, history["body_rod_momentum_N_s"])
-    force = (before - after) / (FORCE_TO - FORCE_FROM) / (math.pi * mesh.body_radius(run.deck, "rod") ** 2)
+    force = (before - after) / (FORCE_TO - FORCE_FROM) / (math.pi * run.deck.body_named("rod").rod_radius ** 2)
     dump = run.dump(float(time[-1]))
     pressure = dump.fields["Pressure [Pa]"]
     rr, zz, tt = (dump.fields[f"Deviatoric Stress {each} [Pa]"] for each in ("rr", "zz", "tt"))
@@ -89,10 +84,10 @@ def kept(study: str) -> list[dict[str, str]]:
 
 def keep(directory: Path) -> None:
     """Writes the finished cases of a study to its file. Raises StudyError, OSError, and what `measure` raises."""
-    cases = [case for case in layout.read(directory).cases if case.status == layout.DONE]
+    cases = [case for case in hydro2d.open_study(directory).cases if case.status == "done"]
     study = next((name for name, labels in STUDIES.items() if cases and tuple(cases[0].values) == labels), None)
     if study is None:
-        raise StudyError(f"{directory}: no finished case of {' or '.join(STUDIES)}")
+        raise hydro2d.StudyError(f"{directory}: no finished case of {' or '.join(STUDIES)}")
     results.write(file(study), columns(study),
                   [{**case.values, "member": case.member, **measure(case.directory)} for case in cases])
 
@@ -130,7 +125,7 @@ def main(arguments: list[str] | None = None) -> int:
         for directory in given.studies:
             keep(directory)
         print("\n".join([*rods(kept("first_90us")), "", *forces(kept("nose_force"))]))
-    except (StudyError, DeckError, HistoryError, reading.ResultsError, OSError, ValueError) as error:
+    except (hydro2d.Error, OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

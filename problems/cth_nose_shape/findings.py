@@ -18,9 +18,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from statistics import fmean, median, stdev
 
-from hydro2d.base.errors import DeckError
-from hydro2d.results import figures
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 from problems.cth_nose_shape import members, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 
@@ -121,13 +119,8 @@ def _difference(value: float, error: float | None) -> str:
 
 def draw(found: Runs, failure: str = "P"):
     """A matplotlib Figure: a panel for each treatment of sliding and alloy, a colour for each scheme, hemispherical rods."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     ways = list(dict.fromkeys(way[:2] for way in found if way[1] == failure))
-    figure = Figure(figsize=(9.0, 2.9 * len(ways)), layout="constrained")
-    FigureCanvasAgg(figure)
-    panels = figure.subplots(len(ways), 2, sharex="col", sharey=True, squeeze=False)
+    figure, panels = hydro2d.new_figure(9.0, 2.9 * len(ways), len(ways), 2, sharex="col", sharey=True)
     for way, row in zip(ways, panels, strict=True):
         schemes_of = {scheme: found.get((*way, scheme), {}) for scheme in SCHEMES}
         for alloy, axes in zip(rigid_rod.ALLOYS, row, strict=True):
@@ -155,8 +148,8 @@ def main(arguments: list[str] | None = None) -> int:
             print("\n".join([*compared(found, rigid_rod.NOSES["hemi"], axis), ""]))
         print("\n".join(rigid_rod.notes(results)))
         if given.figure:
-            figures.save(draw(found), given.figure)
-    except (StudyError, DeckError, OSError, KeyError) as error:
+            hydro2d.save_figure(draw(found), given.figure)
+    except (hydro2d.Error, OSError, KeyError) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

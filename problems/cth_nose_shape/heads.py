@@ -14,8 +14,7 @@ import sys
 from pathlib import Path
 from statistics import median
 
-from hydro2d.deck import deck as decks
-from hydro2d.results import figures
+import hydro2d
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import COLOURS, Result
 
@@ -40,7 +39,7 @@ SHOTS = {
 @functools.cache
 def measured(shot: str) -> float:
     """The measured depth of a shot, cm."""
-    return 1e2 * decks.load(SHOTS[shot][1]).experiment.penetration
+    return 1e2 * hydro2d.Deck.from_file(SHOTS[shot][1]).experiment.penetration
 
 
 def kept() -> list[Result]:
@@ -80,12 +79,7 @@ def table(found: dict[tuple[str, str], dict[str, list[float]]]) -> list[str]:
 
 def draw(found: dict[tuple[str, str], dict[str, list[float]]]):
     """A matplotlib Figure: depth over measured depth, a dot for every run, a column for every shot and law."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.6, 4.8), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
+    figure, ((axes,),) = hydro2d.new_figure(9.6, 4.8)
     ways = list(dict.fromkeys(WAYS.values()))
     for number, way in enumerate(ways):
         dots = [(column + 0.12 * (number - 0.5 * (len(ways) - 1)), depth / measured(shot))
@@ -110,7 +104,7 @@ def main(arguments: list[str] | None = None) -> int:
     found = cases(kept())
     print("\n".join(table(found)))
     if given.figure:
-        figures.save(draw(found), given.figure)
+        hydro2d.save_figure(draw(found), given.figure)
     return 0
 
 

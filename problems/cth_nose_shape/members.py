@@ -17,10 +17,7 @@ import sys
 from pathlib import Path
 from statistics import median
 
-from hydro2d.base.errors import DeckError
-from hydro2d.results import figures
-from hydro2d.study.ensemble import chance
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import COLOURS, PLATE, Result, Shot
 
@@ -94,19 +91,14 @@ def scores(found: dict[str, dict[Shot, list[Result]]], head: str = "law") -> lis
         sure = sum(10 * rights[shot] >= 9 * len(members) for shot, members in known.items())
         aims = sum(within_aim(members, shot) for shot, members in known.items())
         members = sum(map(len, known.values()))
-        share = chance.wilson(sum(rights.values()), members)
+        share = hydro2d.wilson(sum(rights.values()), members)
         lines.append(f"| {column} | {len(known)} | {share.words} | {sure} | {aims} |")
     return lines
 
 
 def draw(found: dict[str, dict[Shot, list[Result]]]):
     """A matplotlib Figure with a panel for each nose and alloy: a dot for every member; triangles are rods that perforate."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.6, 7.8), layout="constrained")
-    FigureCanvasAgg(figure)
-    panels = figure.subplots(2, 2, sharey=True, squeeze=False)
+    figure, panels = hydro2d.new_figure(9.6, 7.8, 2, 2, sharey=True)
     for nose, row in zip(rigid_rod.NOSES.values(), panels, strict=True):
         for alloy, axes in zip(rigid_rod.ALLOYS, row, strict=True):
             panel(axes, nose, alloy, found, 6.0)
@@ -165,8 +157,8 @@ def main(arguments: list[str] | None = None) -> int:
             return 2
         print("\n".join([*table(found), "", *scores(found), *rigid_rod.notes(results)]))
         if given.figure:
-            figures.save(draw(found), given.figure)
-    except (StudyError, DeckError, OSError) as error:
+            hydro2d.save_figure(draw(found), given.figure)
+    except (hydro2d.Error, OSError) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

@@ -14,8 +14,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro2d.files.whole import write_text
-from hydro2d.study.records import keeping
+import hydro2d
 from problems.cth_nose_shape import findings, members, rigid_rod, transitions
 
 HERE = Path(__file__).parent
@@ -62,7 +61,7 @@ def _holes() -> list[str]:
 
 
 def _transitions() -> list[str]:
-    return transitions.table(keeping.read(transitions.FILE))
+    return transitions.table(hydro2d.kept_rows(transitions.FILE))
 
 
 def _of_advection(make: Callable[[findings.Runs], list[str]]) -> Callable[[], list[str]]:
@@ -100,7 +99,7 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"{page.name}: {'has other tables' if check else 'filled'}")
             status = 1 if check else 0
             if not check:
-                write_text(page, new)
+                page.write_text(new, encoding="utf-8")
     return status
 
 

@@ -14,33 +14,32 @@ from __future__ import annotations
 import argparse
 import functools
 import itertools
+import math
 import re
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from hydro2d.analytic import model_transition
-from hydro2d.base.errors import DeckError
-from hydro2d.base.terminal import several
-from hydro2d.mesh.regime import LEAST_KEPT
-from hydro2d.study.outcomes.length import KEPT, USED_UP
-from hydro2d.study.plan.velocities import speed
-from hydro2d.study.records import keeping, layout
-from hydro2d.study.records.layout import StudyError
-from hydro2d.study.search import bisection
-from hydro2d.study.search.regimes import DEPTHS, NOT_DEEPER, by_depth
+import hydro2d
+from problems import kept
 
+#: the shots of the study, and a deck with the materials of its rods and plates for each alloy
+EXPERIMENTS = Path(__file__).with_name("experiments.csv")
+DECKS = {alloy: EXPERIMENTS.with_name(f"hemi_{alloy}_{velocity}.toml") for alloy, velocity in (("5083", 1296), ("7039", 1248))}
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")
 #: noses by what labels and decks call them
 NOSES = {"hemi": "hemispherical", "ogive": "ogival"}
 #: the axis of the shots; those that make a shot in a search for a transition
-SHOTS, SEARCHED, NOSE, CELLS = "shot", ("plate", "velocity"), "nose", keeping.CELLS
+SHOTS, SEARCHED, NOSE, CELLS = "shot", ("plate", "velocity"), "nose", "cells_across"
 #: plates of the shots; rods and plates
 ALLOYS = ("5083", "7039")
 RODS = tuple(itertools.product(NOSES.values(), ALLOYS))
 #: thickness of the plates, cm; mass of the rods, kg
 PLATE, MASS = 53.34, 0.063
+#: least share of its length that is left of a rod that is not used up
+LEAST_KEPT = 1.0 - 1.0 / 3.0
 #: marks runs that are not trustworthy
 DOUBTFUL = "†"
 #: words for the loss of length of rods, by the largest loss in per cent
@@ -68,11 +67,16 @@ class Shot:
 
 @dataclass(frozen=True)
 class Experiment:
-    """Depth (m), whether it is "measured", "estimated" or "at least", and whether the rod stayed rigid, by its depth."""
+    """Depth (m), whether it is "measured", "estimated" or "at least", and the hydrodynamic limit of the depth (m)."""
 
     depth: float
     kind: str
-    rigid: bool
+    limit: float
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the rod stayed rigid, by its depth."""
+        return self.depth > self.limit
 
     def __str__(self) -> str:
         return {"at least": "perforated", "estimated": f"{self.depth * 1e2:.1f} cm (estimated)"}.get(
@@ -111,7 +115,7 @@ class Result:
             return Shot.named(self.labels[SHOTS])
         plate, velocity = (self.labels.get(axis, "") for axis in SEARCHED)
         nose = self.labels.get(NOSE, NOSES["hemi"])
-        return Shot(nose, plate, speed(velocity)) if plate in ALLOYS and velocity else None
+        return Shot(nose, plate, hydro2d.to_si(velocity, "m/s")) if plate in ALLOYS and velocity else None
 
     @property
     def column(self) -> str:
@@ -137,29 +141,41 @@ class Result:
 @functools.cache
 def experiments() -> dict[Shot, Experiment]:
     """The twelve shots."""
-    return {Shot(each.nose, each.target.removeprefix("Al"), each.velocity):
-            Experiment(each.depth, each.depth_is, each.stayed_rigid) for each in model_transition.experiments()}  # fmt: skip
+    found = {}
+    for row in kept.rows(EXPERIMENTS, ("nose", "target", "velocity_m_s", "depth_cm", "depth_is", "length_cm")):
+        alloy = row["target"].removeprefix("Al")
+        limit = 1e-2 * float(row["length_cm"]) * math.sqrt(_density_ratio(alloy))
+        shot = Shot(row["nose"], alloy, float(row["velocity_m_s"]))
+        found[shot] = Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"], limit)
+    return found
+
+
+@functools.cache
+def _density_ratio(alloy: str) -> float:
+    """Density of the rods over that of a plate."""
+    deck = hydro2d.Deck.from_file(DECKS[alloy])
+    rod, plate = (deck.materials[deck.body_named(name).material].reference_density for name in ("rod", "plate"))
+    return rod / plate
 
 
 def read(path: Path, cells: float | None = None) -> list[Result]:
     """The finished runs of the directory of a study, or of a file of kept rows; cells : those across the rod, else all.
 
-    Raises StudyError, DeckError, OSError.
+    Raises hydro2d.Error, OSError.
     """
-    rows = keeping.read(path) if path.is_file() else keeping.of_directory(path)
-    found = [_of(row) for row in rows if row["status"] == layout.DONE]
+    found = [_of(row) for row in hydro2d.kept_rows(path) if row["status"] == "done"]
     return [run for run in found if cells is None or float(run.labels[CELLS]) == cells]
 
 
-def _of(row: keeping.Row) -> Result:
+def _of(row: hydro2d.KeptRow) -> Result:
     def number(name: str, factor: float = 1.0) -> float | None:
         return round(factor * float(row[name]), 9) if row[name] else None
 
     through = row["stop_reason"].startswith("perforation")
     depth, residual = (None, number("residual_velocity_m_s")) if through else (number("depth_m", 1e2), None)
     loss = round(100.0 * (1.0 - float(row["length_ratio"])), 9)
-    return Result(keeping.labels(row), int(row[keeping.MEMBER]), depth, loss, residual, row["regime"],
-                  number("hole_m3", 1e6), row[keeping.OF_METHOD], row["trustworthy"] != "False")
+    return Result(row.labels, int(row["member"]), depth, loss, residual, row["regime"],
+                  number("hole_m3", 1e6), row["method"], row["trustworthy"] != "False")
 
 
 def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:
@@ -184,7 +200,7 @@ def table(found: dict[str, dict[Shot, Result]]) -> list[str]:
 
 def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
     """Lines of Markdown: the transitions of every rod, by the loss of a third of its length and by the hydrodynamic limit."""
-    limits = {(each.nose, each.target.removeprefix("Al")): 1e2 * each.limit for each in model_transition.experiments()}
+    limits = {(shot.nose, shot.alloy): 1e2 * told.limit for shot, told in experiments().items()}
     measured = {shot: 1e2 * told.depth for shot, told in experiments().items()}
     lines = ["| rod | transition | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 3) + "|"]
     for rod in RODS:
@@ -201,27 +217,31 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
     return lines
 
 
-def _extent(ends: tuple[float | None, float | None]) -> str:
-    return model_transition.extent(model_transition.Bracket("", *ends, ""))
+def _bracket(changed: Mapping[float, bool]) -> str:
+    """From the fastest rod before the slowest that has changed, to that one; empty without rods."""
+    high = min((at for at, yes in changed.items() if yes), default=None)
+    low = max((at for at, yes in changed.items() if not yes and (high is None or at < high)), default=None)
+    if low is None or high is None:
+        return f"above {low:g} m/s" if low is not None else f"below {high:g} m/s" if high is not None else ""
+    return f"{low:g} to {high:g} m/s"
 
 
 def _length(cases: dict[float, Result]) -> str:
-    """From the fastest rod that held before the slowest that did not, to that one; empty without rods."""
-    words = {at: KEPT if case.held else USED_UP for at, case in cases.items()}
-    return _extent(bisection.bracket(words, USED_UP, (KEPT, USED_UP))) if words else ""
+    """The transition by the loss of length."""
+    return _bracket({at: not case.held for at, case in cases.items()})
 
 
 def _deeper(depths: dict[float, float], limit: float) -> str:
-    """The transition by depth, as a search has it; empty without rods."""
-    found = by_depth(depths, limit)
-    return _extent(bisection.bracket(found, NOT_DEEPER, DEPTHS)) if found else "none deeper" if depths else ""
+    """The transition by depth, to rods that go no deeper than the limit; rods slower than all that went deeper are left out."""
+    first = min((at for at, depth in depths.items() if depth > limit), default=math.inf)
+    return _bracket({at: depth <= limit for at, depth in depths.items() if at >= first}) or ("none deeper" if depths else "")
 
 
 def notes(results: list[Result]) -> list[str]:
     """Lines below the tables: how many runs are not to be trusted, and not of the present version of the method."""
     doubtful = sum(not result.trusted for result in results)
-    faults = f"{DOUBTFUL} {several(doubtful, 'run')} with a fault in the audit, such as too much energy lost."
-    of_methods = keeping.methods(result.method for result in results)
+    faults = f"{DOUBTFUL} {doubtful} run{'s' * (doubtful != 1)} with a fault in the audit, such as too much energy lost."
+    of_methods = hydro2d.method_note(result.method for result in results)
     return [line for each in (faults if doubtful else "", of_methods) if each for line in ("", each)]
 
 
@@ -258,7 +278,7 @@ def main(arguments: list[str] | None = None) -> int:
             print("there is no finished case of a shot", file=sys.stderr)
             return 2
         print("\n".join([*table(found), "", *transitions(found), "", *holes(results), *notes(results)]))
-    except (StudyError, DeckError, OSError) as error:
+    except (hydro2d.Error, OSError) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

@@ -11,45 +11,42 @@ import argparse
 import sys
 from pathlib import Path
 
-from hydro2d.mesh.regime import LEAST_KEPT
-from hydro2d.study.plan import velocities
-from hydro2d.study.records import keeping, layout
-from hydro2d.study.records.layout import StudyError
-from hydro2d.study.search import logit
+import hydro2d
+from problems.cth_nose_shape.rigid_rod import LEAST_KEPT
 from problems.kept import grouped
 
 HERE = Path(__file__).parent
 FILE = HERE / "results" / "transition.csv"
 #: what tells one search from another
-CASE = ("nose", keeping.CELLS, "law", "plate")
+CASE = ("nose", "cells_across", "law", "plate")
 #: velocities of the experiments between which the change lies, m/s: the fastest rod that stayed rigid, the next that eroded
 EXPERIMENTS = {("hemispherical", "5083"): "1086 to 1200 m/s", ("hemispherical", "7039"): "1038 to 1165 m/s",
                ("ogival", "5083"): "above 1227 m/s", ("ogival", "7039"): "above 1291 m/s"}  # fmt: skip
 HEAD = ("nose", "cells", "law", "plate", "experiments", "half of the rods", "90 % interval",
         "fastest that kept, slowest that lost", "runs")  # fmt: skip
 
-Rows = list[keeping.Row]
+Rows = list[hydro2d.KeptRow]
 
 
-def velocity(row: keeping.Row) -> float:
+def velocity(row: hydro2d.KeptRow) -> float:
     """m/s"""
-    return velocities.speed(row[velocities.AXIS])
+    return hydro2d.to_si(row["velocity"], "m/s")
 
 
-def kept(row: keeping.Row) -> bool:
+def kept(row: hydro2d.KeptRow) -> bool:
     """Whether the rod of a row has kept two thirds of its length."""
     return float(row["length_ratio"]) >= LEAST_KEPT
 
 
 def searches(rows: Rows) -> dict[tuple[str, ...], Rows]:
     """The finished runs of every search, the slowest first."""
-    found = grouped((row for row in rows if row["status"] == layout.DONE), CASE)
+    found = grouped((row for row in rows if row["status"] == "done"), CASE)
     return {case: sorted(members, key=velocity) for case, members in found.items()}
 
 
-def fitted(rows: Rows) -> logit.Fit:
-    """v50 and the width of the change from the rows of one search. Raises ValueError where they do not tell."""
-    fit = logit.fit([velocity(row) for row in rows], [not kept(row) for row in rows])
+def fitted(rows: Rows):
+    """v50 and the width of the change, from the rows of one search. Raises ValueError where they do not tell."""
+    fit = hydro2d.fit_transition([velocity(row) for row in rows], [not kept(row) for row in rows])
     if fit is None:
         raise ValueError("the runs do not tell the velocity of the change")
     return fit
@@ -75,7 +72,7 @@ def table(rows: Rows) -> list[str]:
         half, interval, sides = _said(members)
         lines.append(f"| {nose} | {cells} | {law} | {plate} | {EXPERIMENTS[nose, plate]} | {half} | {interval} | {sides} "
                      f"| {len(members)} |")  # fmt: skip
-    told = keeping.methods(row[keeping.OF_METHOD] for row in rows)
+    told = hydro2d.method_note(row["method"] for row in rows)
     return [*lines, "", told] if told else lines
 
 
@@ -84,8 +81,8 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="transitions", description=__doc__.splitlines()[0])
     parser.add_argument("file", type=Path, nargs="?", default=FILE, help="rows of a search; default: those that are kept")
     try:
-        print("\n".join(table(keeping.read(parser.parse_args(arguments).file))))
-    except (StudyError, OSError) as problem:
+        print("\n".join(table(hydro2d.kept_rows(parser.parse_args(arguments).file))))
+    except (hydro2d.Error, OSError) as problem:
         print(problem, file=sys.stderr)
         return 2
     return 0

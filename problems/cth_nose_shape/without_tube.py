@@ -18,8 +18,6 @@ from pathlib import Path
 import numpy as np
 
 import hydro2d
-from hydro2d.deck import deck as decks
-from hydro2d.solver import audit
 from problems import kept
 
 HERE = Path(__file__).parent
@@ -47,10 +45,10 @@ class Knife:
         tube &= speed < SLOW * tail
         if not tube.any():
             return
-        before = audit.totals(state)
+        before = sim.totals()
         rod[tube] = 0.0
         sim.engine.prepare()
-        after = audit.totals(state)
+        after = sim.totals()
         lost = before.mass - after.mass
         sim.audit.add("outflow", mass=lost, momentum=before.momentum - after.momentum, energy=before.energy - after.energy)
         self.taken += float(2.0 * np.pi * lost[m])
@@ -60,10 +58,10 @@ def shots(files: list[Path]) -> list[dict]:
     """A row for each deck with its tube, and one without."""
     rows = []
     for file in files:
-        deck = decks.load(file, list(LAW))
+        deck = hydro2d.Deck.from_file(file, LAW)
         for with_tube in (True, False):
             sim = hydro2d.Simulation(deck)
-            radius = 0.5 * next(body.diameter for body in deck.body if body.name == sim.projectile)
+            radius = 0.5 * deck.body_named(sim.projectile).diameter
             knife = Knife(radius)
             sim.run(callbacks=() if with_tube else [hydro2d.every(EVERY, knife)])
             told = sim.diagnostics()

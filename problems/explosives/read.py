@@ -13,7 +13,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from hydro2d.deck import deck as decks
+import hydro2d
 from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "explosives.csv"
@@ -49,7 +49,7 @@ def _mass_ratio(file) -> float:
 
 def of_run(directory: Path) -> list[tuple]:
     """The rows of a run, in the order of COLUMNS; velocities in km/s."""
-    deck = decks.load(directory / "deck.toml")
+    deck = hydro2d.Deck.from_file(directory / "deck.toml")
     explosive = deck.materials[deck.body[0].material].name
     rows: list[tuple] = []
     if deck.name == "against_a_wall":

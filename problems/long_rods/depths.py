@@ -25,14 +25,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.analytic import model_deck, models
-from hydro2d.base import units
-from hydro2d.base.errors import DeckError
-from hydro2d.penetration.model import InputError
-from hydro2d.results import figures
-from hydro2d.results.reading import Results
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 from problems import kept
 
 HERE = Path(__file__).parent
@@ -127,13 +120,13 @@ def _kept(row: dict[str, str]) -> Result:
     return Result(row["case"], labels, int(row["slenderness"]), {name: float(row[name]) for name in NUMBERS})
 
 
-def _of(case: layout.Case) -> Result:
+def _of(case: hydro2d.Case) -> Result:
     summary = case.summary
     diameter, length = 2.0 * summary["rod_initial_radius_m"], summary["rod_initial_length_m"]
     if "velocity" not in case.values or not summary.get("crater"):
-        raise StudyError(f"{case.name}: its study has no axis of the velocity, or it made no hole")
-    velocity = units.to_si(case.values["velocity"], "m/s")
-    parts = measured(Results(case.directory).history, diameter)
+        raise hydro2d.StudyError(f"{case.name}: its study has no axis of the velocity, or it made no hole")
+    velocity = hydro2d.to_si(case.values["velocity"], "m/s")
+    parts = measured(hydro2d.open_run(case.directory).history, diameter)
     numbers = (velocity, parts["depth"] / length, parts["slope"], parts["end"], parts["u"], parts["v"], parts["left"] / length,
                summary["crater"]["mean_diameter_m"] / diameter, 1e6 * parts["time"], summary["wall_s"] / 60.0)
     return Result(case.name, case.values, round(length / diameter), dict(zip(NUMBERS, numbers, strict=True)))
@@ -150,8 +143,9 @@ def keep_histories(directories: Sequence[Path], path: Path) -> None:
     with open(path, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(HISTORY)
-        for case in (case for each in directories for case in layout.read(each).cases if case.status == layout.DONE):
-            history = Results(case.directory).history
+        cases = (case for each in directories for case in hydro2d.open_study(each).cases)
+        for case in (case for case in cases if case.status == "done"):
+            history = hydro2d.open_run(case.directory).history
             time = 1e6 * history["time"]
             for n in np.searchsorted(time, np.arange(0.0, time[-1], EVERY)):
                 table.writerow([case.name, f"{time[n]:.2f}", f"{1e3 * history['penetration_depth_m'][n]:.3f}",
@@ -189,29 +183,25 @@ def curve(name: str, slenderness: int, velocities: Sequence[float]) -> list[floa
     walker-anderson has the effective flow stress of the target that anderson-riegel computes from Johnson and Cook's law: the
     latter's coefficients come from the former's depths with that stress.
     """
-    shot = model_deck.read(HERE / DECKS[slenderness])
-    law, heat = shot.target.strength.values, shot.target.eos.values["specific_heat"]
+    deck = hydro2d.Deck.from_file(HERE / DECKS[slenderness])
+    target = deck.materials[deck.body_named(deck.penetration.target).material]
+    law, heat = target.strength.values, target.eos.values["specific_heat"]
     keys = {"a": "yield_stress", "b": "hardening", "n": "hardening_exponent", "c": "rate_coefficient", "m": "thermal_exponent"}
     settings = {f"target.johnson_cook_{key}": law[word] for key, word in keys.items()}
     settings |= {"target.melt_temperature": law["melt_temperature"], "target.specific_heat": heat}
     speeds = [float(velocity) for velocity in velocities]
-    by_curve = models.resolve(models.named("anderson-riegel"), models.Request(shot.rod, shot.target, settings, shot.values))
+    by_curve = hydro2d.penetration_model("anderson-riegel", deck, settings)
     rows = by_curve.rows(speeds)
     if name != by_curve.model.name:
         stress = {"target.strength": rows[0]["effective_flow_stress"]} if name == "walker-anderson" else {}
-        rows = models.resolve(models.named(name), models.Request(shot.rod, shot.target, stress, shot.values)).rows(speeds)
+        rows = hydro2d.penetration_model(name, deck, stress).rows(speeds)
     return [float(row["depth_over_length"]) for row in rows]
 
 
 def draw(results: Sequence[Result]):
     """A matplotlib Figure: depth over length against velocity, a panel for each L/D that was run."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     lengths = sorted({each.slenderness for each in results})
-    figure = Figure(figsize=(max(1.0 + 3.2 * len(lengths), 6.4), 4.4), layout="constrained")
-    FigureCanvasAgg(figure)
-    panels = figure.subplots(1, len(lengths), sharey=True, squeeze=False)[0]
+    figure, (panels,) = hydro2d.new_figure(max(1.0 + 3.2 * len(lengths), 6.4), 4.4, 1, len(lengths), sharey=True)
     for axes, ratio in zip(panels, lengths, strict=True):
         low, middle, high = ([odermatt(v, ratio, each, *DENSITIES) for v in VELOCITIES] for each in (350.0, BRINELL, 230.0))
         axes.fill_between(VELOCITIES, low, high, color="0.85", label="Odermatt's fit, BHN 230 to 350")
@@ -242,17 +232,13 @@ def draw_parts(path: Path, cases: Sequence[str]):
 
     Raises StudyError for a case that the file does not have.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     rows = kept.rows(path, HISTORY)
-    figure = Figure(figsize=(8.4, 3.8), layout="constrained")
-    FigureCanvasAgg(figure)
-    left, right = figure.subplots(1, 2)
+    figure, ((left, right),) = hydro2d.new_figure(8.4, 3.8, 1, 2)
     for number, case in enumerate(cases):
         own = [row for row in rows if row["case"] == case]
         if not own:
-            raise StudyError(f"{path}: has no case {case} (has: {', '.join(dict.fromkeys(row['case'] for row in rows))})")
+            known = ", ".join(dict.fromkeys(row["case"] for row in rows))
+            raise hydro2d.StudyError(f"{path}: has no case {case} (has: {known})")
         time, depth, length, tail = (np.array([float(row[name]) for row in own]) for name in HISTORY[1:])
         u = np.gradient(depth, time) * 1e3
         left.plot(time, tail, "-", color=f"C{number}", lw=1.2)
@@ -279,20 +265,20 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if given.parts:
             if len(given.results) != 1 or not given.results[0].is_file() or not given.cases:
-                raise StudyError("--parts draws --cases of one file that --histories wrote")
-            figures.save(draw_parts(given.results[0], given.cases), given.parts)
+                raise hydro2d.StudyError("--parts draws --cases of one file that --histories wrote")
+            hydro2d.save_figure(draw_parts(given.results[0], given.cases), given.parts)
             return 0
         results = list({result.name: result for path in given.results for result in read(path)}.values())
         if not results:
-            raise StudyError("there is no finished case")
+            raise hydro2d.StudyError("there is no finished case")
         print("\n".join(table(results)))
         if given.keep:
             keep(results, given.keep)
         if given.histories:
             keep_histories([path for path in given.results if path.is_dir()], given.histories)
         if given.figure:
-            figures.save(draw(results), given.figure)
-    except (StudyError, DeckError, InputError, OSError) as error:
+            hydro2d.save_figure(draw(results), given.figure)
+    except (hydro2d.Error, ValueError, OSError) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

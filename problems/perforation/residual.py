@@ -16,12 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.penetration import lambert_jonas
-from hydro2d.penetration.model import InputError
-from hydro2d.results import figures
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import StudyError
-from hydro2d.study.records.record import Record
+import hydro2d
 
 COLOURS = {"blunt": "#1f4e79", "hemispherical": "#b5651d"}
 
@@ -48,10 +43,11 @@ def runs(directories: list[Path]) -> list[Run]:
     """The finished cases, sorted by nose and velocity. Raises StudyError."""
     cases = []
     for directory in directories:
-        for case in layout.read(directory).cases:
-            if case.status == layout.DONE and "nose" in case.values:
+        for case in hydro2d.open_study(directory).cases:
+            if case.status == "done" and "nose" in case.values:
                 summary, striking = case.summary, float(case.values["velocity"].split()[0])
-                through = Record(case).perforated
+                rested = summary["stop_reason"].startswith(("speed of", "rebound of"))  # with its nose beyond the rear face
+                through = summary["exit_time_s"] is not None and not rested
                 crater = summary["crater"]
                 cases.append(Run(case.values["nose"], striking, summary["rod_residual_velocity_m_s"] if through else 0.0,
                                  *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
@@ -62,8 +58,8 @@ def runs(directories: list[Path]) -> list[Run]:
 def limit(pairs: list[tuple[float, float]]) -> str:
     """Ballistic limit fitted to (striking, residual) velocities in m/s, with a and p; if the fit fails, the reason."""
     try:
-        fit = lambert_jonas.fit(*zip(*pairs, strict=True))
-    except InputError as error:
+        fit = hydro2d.fit_residual_velocity(*zip(*pairs, strict=True))
+    except ValueError as error:
         return str(error)
     return f"{fit.limit_velocity:.1f} m/s (a = {fit.a:.2f}, p = {fit.p:.2f})"
 
@@ -89,7 +85,7 @@ def table(cases: list[Run]) -> list[str]:
 
 def draw(cases: list[Run]):
     """A matplotlib Figure: filled markers for runs, open ones for experiments."""
-    figure, ((axes,),) = figures.new_figure(6.0, 4.4, 1, 1)
+    figure, ((axes,),) = hydro2d.new_figure(6.0, 4.4)
     measured = experiments()
     for nose, colour in COLOURS.items():
         mine = np.array([(run.striking, run.residual) for run in cases if run.nose == nose]).reshape(-1, 2)
@@ -110,12 +106,12 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         cases = runs(given.studies)
-    except StudyError as error:
+    except hydro2d.StudyError as error:
         print(error, file=sys.stderr)
         return 2
     print("\n".join(table(cases)))
     if given.figure:
-        figures.save(draw(cases), given.figure)
+        hydro2d.save_figure(draw(cases), given.figure)
     return 0
 
 

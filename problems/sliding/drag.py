@@ -19,10 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.analytic import model_deck, models
-from hydro2d.base.errors import DeckError
-from hydro2d.output.history import HistoryError
-from hydro2d.results import reading
+import hydro2d
 
 #: smallest number of rows of the history to which a line is fitted
 ROWS = 4
@@ -54,13 +51,14 @@ def windows(time: np.ndarray, speed: np.ndarray, depth: np.ndarray, width: float
 def measure(directory: Path | str, width: float = 10e-6) -> dict:
     """Force (Pa, over the rod's cross-section) by window, with the values of theory and experiment; SI.
 
-    Raises ResultsError, HistoryError, DeckError.
+    Raises hydro2d.Error.
     """
-    run = reading.Results(directory)
+    run = hydro2d.open_run(directory)
     if "rod_mean_velocity_m_s" not in run.history:
-        raise reading.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
-    shot = model_deck.read(run.directory / reading.DECK)
-    case = models.resolve(models.named("forrestal"), models.Request(shot.rod, shot.target, geometry=shot.values))
+        raise hydro2d.ResultsError(f"{directory} has no rod: its deck has no [penetration]")
+    case = hydro2d.penetration_model("forrestal", run.deck)
+    rod, target = (run.deck.body_named(getattr(run.deck.penetration, key)) for key in ("rod", "target"))
+    impact = abs(rod.velocity[1] - target.velocity[1])
     mass, section = case.values["rod.mass"], 0.25 * math.pi * case.values["rod.diameter"] ** 2
     time, depth = run.history["time"], run.history["penetration_depth_m"]
     speed = run.direction * run.history["rod_mean_velocity_m_s"]
@@ -72,12 +70,12 @@ def measure(directory: Path | str, width: float = 10e-6) -> dict:
 
     def mean(reached: float, left: float = 0.0) -> float | None:
         """Mean resistance over a depth (m) at the end of which the rod's speed is ``left`` (m/s)."""
-        return 0.5 * mass * (shot.velocity**2 - left**2) / (section * reached) if reached else None
+        return 0.5 * mass * (impact**2 - left**2) / (section * reached) if reached else None
 
     return {
-        "run": run.label, "ended": bool(run.summary), "velocity": shot.velocity, "mass": mass, "section": section, "rows": rows,
+        "run": run.label, "ended": bool(run.summary), "velocity": impact, "mass": mass, "section": section, "rows": rows,
         "speed": float(speed[-1]), "depth": float(depth[-1]), "mean": mean(depth[-1], speed[-1]),
-        "cavity_depth": case.rows([shot.velocity])[0]["depth"],
+        "cavity_depth": case.rows([impact])[0]["depth"],
         "measured_depth": run.measured_depth, "measured_mean": mean(run.measured_depth),
     }  # fmt: skip
 
@@ -110,7 +108,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         results = [measure(directory, given.window * 1e-6) for directory in given.run]
-    except (reading.ResultsError, HistoryError, DeckError) as error:
+    except hydro2d.Error as error:
         print(error, file=sys.stderr)
         return 2
     print(json.dumps(results, indent=2) if given.json else "\n\n".join(map(table, results)))

@@ -12,7 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from hydro2d.deck import deck as decks
+import hydro2d
 from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "spall.csv"
@@ -41,10 +41,10 @@ def pull_back(velocity: np.ndarray) -> tuple[float, float, float]:
 
 def of_run(directory: Path) -> tuple:
     """The row of a run, in the order of COLUMNS."""
-    deck = decks.load(directory / "deck.toml")
+    deck = hydro2d.Deck.from_file(directory / "deck.toml")
     with h5py.File(directory / "history.h5") as file:
         top, lowest, rebound = pull_back(file["tracer_velocity_z_m_s"][:, 0])
-    size = float(np.diff(decks.edges(deck)[1]).min())
+    size = float(np.diff(deck.edges()[1]).min())
     failure = "cracks" if deck.failure.damage == "material" else "plain"
     numbers = top, lowest, top - lowest, rebound - lowest
     return (deck.name, failure, round(THICKNESS / size), *(round(each, 1) for each in numbers))

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from hydro2d.deck import deck as decks
+import hydro2d
 from problems.cth_nose_shape import heads, members, rigid_rod
 from problems.explosives import read as of_explosives
 from problems.long_rods import depths
@@ -112,7 +112,7 @@ def eroding(name: str) -> list[Row]:
 def steel(name: str, file: str, **labels: str) -> list[Row]:
     """Forrestal and Piekutowski's rods, of the runs with these labels."""
     measured = {round(experiment.velocity): 1e2 * experiment.penetration for path in sorted(HERE.glob("rigid_6061_*.toml"))
-                if (experiment := decks.load(path).experiment)}  # fmt: skip
+                if (experiment := hydro2d.Deck.from_file(path).experiment)}  # fmt: skip
     runs = [run for run in rigid_rod.read(HERE / "results" / file)
             if all(run.labels.get(axis) == label for axis, label in labels.items())]
     return [Row(name, f"{run.labels['shot']} m/s", measured[int(run.labels["shot"])], "cm", (run.depth,))

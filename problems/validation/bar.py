@@ -16,9 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.mesh import quantities
-from hydro2d.output import vtk
-from hydro2d.results import reading
+import hydro2d
 
 #: smallest volume fraction at which a cell belongs to the bar
 HALF = 0.5
@@ -56,7 +54,7 @@ def shape(r_edges: np.ndarray, z_edges: np.ndarray, fraction: np.ndarray, strain
     column = fraction[:, 0]
     inside = np.nonzero(column >= HALF)[0]
     if len(inside) == 0:
-        raise reading.ResultsError(f"the bar is nowhere on the axis at {time * 1e6:.3g} us")
+        raise hydro2d.ResultsError(f"the bar is nowhere on the axis at {time * 1e6:.3g} us")
     row = fraction[inside[0] if direction < 0 else inside[-1]]
     return Bar(
         time=time,
@@ -75,22 +73,22 @@ def reference(speed: float, length: float) -> tuple[Bar, ...]:
 
 
 def measure(directory: Path | str, name: str | None = None) -> dict:
-    """The bar in every dump, and its comparison with the reference at its times; SI. Raises ResultsError, VtkError."""
-    run = reading.Results(directory)
+    """The bar in every dump, and its comparison with the reference at its times; SI. Raises hydro2d.Error."""
+    run = hydro2d.open_run(directory)
     bodies = {body["name"]: body for body in run.tables["body"]}
     name = name or next(iter(bodies))
     if name not in bodies:
-        raise reading.ResultsError(f'{directory} has no body "{name}"; its bodies are {", ".join(bodies)}')
+        raise hydro2d.ResultsError(f'{directory} has no body "{name}"; its bodies are {", ".join(bodies)}')
     velocity = bodies[name]["velocity"][1]
-    fields = [quantities.BY_KEY[key].name(name) for key in ("volume_fraction", "body_plastic_strain")]
+    fields = [f"Volume Fraction for {name}", f"Plastic Strain of {name}"]
     bars = []
-    for _, file in run.dumps:
-        dump = vtk.read_grid(file)
+    for time, file in run.dumps:
+        dump = run.dump(time)
         if any(field not in dump.fields for field in fields):
-            raise reading.ResultsError(f'{file} lacks one of {", ".join(fields)}: add "body_plastic_strain" to output.fields')
+            raise hydro2d.ResultsError(f'{file} lacks one of {", ".join(fields)}: add "body_plastic_strain" to output.fields')
         bars.append(shape(dump.r_edges, dump.z_edges, *(dump.fields[field] for field in fields), velocity, dump.time))
     if not bars:
-        raise reading.ResultsError(f"{directory} has no fields: no dump was written yet")
+        raise hydro2d.ResultsError(f"{directory} has no fields: no dump was written yet")
     known = reference(abs(velocity), bars[0].length)
     return {
         "run": run.label, "ended": bool(run.summary), "body": name, "velocity": velocity,
@@ -138,7 +136,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         results = [measure(directory, given.body) for directory in given.run]
-    except (reading.ResultsError, vtk.VtkError) as error:
+    except hydro2d.Error as error:
         print(error, file=sys.stderr)
         return 2
     print(json.dumps(results, indent=2) if given.json else "\n\n".join(map(table, results)))

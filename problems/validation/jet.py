@@ -20,12 +20,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import eos
+import hydro2d
 from eos.dispatch import evaluate
-from hydro2d.base.errors import DeckError
-from hydro2d.deck import deck as decks
-from hydro2d.mesh import quantities
-from hydro2d.output import vtk
-from hydro2d.results import reading
 
 #: smallest volume fraction at which a cell counts as one material
 PURE = 1.0 - 1e-4
@@ -70,7 +66,7 @@ def bernoulli(jet, target, velocity: float) -> tuple[float, float]:
     target_speed = np.sqrt(2.0 * np.interp(p, *other))
     sum_of_speeds = np.sqrt(2.0 * np.interp(p, *own)) + target_speed
     if velocity > sum_of_speeds[-1]:
-        raise reading.ResultsError(f"{velocity:g} m/s is beyond the range of the compressible Bernoulli table")
+        raise hydro2d.ResultsError(f"{velocity:g} m/s is beyond the range of the compressible Bernoulli table")
     pressure = float(np.interp(velocity, sum_of_speeds, p))
     return float(np.interp(pressure, p, target_speed)), pressure
 
@@ -113,15 +109,14 @@ def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tup
     return Point(time, position, *(stagnation(x[side], p[side]) for side, p in zip(sides, pressures, strict=True)))
 
 
-def read(run: reading.Results, jet: str, target: str, reach: float) -> list[Point]:
-    """The interface in every dump that has one. Raises ResultsError, VtkError."""
-    share, pressure = quantities.BY_KEY["volume_fraction"], quantities.BY_KEY["body_pressure"]
-    names = [quantity.name(body) for quantity in (share, pressure) for body in (jet, target)]
+def read(run: hydro2d.Results, jet: str, target: str, reach: float) -> list[Point]:
+    """The interface in every dump that has one. Raises hydro2d.Error."""
+    names = [name for form in ("Volume Fraction for {}", "Pressure of {} [Pa]") for name in map(form.format, (jet, target))]
     points = []
-    for _, file in run.dumps:
-        dump = vtk.read_grid(file)
+    for time, file in run.dumps:
+        dump = run.dump(time)
         if any(name not in dump.fields for name in names):
-            raise reading.ResultsError(f'{file} lacks one of {", ".join(names)}: add "body_pressure" to output.fields')
+            raise hydro2d.ResultsError(f'{file} lacks one of {", ".join(names)}: add "body_pressure" to output.fields')
         columns = [dump.fields[name][:, 0].astype(float) for name in names]
         points.append(point(dump.z_edges, *columns[:2], tuple(columns[2:]), reach, dump.time))
     return [each for each in points if each is not None]
@@ -142,20 +137,20 @@ def mean(points: list[Point], low: float, high: float) -> dict | None:
 def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> dict:
     """Measurements over windows of one diameter, and over one window from ``first`` to ``last`` diameters; SI.
 
-    Raises ResultsError, VtkError, DeckError.
+    Raises hydro2d.Error.
     """
-    run = reading.Results(directory)
-    deck = decks.load(run.directory / reading.DECK)
+    run = hydro2d.open_run(directory)
+    deck = run.deck
     if deck.penetration is None or run.direction < 0:
-        raise reading.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] for one")
-    jet, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
-    diameter = 2.0 * decks.body_radius(deck, jet.name)
+        raise hydro2d.ResultsError(f"{directory} has no jet that flies towards +z: its deck has no [penetration] for one")
+    jet, target = (deck.body_named(getattr(deck.penetration, key)) for key in ("rod", "target"))
+    diameter = 2.0 * jet.rod_radius
     velocity = jet.velocity[1] - target.velocity[1]
     u, p = bernoulli(deck.materials[jet.material], deck.materials[target.material], velocity)
     points = read(run, jet.name, target.name, REACH * 0.5 * diameter)
     if not points:
-        raise reading.ResultsError(f"{directory} has no dump with jet and target side by side on the axis")
-    surface = decks.surface(deck)
+        raise hydro2d.ResultsError(f"{directory} has no dump with jet and target side by side on the axis")
+    surface = deck.penetration.surface
     deepest = int((points[-1].position - surface) / diameter)
     rows = [
         {"depth": k + 0.5, **window}
@@ -203,7 +198,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         results = [measure(directory, given.first, given.last) for directory in given.run]
-    except (reading.ResultsError, vtk.VtkError, DeckError) as error:
+    except hydro2d.Error as error:
         print(error, file=sys.stderr)
         return 2
     print(json.dumps(results, indent=2) if given.json else "\n\n".join(map(table, results)))

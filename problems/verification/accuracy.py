@@ -15,10 +15,8 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import curve_fit
 
+import hydro2d
 from eos import jwl
-from hydro2d.deck.deck import Deck
-from hydro2d.results.reading import Results
-from hydro2d.solver.simulation import Simulation
 from problems.verification.cells import Cells, crossing
 from problems.verification.exact import blake, elastic_plastic, guderley, riemann_jwl, shell, vibration
 from problems.verification.exact.collapse import Collapse
@@ -70,19 +68,19 @@ class Problem:
     resolution: str
     cells: tuple[int, ...]
     refine: Callable[[int], list[str]]
-    measure: Callable[[Results, int], list[Quantity]]
-    curve: Callable[[Results], Curve]
+    measure: Callable[[hydro2d.Results, int], list[Quantity]]
+    curve: Callable[[hydro2d.Results], Curve]
     exact: Callable[[np.ndarray], np.ndarray]
     axes: tuple[str, str]
     variants: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"both": ('numerics.advection="both"',)})
-    columns: dict[str, Callable[[Simulation], float]] = field(default_factory=dict)
+    columns: dict[str, Callable[[hydro2d.Simulation], float]] = field(default_factory=dict)
 
     def overrides(self, variant: str, cells: int) -> list[str]:
         """Overrides of the deck of a run, their numbers in SI units."""
         return ["numbers=SI", *self.variants[variant], *self.refine(cells)]
 
 
-def cells_of(run: Results) -> Cells:
+def cells_of(run: hydro2d.Results) -> Cells:
     """The cells of a run at its end."""
     return Cells(run.simulation())
 
@@ -114,7 +112,7 @@ def profile(name: str, computed: np.ndarray, exact: np.ndarray, weight: np.ndarr
     return Quantity(f"L1 error of {name}", "%", 0.0, difference(computed, exact, weight), 100.0)
 
 
-def lost(run: Results) -> Quantity:
+def lost(run: hydro2d.Results) -> Quantity:
     """Energy that the advection of velocities discarded or clipped, of the energy at the start."""
     conservation = run.summary["conservation"]
     discarded = sum(conservation["sinks"][name]["energy_J"] for name in ("advection", "ke_bound"))
@@ -138,7 +136,7 @@ def _sedov_refine(j: int, cells: int) -> list[str]:
     return [*square(1.2, cells), f"body.hot.radius={radius!r}", f"body.hot.energy={SEDOV[j].energy / size!r}"]
 
 
-def _sedov(j: int, run: Results, cells: int) -> list[Quantity]:
+def _sedov(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
     exact, state, time = SEDOV[j], cells_of(run), run.summary["time_s"]
     radius = exact.radius(time)
     fronts = np.array([front_of(state, state.mean_pressure, angle) for angle in RAYS])
@@ -159,7 +157,7 @@ def _sedov(j: int, run: Results, cells: int) -> list[Quantity]:
     ]  # fmt: skip
 
 
-def _sedov_curve(run: Results) -> Curve:
+def _sedov_curve(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     return cells.shells(cells.density, 1.2)
 
@@ -176,7 +174,7 @@ def sedov(j: int) -> Problem:
 NOH_PLATEAU = (0.08, 0.17)  # between the heated core and the smeared shock at 0.2 m
 
 
-def _noh(j: int, run: Results, cells: int) -> list[Quantity]:
+def _noh(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
     exact, state, time = Noh(j, speed=1000.0), cells_of(run), run.summary["time_s"]
     place = state.distance if j == 3 else state.r
     here = (place > NOH_PLATEAU[0]) & (place < NOH_PLATEAU[1])
@@ -197,7 +195,7 @@ def _noh(j: int, run: Results, cells: int) -> list[Quantity]:
     return [*quantities, profile("density", density[inside], exact_density[inside], state.volume[inside]), lost(run)]
 
 
-def _noh_curve(j: int, run: Results) -> Curve:
+def _noh_curve(j: int, run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     x, y = cells.shells(cells.density, 0.4) if j == 3 else cells.along(cells.density, "r")
     return x[x < 0.4], y[x < 0.4]
@@ -220,7 +218,7 @@ def noh(j: int) -> Problem:
 COLLAPSE = Collapse(e0=5e4, end=1e-3)
 
 
-def _collapse(run: Results, cells: int) -> list[Quantity]:
+def _collapse(run: hydro2d.Results, cells: int) -> list[Quantity]:
     state, time = cells_of(run), run.summary["time_s"]
     rho, p, e = COLLAPSE.at(time)
     here = state.distance < 0.8 * COLLAPSE.untouched(1.0, time)
@@ -241,7 +239,7 @@ def _collapse(run: Results, cells: int) -> list[Quantity]:
     ]
 
 
-def _collapse_curve(run: Results) -> Curve:
+def _collapse_curve(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     return cells.shells(cells.density, 0.3)
 
@@ -252,7 +250,7 @@ GUDERLEY_WINDOW = (0.1, 0.4)
 IMPLOSION = ("axis", 0.0), ("middle", 45.0), ("equator", 90.0)
 
 
-def _implosion(angle: float, simulation: Simulation) -> float:
+def _implosion(angle: float, simulation: hydro2d.Simulation) -> float:
     """Radius of the imploding front on a ray: the density falls inward through the middle of 1 and 6."""
     cells = Cells(simulation)
     return crossing(*cells.ray(cells.density, angle), 3.5, -1)
@@ -275,7 +273,7 @@ def implosion_fit(time: np.ndarray, radius: np.ndarray, window: tuple[float, flo
     return np.array([scale * took**-exponent, first + end * took, exponent])
 
 
-def _guderley(run: Results, cells: int) -> list[Quantity]:
+def _guderley(run: hydro2d.Results, cells: int) -> list[Quantity]:
     history = run.history
     fits = {name: implosion_fit(history["time"], history[f"front_{name}_m"]) for name, _ in IMPLOSION}
     mean = np.mean([history[f"front_{name}_m"] for name, _ in IMPLOSION], axis=0)
@@ -292,7 +290,7 @@ def _guderley(run: Results, cells: int) -> list[Quantity]:
     ]  # fmt: skip
 
 
-def _guderley_curve(run: Results) -> Curve:
+def _guderley_curve(run: hydro2d.Results) -> Curve:
     """Mean radius against the time left to the collapse of the power law, in units of that at 0.25 m."""
     time = run.history["time"]
     mean = np.mean([run.history[f"front_{name}_m"] for name, _ in IMPLOSION], axis=0)
@@ -306,14 +304,14 @@ def _guderley_curve(run: Results) -> Curve:
 CAVITY = blake.Cavity()
 
 
-def _moved(run: Results) -> tuple[np.ndarray, np.ndarray]:
+def _moved(run: hydro2d.Results) -> tuple[np.ndarray, np.ndarray]:
     """Positions of the tracers at the start, (r, z), and their displacements."""
     simulation = run.simulation()
     start = np.array([(each.r, each.z) for each in simulation.deck.tracer])
     return start, simulation.stations.tracers[: len(start)] - start
 
 
-def _blake(run: Results, cells: int) -> list[Quantity]:
+def _blake(run: hydro2d.Results, cells: int) -> list[Quantity]:
     time, state = run.summary["time_s"], cells_of(run)
     start, moved = _moved(run)
     distance = np.hypot(*start.T)
@@ -338,20 +336,20 @@ def _blake(run: Results, cells: int) -> list[Quantity]:
     ]
 
 
-def _blake_curve(run: Results) -> Curve:
+def _blake_curve(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     x, y = cells.shells(cells.outward, 1.0)
     return x[x > CAVITY.radius], 1e3 * y[x > CAVITY.radius]
 
 
-def _cylinder(run: Results, cells: int) -> list[Quantity]:
+def _cylinder(run: hydro2d.Results, cells: int) -> list[Quantity]:
     start, moved = _moved(run)
     exact = blake.cylindrical(CAVITY, start[:, 0], run.summary["time_s"])
     return [Quantity(f"displacement at {r / CAVITY.radius:g} radii", "nm", 1e9 * right, 1e9 * computed)
             for r, right, computed in zip(start[:, 0], exact, moved[:, 0], strict=True)]  # fmt: skip
 
 
-def _cylinder_curve(run: Results) -> Curve:
+def _cylinder_curve(run: hydro2d.Results) -> Curve:
     start, moved = _moved(run)
     return start[:, 0] / CAVITY.radius, 1e9 * moved[:, 0]
 
@@ -361,7 +359,7 @@ def _cylinder_curve(run: Results) -> Curve:
 METAL = elastic_plastic.ALUMINIUM_EXACTPACK
 
 
-def _elastic_piston(run: Results, cells: int) -> list[Quantity]:
+def _elastic_piston(run: hydro2d.Results, cells: int) -> list[Quantity]:
     state, time = cells_of(run), run.summary["time_s"]
     wave = elastic_plastic.elastic(METAL[0], METAL[1], 20.0)
     x, stress = state.along(state.axial_stress, "z")
@@ -376,7 +374,7 @@ def _elastic_piston(run: Results, cells: int) -> list[Quantity]:
     ]
 
 
-def _elastic_plastic_piston(run: Results, cells: int) -> list[Quantity]:
+def _elastic_plastic_piston(run: hydro2d.Results, cells: int) -> list[Quantity]:
     state, time = cells_of(run), run.summary["time_s"]
     exact = elastic_plastic.piston(*METAL, 100.0)
     first, second = exact.elastic, exact.plastic
@@ -402,7 +400,7 @@ def _two_waves(x: np.ndarray, time: float) -> np.ndarray:
     return np.where(x < exact.plastic.speed * time, exact.plastic.sigma, ahead)
 
 
-def _stress_curve(run: Results) -> Curve:
+def _stress_curve(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     x, y = cells.along(cells.axial_stress, "z")
     return 1e3 * x, 1e-9 * y
@@ -413,7 +411,7 @@ def _stress_curve(run: Results) -> Curve:
 SPHERE, SPHERE_RADIUS = vibration.Elastic(2785.0, 5328.0, 27.6e9), 0.01
 
 
-def _breathes(simulation: Simulation) -> float:
+def _breathes(simulation: hydro2d.Simulation) -> float:
     """The velocity of the surface in the lowest mode, by projecting the radial velocity on its shape, m/s."""
     cells = Cells(simulation)
     shape = vibration.shape(vibration.sphere(SPHERE), cells.distance / SPHERE_RADIUS)
@@ -431,7 +429,7 @@ def extrema(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return tuple(np.array(points).T)
 
 
-def _sphere(run: Results, cells: int) -> list[Quantity]:
+def _sphere(run: hydro2d.Results, cells: int) -> list[Quantity]:
     period = vibration.period(SPHERE, SPHERE_RADIUS, vibration.sphere(SPHERE))
     times, values = extrema(run.history["time"], run.history["mode_m_s"])
     loss = np.polyfit(times, np.log(np.abs(values)), 1)[0]
@@ -442,7 +440,7 @@ def _sphere(run: Results, cells: int) -> list[Quantity]:
     ]
 
 
-def _sphere_curve(run: Results) -> Curve:
+def _sphere_curve(run: hydro2d.Results) -> Curve:
     return 1e6 * run.history["time"], run.history["mode_m_s"]
 
 
@@ -461,7 +459,7 @@ BERYLLIUM = (1845.0, 0.33e9)
 SHELLS = {3: (shell.Shell(3, 0.08, 0.1, *BERYLLIUM), 619.787), 2: (shell.Shell(2, 0.08, 0.1, *BERYLLIUM), 490.299)}
 
 
-def _cavity(j: int, simulation: Simulation) -> float:
+def _cavity(j: int, simulation: hydro2d.Simulation) -> float:
     """Radius of the empty space within the shell, by its volume, m."""
     cells = Cells(simulation)
     place = cells.distance if j == 3 else cells.r
@@ -471,7 +469,7 @@ def _cavity(j: int, simulation: Simulation) -> float:
     return (3.0 * empty) ** (1.0 / 3.0) if j == 3 else math.sqrt(2.0 * empty / 0.008)
 
 
-def _cavity_along(axis: str, simulation: Simulation) -> float:
+def _cavity_along(axis: str, simulation: hydro2d.Simulation) -> float:
     """Empty space within the shell along the axis ("z") or the equator ("r"), m."""
     cells = Cells(simulation)
     x, filled = (cells.rows, cells.vof[0][:, 0]) if axis == "z" else (cells.columns, cells.vof[0][0])
@@ -479,7 +477,7 @@ def _cavity_along(axis: str, simulation: Simulation) -> float:
     return float(np.sum((1.0 - filled)[inside]) * cells.size)
 
 
-def _shell(j: int, run: Results, cells: int) -> list[Quantity]:
+def _shell(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
     exact, speed = SHELLS[j]
     stop, time = exact.stop(speed), run.history["time"]
     radius = run.history["cavity_m"]
@@ -503,7 +501,7 @@ def _shell_exact(j: int, x: np.ndarray) -> np.ndarray:
     return 1e3 * np.interp(1e-6 * x, time, radius)
 
 
-def _shell_curve(run: Results) -> Curve:
+def _shell_curve(run: hydro2d.Results) -> Curve:
     return 1e6 * run.history["time"], 1e3 * run.history["cavity_m"]
 
 
@@ -512,7 +510,7 @@ def _shell_curve(run: Results) -> Curve:
 DRIVEN = riemann_jwl.drive(riemann_jwl.burnt(*riemann_jwl.PBX9404), AL_5083)
 
 
-def _riemann(run: Results, cells: int) -> list[Quantity]:
+def _riemann(run: hydro2d.Results, cells: int) -> list[Quantity]:
     state, time = cells_of(run), run.summary["time_s"]
     x, pressure = state.along(state.mean_pressure, "z")
     velocity, density = state.along(state.v, "z")[1], state.along(state.density, "z")[1]
@@ -533,7 +531,7 @@ def _riemann(run: Results, cells: int) -> list[Quantity]:
     ]  # fmt: skip
 
 
-def _riemann_curve(run: Results) -> Curve:
+def _riemann_curve(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     x, y = cells.along(cells.mean_pressure, "z")
     return 1e3 * x, 1e-9 * y
@@ -549,13 +547,13 @@ def _detonation_refine(cells: int) -> list[str]:
     return [*column(CHARGE, cells), f"source.fuse.points={[[(k + 0.5) * size, 0.0, 0.0] for k in range(4)]}"]
 
 
-def _lit(simulation: Simulation) -> float:
+def _lit(simulation: hydro2d.Simulation) -> float:
     """Position at which half of the charge has burnt, m."""
     cells = Cells(simulation)
-    return crossing(*cells.along(cells.internal(jwl.BURNT), "z"), 0.5)
+    return crossing(*cells.along(simulation.field("burn_fraction", "charge"), "z"), 0.5)
 
 
-def _products(deck: Deck) -> tuple[np.ndarray, Taylor]:
+def _products(deck: hydro2d.Deck) -> tuple[np.ndarray, Taylor]:
     """Constants of the explosive, and the rarefaction behind its detonation."""
     row = jwl.row(deck.materials["charge"].eos.values)
     speed, pressure, _ = jwl.cj_state(row)
@@ -568,7 +566,7 @@ def _products(deck: Deck) -> tuple[np.ndarray, Taylor]:
     return row, Taylor(speed, float(row[0]), pressure, sound)
 
 
-def _detonation(run: Results, cells: int) -> list[Quantity]:
+def _detonation(run: hydro2d.Results, cells: int) -> list[Quantity]:
     row, flow = _products(run.deck)
     speed, cj, _ = jwl.cj_state(row)
     state, time, history = cells_of(run), run.summary["time_s"], run.history
@@ -597,13 +595,13 @@ def _detonation(run: Results, cells: int) -> list[Quantity]:
 
 def _detonation_exact(x: np.ndarray) -> np.ndarray:
     problem = BY_NAME["detonation"]
-    deck = Deck.from_file(FOLDER / problem.deck, problem.overrides("both", problem.cells[0]))
+    deck = hydro2d.Deck.from_file(FOLDER / problem.deck, problem.overrides("both", problem.cells[0]))
     _, flow = _products(deck)
     time = deck.stop.time
     return np.where(1e-3 * x < flow.speed * time, 1e-9 * flow.at(1e-3 * x, time)[2], 0.0)
 
 
-def _detonation_curve(run: Results) -> Curve:
+def _detonation_curve(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     x, y = cells.along(cells.mean_pressure, "z")
     return 1e3 * x, 1e-9 * y

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
-from hydro2d.mesh.fields import INTERNAL
-from hydro2d.solver.simulation import Simulation
+import hydro2d
 
 
 class Cells:
@@ -20,7 +19,7 @@ class Cells:
     u, v : radial and axial velocity, the mean of the vertices of a cell, m/s
     """
 
-    def __init__(self, simulation: Simulation):
+    def __init__(self, simulation: hydro2d.Simulation):
         grid, state = simulation.grid, simulation.state
         rows, columns = grid.inside
         self.simulation, self.columns, self.rows = simulation, grid.rc[columns], grid.zc[rows]
@@ -50,10 +49,6 @@ class Cells:
     def outward(self) -> np.ndarray:
         """Velocity away from the origin."""
         return (self.u * self.r + self.v * self.z) / self.distance
-
-    def internal(self, place: int, body: int = 0) -> np.ndarray:
-        """An internal variable of a body by its index."""
-        return self.simulation.grid.interior(self.simulation.state.q[INTERNAL + place, body])
 
     def ray(self, values: np.ndarray, angle: float) -> tuple[np.ndarray, np.ndarray]:
         """Distances from the origin, a quarter of a cell apart, and values there along a ray.

@@ -11,9 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.results import figures
-from hydro2d.results.scales import FigureError
-from hydro2d.study.records.layout import StudyError
+import hydro2d
 from problems import kept
 from problems.verification.accuracy import BY_NAME, Problem
 from problems.verification.table import CURVE_COLUMNS, CURVES
@@ -24,7 +22,7 @@ COLOURS = ("#c9a66b", "#7aa6c2", "#1f4e79")
 
 def draw(problem: Problem, rows: list[dict[str, str]]):
     """One figure: a line for each mesh, and the exact solution in black."""
-    figure, ((axes,),) = figures.new_figure(6.0, 3.6, 1, 1)
+    figure, ((axes,),) = hydro2d.new_figure(6.0, 3.6)
     every = []
     for cells, colour in zip(problem.cells, COLOURS, strict=True):
         mine = [row for row in rows if row["problem"] == problem.name and row["cells"] == str(cells)]
@@ -60,8 +58,8 @@ def main(arguments: list[str] | None = None) -> int:
         rows = kept.rows(CURVES, CURVE_COLUMNS)
         for name in given.problems or BY_NAME:
             if any(row["problem"] == name for row in rows):
-                figures.save(draw(BY_NAME[name], rows), given.folder / picture(BY_NAME[name]))
-    except (StudyError, FigureError, OSError) as error:
+                hydro2d.save_figure(draw(BY_NAME[name], rows), given.folder / picture(BY_NAME[name]))
+    except (hydro2d.Error, OSError) as error:
         print(error, file=sys.stderr)
         return 2
     return 0

@@ -16,9 +16,6 @@ import time
 from pathlib import Path
 
 import hydro2d
-from hydro2d.base.errors import Error, UnphysicalState
-from hydro2d.files.whole import write_json
-from hydro2d.solver.simulation import Simulation
 from problems import kept
 from problems.verification.accuracy import BY_NAME, FOLDER, PROBLEMS, Problem
 
@@ -46,13 +43,13 @@ def run(runs: Path, problem: Problem, variant: str, cells: int) -> None:
     if (place / COST).exists():
         return
     deck = hydro2d.Deck.from_file((FOLDER / problem.deck).resolve(), problem.overrides(variant, cells))
-    Simulation(deck).step()
+    hydro2d.Simulation(deck).step()
     begun = time.process_time()
     try:
         hydro2d.run(deck, place, threads=1, overwrite=True, quiet=True, columns=problem.columns)
-    except UnphysicalState as error:
+    except hydro2d.UnphysicalState as error:
         print(error, file=sys.stderr)
-    write_json(place / COST, {"seconds": round(time.process_time() - begun, 2)})
+    (place / COST).write_text(json.dumps({"seconds": round(time.process_time() - begun, 2)}))
 
 
 def rows_of(runs: Path, problem: Problem, variant: str, cells: int) -> list[dict[str, object]]:
@@ -142,7 +139,7 @@ def main(arguments: list[str] | None = None) -> int:
                 for variant in problem.variants:
                     for cells in problem.cells:
                         run(given.runs, problem, variant, cells)
-            except Error as error:
+            except hydro2d.Error as error:
                 print(f"{problem.name}: {error}", file=sys.stderr)
                 return 2
             fresh = [{name: str(value) for name, value in row.items()} for variant in problem.variants

@@ -16,8 +16,6 @@ from pathlib import Path
 import numpy as np
 
 import hydro2d
-from hydro2d.deck import deck as decks
-from hydro2d.results import figures
 from problems import kept as results
 
 HERE = Path(__file__).parent
@@ -82,7 +80,7 @@ def of_run(directory: Path) -> tuple:
     if run.summary.get("stop_reason") != "end time":
         raise ValueError("the run has not ended")
     ball, bumper, wall = run.deck.body
-    size = float(np.diff(decks.edges(run.deck)[0]).min())
+    size = float(np.diff(run.deck.edges()[0]).min())
     fraction = run.fields.volume_fraction.isel(time=-1).sel(body=wall.name).transpose("z", "r").values
     behind = run.summary["targets"][wall.name]["debris"]["mass_kg"]
     gap = wall.z_front - bumper.thickness - bumper.z_front
@@ -202,7 +200,7 @@ def chosen() -> list[str]:
 
 def draw(cases: list[dict]):
     """A matplotlib Figure: walls by gap, with the outcomes of the shots, of their runs, and the limit by the equation."""
-    figure, ((axes,),) = figures.new_figure(6.4, 4.6, 1, 1)
+    figure, ((axes,),) = hydro2d.new_figure(6.4, 4.6)
     marks = {(False, measured): ("o", "none", "wall held"), (True, measured): ("o", "black", "wall defeated"),
              (False, computed): ("_", "#1f77b4", "run: held"), (True, computed): ("x", "#d62728", "run: defeated")}  # fmt: skip
     for (failed, verdict), (marker, colour, label) in marks.items():
@@ -231,7 +229,7 @@ def main(arguments: list[str]) -> int:
     tables = score(cases), by_gap(cases), finer(cases), by_velocity(results.rows(VELOCITIES, COLUMNS)), chosen()
     print("\n\n".join("\n".join(each) for each in tables))
     if given.figure:
-        figures.save(draw(cases), given.figure)
+        hydro2d.save_figure(draw(cases), given.figure)
     return 0
 
 

@@ -101,7 +101,7 @@ def test_names_in_figures_are_no_formulas(finished, tmp_path):
     run = Results(finished)
     run.__class__ = type("Named", (Results,), {"label": r"a $\frac{1$ b"})
     for figure in (figures.sections([run], "pressure"), figures.histories([run])):
-        figures.save(figure, tmp_path / "a.png")
+        figures.save_figure(figure, tmp_path / "a.png")
     assert figures.verbatim("a$b") == r"a\$b"
 
 

@@ -231,7 +231,7 @@ def test_phases_that_see_the_model_are_kept_separately(folder):
 
 LOADED = """
     import sys
-    ours = "deck.deck running.run running.check running.compile_ahead study.worker study.sweep results.reading cli.info"
+    ours = "deck.deck running.run running.check running.compile_ahead study.run.worker study.run.sweep results.reading cli.info"
     for name in ours.split():
         __import__(f"hydro2d.{name}")
     print({"eos.dispatch", "strength.dispatch"} & set(sys.modules))

@@ -85,7 +85,7 @@ def study(tmp_path, monkeypatch):
         case(tmp_path / "c", "crater", "ke", "unphysical", 0.9, "ke_bound has removed 2.2 % of it (k; limit 2 %); a remedy"),
         case(tmp_path / "d", "crater", "both", "running"),
     ]
-    monkeypatch.setattr(table.layout, "read", lambda directory: SimpleNamespace(cases=records))
+    monkeypatch.setattr(table.hydro2d, "open_study", lambda directory: SimpleNamespace(cases=records))
     return tmp_path
 
 

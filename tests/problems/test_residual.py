@@ -27,7 +27,7 @@ def study(tmp_path, monkeypatch):
     left = [lambert_jonas.residual_velocity(v, limit_velocity=190.0, a=0.8, p=2.2) for v in speeds]
     records = [case("blunt", *pair) for pair in zip(speeds, left, strict=True)]
     records += [case("blunt", 177.3, 0.0), case("hemispherical", 452.0, 320.0), case("blunt", 200.4, 50.0, status="running")]
-    monkeypatch.setattr(residual.layout, "read", lambda directory: SimpleNamespace(cases=records))
+    monkeypatch.setattr(residual.hydro2d, "open_study", lambda directory: SimpleNamespace(cases=records))
     return tmp_path
 
 

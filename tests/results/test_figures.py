@@ -122,7 +122,7 @@ def test_the_experiment_is_a_line_at_its_depth(dump):
 
 
 def test_a_line_outside_of_the_window_does_not_stretch_the_figure(dump, tmp_path, recwarn):
-    figures.save(figures.draw_sections([[(dump, "", 0.5)]], "pressure", "velocity"), tmp_path / "x.png")
+    figures.save_figure(figures.draw_sections([[(dump, "", 0.5)]], "pressure", "velocity"), tmp_path / "x.png")
     assert not [each for each in recwarn if "layout" in str(each.message)]
 
 
@@ -170,7 +170,7 @@ def test_runs_side_by_side(finished, tmp_path):
     runs = [Results(finished), Results(finished)]
     figure = figures.sections(runs, "density", mirror="material", times=[5e-6, None])
     assert len([axes for axes in figure.axes if axes.get_title()]) == 4
-    figures.save(figure, tmp_path / "x.png")
+    figures.save_figure(figure, tmp_path / "x.png")
     assert (tmp_path / "x.png").read_bytes()[:4] == b"\x89PNG"
 
 
@@ -186,12 +186,12 @@ def test_histories(finished, tmp_path):
 
 def test_formats(dump, tmp_path):
     figure = figures.draw_sections([[(dump, "", None)]], "density")
-    figures.save(figure, tmp_path / "x.pdf")
+    figures.save_figure(figure, tmp_path / "x.pdf")
     assert (tmp_path / "x.pdf").read_bytes()[:4] == b"%PDF"
     with pytest.raises(FigureError, match="picture format"):
-        figures.save(figure, tmp_path / "x.docx")
+        figures.save_figure(figure, tmp_path / "x.docx")
     with pytest.raises(FigureError, match="no such directory"):
-        figures.save(figure, tmp_path / "none" / "x.png")
+        figures.save_figure(figure, tmp_path / "none" / "x.png")
 
 
 def test_outline_of_a_disc():

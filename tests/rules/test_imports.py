@@ -137,6 +137,27 @@ def test_physics_needs_few_libraries(place, allowed):
     assert foreign - {*OURS, *sys.stdlib_module_names} <= allowed
 
 
+#: programs next to the decks that import more of hydro2d than its public interface, and why
+SCRIPTS_WITH_MORE = {
+    "problems.validation.jet": "an isentrope by the equation of state",
+    "problems.verification.accuracy": "the exact detonation has the constants of the explosive's model",
+    "problems.verification.hugoniot": "it verifies equations of state and melting lines themselves",
+}
+SCRIPTS = {".".join(file.relative_to(source.ROOT).with_suffix("").parts): file
+           for file in sorted(source.ROOT.glob("problems/**/*.py"))}  # fmt: skip
+
+
+def internals(name: str) -> set[str]:
+    """Modules of hydro2d that a program next to the decks imports in addition to `hydro2d` itself."""
+    imported = {other for other, _ in source.imports(source.tree(SCRIPTS[name]), frozenset(source.modules()))}
+    return {other for other in imported if within(other, *OURS) and other != "hydro2d"}
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_programs_import_the_public_interface(name):
+    assert bool(internals(name)) is (name in SCRIPTS_WITH_MORE)
+
+
 def users(library: str) -> set[str]:
     return {name for name in source.modules() if any(within(other, library) for other, _ in source.imports_of(name))}
 

@@ -72,7 +72,7 @@ def measure(searches: int, runs: int) -> list[Held]:
     counts = []
     for number, true in enumerate(TRANSITIONS):
         first = FIRST + number * searches
-        fits = [logit.fit(*searched(true, seed, runs)) for seed in range(first, first + searches)]
+        fits = [logit.fit_transition(*searched(true, seed, runs)) for seed in range(first, first + searches)]
         estimates = [each for each in fits if each is not None]
         counts.append(Held(len(estimates), sum(within(true.v50, each.v50_low, each.v50_high) for each in estimates),
                            sum(within(true.width, each.width_low, each.width_high) for each in estimates)))  # fmt: skip

@@ -170,8 +170,8 @@ values = ["Al5083", "Al7039"]
 
 
 def test_a_table_says_that_it_mixes_versions():
-    assert keeping.methods([keeping.METHOD]) == ""
-    assert keeping.methods([keeping.METHOD, "2020-01-01", ""]).endswith(": 1 of 2020-01-01, 1 of unknown.")
+    assert keeping.method_note([keeping.METHOD]) == ""
+    assert keeping.method_note([keeping.METHOD, "2020-01-01", ""]).endswith(": 1 of 2020-01-01, 1 of unknown.")
 
 
 def test_a_label_that_a_spreadsheet_would_compute(tmp_path):

@@ -18,7 +18,7 @@ def searched(v50, width, seed, runs=40):
 
 @pytest.mark.parametrize(("v50", "width"), [(1210.0, 60.0), (1065.0, 15.0)])
 def test_a_known_transition_is_within_its_interval_in_nine_of_ten_searches(v50, width):
-    fitted = [logit.fit(*searched(v50, width, seed)) for seed in range(10)]
+    fitted = [logit.fit_transition(*searched(v50, width, seed)) for seed in range(10)]
     assert sum(within(v50, each.v50_low, each.v50_high) for each in fitted) >= 9
     assert sum(within(width, each.width_low, each.width_high) for each in fitted) >= 8
     assert np.median([each.v50_high - each.v50_low for each in fitted]) < 0.6 * width
@@ -42,7 +42,7 @@ def test_shots_are_near_the_transition():
 
 def test_the_estimate_is_the_maximum_and_the_interval_its_profile():
     speeds, outcomes = searched(1210.0, 60.0, 3)
-    fitted = logit.fit(speeds, outcomes)
+    fitted = logit.fit_transition(speeds, outcomes)
     v, y = np.array(speeds), np.array(outcomes)
     top = logit.penalised(fitted.v50, fitted.scale, v, y)
     around = logit.penalised(fitted.v50 + np.array([-1, 0, 1])[:, None], fitted.scale * np.array([0.9, 1.0, 1.1]), v, y)
@@ -57,7 +57,7 @@ def test_the_estimate_is_the_maximum_and_the_interval_its_profile():
 
 def test_four_shots_by_hand():
     """Symmetric shots at -3, -1, 1, 3 without overlap: v50 is 0, and s maximises (2), found here by a fine search."""
-    fitted = logit.fit([-3.0, -1.0, 1.0, 3.0], [False, False, True, True])
+    fitted = logit.fit_transition([-3.0, -1.0, 1.0, 3.0], [False, False, True, True])
     scale = np.exp(np.linspace(-2, 3, 50001))
     a, b = 1 / (1 + np.exp(-1 / scale)), 1 / (1 + np.exp(-3 / scale))
     wa, wb = a * (1 - a), b * (1 - b)
@@ -70,7 +70,7 @@ def test_four_shots_by_hand():
 
 def test_a_sudden_change_has_an_interval_about_its_gap():
     speeds = [*range(900, 1201, 25), *range(1210, 1501, 25)]
-    fitted = logit.fit(speeds, [speed > 1205 for speed in speeds])
+    fitted = logit.fit_transition(speeds, [speed > 1205 for speed in speeds])
     assert fitted.v50_low < 1200
     assert fitted.v50_high > 1210
     assert fitted.v50_high - fitted.v50_low < 120
@@ -79,28 +79,28 @@ def test_a_sudden_change_has_an_interval_about_its_gap():
 
 def test_units_do_not_matter():
     speeds, outcomes = searched(1210.0, 60.0, 4)
-    one, other = logit.fit(speeds, outcomes), logit.fit([speed / 1e3 for speed in speeds], outcomes)
+    one, other = logit.fit_transition(speeds, outcomes), logit.fit_transition([speed / 1e3 for speed in speeds], outcomes)
     assert other.v50 == pytest.approx(one.v50 / 1e3, rel=1e-5)
     assert other.v50_high == pytest.approx(one.v50_high / 1e3, rel=1e-3)
 
 
 @pytest.mark.parametrize("outcomes", [[True] * 4, [False] * 4, [True, True, False, False]])
 def test_shots_that_do_not_tell_give_no_estimate(outcomes):
-    assert logit.fit([900.0, 1000.0, 1100.0, 1200.0], outcomes) is None
+    assert logit.fit_transition([900.0, 1000.0, 1100.0, 1200.0], outcomes) is None
 
 
 def test_one_velocity_gives_no_estimate():
-    assert logit.fit([900.0, 900.0], [True, False]) is None
+    assert logit.fit_transition([900.0, 900.0], [True, False]) is None
 
 
 def test_outcomes_of_pure_chance_leave_the_interval_open():
     chance_alone = [True, False, False, True, False, True, False, True, False, True, False, True]
-    fitted = logit.fit([900.0, 1100.0, 1300.0, 1500.0] * 3, chance_alone)
+    fitted = logit.fit_transition([900.0, 1100.0, 1300.0, 1500.0] * 3, chance_alone)
     assert (fitted.v50_low, fitted.v50_high) == (None, None)
 
 
 def test_the_band_holds_the_curve_and_is_narrowest_near_v50():
-    fitted = logit.fit(*searched(1210.0, 60.0, 5))
+    fitted = logit.fit_transition(*searched(1210.0, 60.0, 5))
     speeds = np.linspace(*ENDS, 50)
     low, high = fitted.band(speeds)
     probability = fitted.probability(speeds)
@@ -142,7 +142,7 @@ def test_one_strange_shot_is_found_out():
     for number in range(32):
         speeds.append(sequence.next_speed(speeds, outcomes, ENDS, 4))
         outcomes.append(speeds[-1] > 1000.0 and number != 2)
-    assert logit.fit(speeds, outcomes).v50 == pytest.approx(1000.0, abs=100.0)
+    assert logit.fit_transition(speeds, outcomes).v50 == pytest.approx(1000.0, abs=100.0)
 
 
 def test_outcomes_that_are_all_alike_end_a_search():

@@ -36,9 +36,12 @@ class Spread(NamedTuple):
 
 
 def wilson(successes: int, trials: int, level: float = LEVEL) -> Share:
-    """A fraction with its interval after Wilson (J. Am. Stat. Assoc. 22 (1927) 209), which never leaves 0 to 1.
+    """A fraction of runs with its interval after Wilson (J. Am. Stat. Assoc. 22 (1927) 209), which never leaves 0 to 1.
 
-    Raises ValueError without trials.
+    successes, trials : number of runs with an outcome, and of all runs
+    level : probability that the interval covers the true fraction
+
+    The result has ``fraction``, ``low``, ``high``, and ``words``: "3 of 8 (21 to 58 %)". Raises ValueError without trials.
     """
     from scipy.stats import binomtest
 

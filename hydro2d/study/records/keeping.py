@@ -45,6 +45,21 @@ ORIGIN = (SETUP, OF_METHOD, "commit", "date")
 Row = dict[str, str]
 
 
+class KeptRow(Row):
+    """A run of a study in a few numbers: a row of a file of kept rows, the text of each column by its name.
+
+    The columns are those of a file that a study keeps: the labels of the case on the axes, ``cells_across`` the projectile,
+    ``member`` of the ensemble, ``status``, the results in SI units, and ``setup``, ``method``, ``commit`` and ``date``. The
+    text of a result that the run does not have is empty.
+    """
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """The labels of the case by axis, and ``cells_across``, without those that are empty."""
+        others = {MEMBER, *RESULTS, *ORIGIN}
+        return {name: text for name, text in self.items() if text and name not in others}
+
+
 def setup(deck: decks.Deck) -> str:
     """A hash of everything in a deck that can change its results, without keys that have their default values.
 
@@ -112,17 +127,28 @@ def _text(value) -> str:
     return f"{value:.{DIGITS}g}" if isinstance(value, float) else cell(str(value))
 
 
-def read(path: Path) -> list[Row]:
+def kept_rows(path: str | Path) -> list[KeptRow]:
+    """The runs of a study that have ended, a row for each, from what the study keeps or from its directory.
+
+    path : a file that a study with ``keep`` has written, or the directory of a study, finished or not
+
+    Raises StudyError, also if there is no such file or directory, and DeckError.
+    """
+    path = Path(path)
+    return read(path) if path.is_file() else _of_directory(path)
+
+
+def read(path: Path) -> list[KeptRow]:
     """The rows of a file; none if there is no such file. Raises StudyError."""
     if not path.exists():
         return []
-    rows = list(csv.DictReader(read_text(path, StudyError).splitlines()))
+    rows = [KeptRow(row) for row in csv.DictReader(read_text(path, StudyError).splitlines())]
     if rows and (missing := {*ORIGIN, *RESULTS, CELLS, MEMBER} - set(rows[0])):
         raise StudyError(f"{path}: holds no rows of a study: it has no column {', '.join(sorted(missing))}")
     return rows
 
 
-def of_directory(directory: Path) -> list[Row]:
+def _of_directory(directory: Path) -> list[KeptRow]:
     """The rows of the ended runs of a study directory. Raises StudyError, DeckError."""
     study = layout.read(directory)
     axes = tuple(axis.name for axis in study.axes)
@@ -131,18 +157,15 @@ def of_directory(directory: Path) -> list[Row]:
         if case.status in ENDED:
             text = read_text(case.directory / DECK, StudyError)
             planned = Planned(case.name, case.values, case.base, list(case.overrides), text, "", case.of, case.member)
-            rows.append(Wanted(planned, axes).row(case))
+            rows.append(KeptRow(Wanted(planned, axes).row(case)))
     return rows
 
 
-def labels(row: Row) -> Row:
-    """The labels of the case of a row, and its cells across the projectile."""
-    others = {MEMBER, *RESULTS, *ORIGIN}
-    return {name: text for name, text in row.items() if text and name not in others}
+def method_note(versions: Iterable[str]) -> str:
+    """A sentence for a table of runs that are not all of the present version of the method; empty if all are.
 
-
-def methods(versions: Iterable[str]) -> str:
-    """A note for a table on the versions of its runs: empty if all are of this method, else those that are not."""
+    versions : ``method`` of the kept row or of the summary of each run; empty if it is not known
+    """
     counts = Counter(version or "unknown" for version in versions)
     others = {name: number for name, number in counts.items() if name != METHOD}
     if not others:

@@ -74,7 +74,7 @@ class Case:
     name, values : its name, and its label on every axis
     directory : its run directory, which need not exist
     base, overrides, deck_sha256 : base deck, its overrides, and the hash of the resolved deck (None if there is none)
-    status : one of STATUSES
+    status : "waiting", "running", "done", "interrupted", "unphysical", "failed" or "invalid"
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
     summary : contents of summary.json; empty until the run has ended
     progress : contents of progress.json; empty while the case does not run

@@ -62,7 +62,7 @@ def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
     word = "Rods" if all(each.setup.is_rod for each in scale) else "Projectiles"
     for number, part in enumerate(shown, 1):
         file = folder / f"rods_{number:02d}.png"
-        figures.save(rods.draw(part, contents.belonging, whole, others), file)
+        figures.save_figure(rods.draw(part, contents.belonging, whole, others), file)
         caption = (
             f"{word} at the end of their runs, {where}, at one scale; dotted: before impact, the tip at the same place"
             + ("; dashed: the experiment's depth" if measured else "")
@@ -96,7 +96,7 @@ def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:
         if not is_drawn(each):
             continue
         file = folder / f"transition_{number:02d}.png"
-        figures.save(chance_figure.draw([each]), file)
+        figures.save_figure(chance_figure.draw([each]), file)
         estimate, fast = each.estimate, each.estimate.outcomes[1]
         drawn = "Dots: shots"
         if estimate.fit:

@@ -28,7 +28,7 @@ def write(study: Study, results: Sequence[Transitions]) -> list[Path]:
     files = [own(study.directory / name) for name in (CSV, PICTURE)]
     rows = [row for each in results for row in v50.rows(each.values, each.estimate, _draws(study, each))]
     write_text(files[0], table.to_csv(rows))
-    figures.save(draw(results), files[1])
+    figures.save_figure(draw(results), files[1])
     return files
 
 

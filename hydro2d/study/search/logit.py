@@ -107,11 +107,16 @@ def information(eta: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     return total * (weight * (speeds - mean[..., None]) ** 2).sum(axis=-1)
 
 
-def fit(speeds: Sequence[float], outcomes: Sequence[bool]) -> Fit | None:
-    """The estimate and its 90 % intervals; outcomes : whether a shot had the outcome of fast ones.
+def fit_transition(speeds: Sequence[float], outcomes: Sequence[bool]) -> Fit | None:
+    """The velocity at which half of the shots have one of two outcomes, and the width of the change, by logistic regression.
 
-    None if the shots do not determine it: they have one outcome, or one velocity, or the outcome of fast shots is not the
-    more frequent one at high velocities.
+    speeds : impact velocities, m/s, one for each shot
+    outcomes : whether each shot had the outcome of fast ones, such as a perforation
+
+    The result has ``v50`` and ``width`` in m/s, the ends of their 90 % intervals as ``v50_low``, ``v50_high``, ``width_low``
+    and ``width_high`` (None is an open end), and ``probability(speeds)``. It is None if the shots do not determine it: they
+    have one outcome, or one velocity, or the outcome of fast shots is not the more frequent one at high velocities. Firth,
+    Biometrika 80 (1993) 27; Heinze and Schemper, Statistics in Medicine 21 (2002) 2409.
     """
     v, y = np.asarray(speeds, float), np.asarray(outcomes, bool)
     if y.all() or not y.any() or v.min() == v.max() or np.mean(v[y]) <= np.mean(v[~y]):

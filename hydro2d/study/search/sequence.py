@@ -52,7 +52,7 @@ def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: t
     if begin == 0:
         return float(np.linspace(*ends, size)[place])
     before = [(speed, outcome) for speed, outcome in zip(speeds[:begin], outcomes, strict=False) if outcome is not None]
-    fitted = logit.fit(*zip(*before, strict=True)) if before else None
+    fitted = logit.fit_transition(*zip(*before, strict=True)) if before else None
     if fitted is not None and fitted.overlap:
         scale = fitted.scale if place < size - 1 else _wide(fitted, ends)
         best = _most_telling(fitted.v50, scale, np.array(speeds), np.linspace(*ends, CANDIDATES))

@@ -138,7 +138,7 @@ def estimate(search: Interval | Velocities, kind: type[Outcome], shots: Sequence
     return Estimate(
         name=kind.transitions[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
         spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
-        fit=logit.fit(speeds, successes) if known else None, ballistic=kind.is_ballistic,
+        fit=logit.fit_transition(speeds, successes) if known else None, ballistic=kind.is_ballistic,
         military=military(speeds, successes) if kind.is_ballistic else None,
     )  # fmt: skip
 
