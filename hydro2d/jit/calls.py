@@ -67,7 +67,7 @@ def point(function):
     return Inner(function, forceinline=True)
 
 
-def late(function):
+def late_bound(function):
     """`point` for a function that calls functions chosen only when kernels are loaded; it is not kept in the cache by itself.
 
     The folder of the cache is named when a function is defined, before models from outside are added. Kernels that
@@ -76,7 +76,7 @@ def late(function):
     return Inner(function, forceinline=True, kept=False)
 
 
-def apart(function):
+def not_inlined(function):
     """Compiles a function that is called, not inlined: rarely used code need not be compiled again at every call."""
     return Inner(function)
 

@@ -5,14 +5,14 @@ the material that the deck has placed there (hydro2d/following). A transmitting 
 """
 
 
-from hydro2d.jit import apart, cell_rows, kernel, point, serial, vertex_rows
+from hydro2d.jit import cell_rows, kernel, not_inlined, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import PARITY
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
 from hydro2d.physics.waves import impedances
 
 
-@apart
+@not_inlined
 def fill(m, j, i, from_j, from_i, mirror, w):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
     if 0.0 < w.vof[m, j, i] < 1.0 or 0.0 < w.vof[m, from_j, from_i] < 1.0:  # otherwise it stays 0
@@ -120,7 +120,7 @@ def dashpots(along_r, j, i, w):
     return normal, shear
 
 
-@apart
+@not_inlined
 def transmit(edge, w):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge, as if the material continued without end.
 

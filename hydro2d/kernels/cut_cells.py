@@ -6,7 +6,7 @@ Every body of a cut cell has the normal stress -p_c, and the strain across the s
 
 from math import sqrt
 
-from hydro2d.jit import apart, cell_rows, point
+from hydro2d.jit import cell_rows, not_inlined, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
@@ -256,7 +256,7 @@ def grow(j, i, target, w):
     return total, give
 
 
-@apart
+@not_inlined
 def fill_room(j, i, room, start, w):
     """Pressure p_c (Pa) at which the bodies of a cell grow by `room`, a share of the cell, by Newton's rule from `start`.
 
@@ -271,7 +271,7 @@ def fill_room(j, i, room, start, w):
     return target
 
 
-@apart
+@not_inlined
 def meet_traction(j, i, change, w):
     """p_c of a cut cell (Pa) at the end of a step in which its volume changes by `change`, a share of the cell.
 

@@ -6,7 +6,7 @@ order bounds their cumulative fraction; void comes last.
 """
 
 
-from hydro2d.jit import apart, cell_rows, kernel, point, rowwise
+from hydro2d.jit import cell_rows, kernel, not_inlined, point, rowwise
 from hydro2d.kernels.column_ranges import columns, past_row
 from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
@@ -182,7 +182,7 @@ def beyond(below, box):
     return below[1] + box[0], below[2] + box[1], below[3] + box[2]
 
 
-@apart
+@not_inlined
 def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
     """Adds the part of a strip that body m fills, the next of the nested ones, times a weight; returns `below` for the next.
 
@@ -211,7 +211,7 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
     return up_to, whole[0], whole[1], whole[2]
 
 
-@apart
+@not_inlined
 def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, strips, w):
     """Adds the parts of the strips of cell (j, i) that every body fills by the nested interfaces, times a weight.
 
@@ -265,7 +265,7 @@ def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, str
                 return
 
 
-@apart
+@not_inlined
 def fill_strips(j, i, last, widths, order, share, void, strips, w):
     """Shares and centroids of every body in the strips at the low and the high side of cell (j, i), and in the whole cell.
 

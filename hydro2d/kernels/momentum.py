@@ -1,6 +1,6 @@
 """The remap of momentum on dual cells, and of kinetic energy by the three advection choices."""
 
-from hydro2d.jit import apart, cell_rows, kernel, plus, point, rowwise
+from hydro2d.jit import cell_rows, kernel, not_inlined, plus, point, rowwise
 from hydro2d.kernels.boundaries import held_at
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
@@ -75,7 +75,7 @@ def dual_row(g, j, slot, w):
                                        0.5 * a_r[x] * a_r[x], 0.5 * a_rr[x] * a_rr[x], w.steepness)
 
 
-@apart
+@not_inlined
 def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
     """Sets the normal velocity to 0 at vertices that rest on an edge that only pushes, or would go beyond it.
 

@@ -12,7 +12,7 @@ from eos.dispatch import (
     temperature_row_with_memory,
     zero_pressure_density,
 )
-from hydro2d.jit import apart, cell_rows, point, rowwise, serial
+from hydro2d.jit import cell_rows, not_inlined, point, rowwise, serial
 from hydro2d.kernels.column_ranges import columns, outer_rows
 from hydro2d.materials.rows import (
     CUTOFF_DENSITY,
@@ -48,7 +48,7 @@ from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 SOUND_FLOOR = 1.0
 
 
-@apart
+@not_inlined
 def insert_void_row(m, j, w):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
@@ -74,7 +74,7 @@ def insert_void_row(m, j, w):
     return opened
 
 
-@apart
+@not_inlined
 def fail_row(m, j, w):
     """Makes body m fail in the cells of row j in which its largest principal stress exceeds its fracture stress.
 
@@ -94,7 +94,7 @@ def fail_row(m, j, w):
             release(m, j, i, w.q)
 
 
-@apart
+@not_inlined
 def report_row(m, j, w):
     """Counts the cells of row j in which body m is not finite.
 

@@ -7,7 +7,7 @@ TOLERANCE, so the order of nodes does not matter (explanation/sliding, equation 
 
 from math import sqrt
 
-from hydro2d.jit import apart, point, serial
+from hydro2d.jit import not_inlined, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.kernels.contact.contact_geometry import REACH, SHARE
 from hydro2d.kernels.contact.extension import SPAN, TIED
@@ -91,7 +91,7 @@ def number_entry(e, vertices, w):
     return vertices + 1 if new else vertices
 
 
-@apart
+@not_inlined
 def list_ties(w):
     """Number of tied slaves, all of them listed with their vertices: their own and those of their masters.
 
@@ -139,7 +139,7 @@ def mismatch(t, u, v, w):
     return apart_r, apart_z
 
 
-@apart
+@not_inlined
 def assemble(tied, w):
     """Matrix of the ties, N M^-1 N^T plus the compliance, row by row; two ties have an element where they share a vertex.
 
@@ -182,7 +182,7 @@ def assemble(tied, w):
     w.lines[tied] = end
 
 
-@apart
+@not_inlined
 def image_of_search(tied, w):
     """Product of the ties' matrix and the search direction; returns search . image, along r and z.
 
@@ -201,7 +201,7 @@ def image_of_search(tied, w):
     return along_r, along_z
 
 
-@apart
+@not_inlined
 def meet_ties(tied, w):
     """Brings all slaves to the velocities of their masters together, by conjugate gradients that start from zero.
 
@@ -281,7 +281,7 @@ def mobility(g, j, i, x, w):
     return w.strength[x, g] * ease / (1.0 + m * ease) + (1.0 - w.strength[x, g]) / m
 
 
-@apart
+@not_inlined
 def rub_on(g, j, i, x, push_r, push_z, w):
     """Applies an impulse to a vertex; a slave passes on to its masters the part that keeps it moving with them."""
     give(g, j, i, push_r, push_z, w)
@@ -294,7 +294,7 @@ def rub_on(g, j, i, x, push_r, push_z, w):
         w.taken[1, x, g] += pass_z
 
 
-@apart
+@not_inlined
 def rub(j, i, x, w):
     """Friction between the two groups at a contact node at which they touch.
 
@@ -323,7 +323,7 @@ def rub(j, i, x, w):
     rub_on(1, j, i, x, -drag_r, -drag_z, w)
 
 
-@apart
+@not_inlined
 def warm_up(g, j, i, x, made, w):
     """Gives heat (J) to a vertex and, if it is a slave, to its masters, by their masses times the sizes of the weights."""
     total = w.mass[g, j, i]

@@ -5,7 +5,7 @@ Both groups sweep the faces, each by its aperture (kernels/contact_geometry); a 
 
 from math import sqrt
 
-from hydro2d.jit import apart, cell_rows, kernel, point, vertex_rows
+from hydro2d.jit import cell_rows, kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
 from hydro2d.kernels.contact.contact_geometry import HARD_FIRST, HARD_R, HARD_Z, SOFT_AFTER, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
@@ -183,7 +183,7 @@ def contact_shares(part, w):
             w.size[j, i] = w.pre[j, i] / scale
 
 
-@apart
+@not_inlined
 def take(g, more, j, i, w):
     """Adds `more` to the volume of group g through face (j, i); returns the volume that the group cannot supply.
 

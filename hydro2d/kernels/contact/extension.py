@@ -7,7 +7,7 @@ fades in as the share falls from SURE to UNDERFILLED, and the weight of a cell f
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point, vertex_rows
+from hydro2d.jit import kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact.contact_geometry import REACH
 from hydro2d.physics.contact import dual_share
@@ -74,7 +74,7 @@ def find_filled(part, w):
                 w.filled[g, j, i] = filled_share(g, j, i, w)
 
 
-@apart
+@not_inlined
 def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
     """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4 times its `sureness`.
 
@@ -93,7 +93,7 @@ def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
     return sureness(part) * sureness(least) * (along * along) * (along * along)
 
 
-@apart
+@not_inlined
 def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
     """Weights of the cells around the slave (j, i), its offsets from their middles, in cells, and the sums of the squares of
     their vertices' weights.
@@ -114,7 +114,7 @@ def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
             n += 1
 
 
-@apart
+@not_inlined
 def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
     """Adds, with the total weight `factor`, the linear fields of cells inward whose vertex weights have a sum of squares above
     least_squares and up to most_squares; returns the share of `factor` that is used.
@@ -144,7 +144,7 @@ def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
     return smoothstep(whole / ENOUGH)
 
 
-@apart
+@not_inlined
 def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
     """Adds, with the total weight `factor`, the velocities of single vertices inward; returns the share of `factor` used.
 
