@@ -238,7 +238,7 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         return
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
-        if BY_NAME[kind].holds() or BY_NAME[kind].traction() == PUSH:
+        if BY_NAME[kind].constrains() or BY_NAME[kind].traction() == PUSH:
             what = {"wall": "a wall", "anvil": "an anvil"}.get(kind, "an edge with a velocity")
             yield ("boundaries", key), f'a mesh that follows "{name}" must have open ends along z; {what} cannot travel with it'
     ahead, behind = room(deck, z)

@@ -187,7 +187,7 @@ def about() -> dict[str, str]:
 
 
 @functools.cache
-def say_if_shipped_in_vain() -> None:
+def say_if_shipped_is_unused() -> None:
     """Says why the compiled code of the package cannot be used here, if there is some."""
     if not (SHIPPED / ABOUT).exists():
         return

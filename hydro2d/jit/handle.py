@@ -48,9 +48,9 @@ def declared() -> dict[str, tuple[type, int]]:
 
 
 @functools.cache
-def _places(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
+def _places(names: tuple[str, ...], partners: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Rows of names and of their partners, and of the partners and the names."""
-    return tuple(np.array([_rows[name][0] for name in names]) for names in ((*some, *others), (*others, *some)))
+    return tuple(np.array([_rows[name][0] for name in row]) for row in ((*names, *partners), (*partners, *names)))
 
 
 class Handle:
@@ -91,11 +91,11 @@ class Handle:
                 (self._floats if kind is float else self._words)[row, 0] = value
             kept[name] = value
 
-    def exchange(self, some: tuple[str, ...], others: tuple[str, ...]) -> None:
-        """Exchanges the values of every name and of its partner among the others, which is of the same type."""
-        here, there = _places(some, others)
+    def exchange(self, names: tuple[str, ...], partners: tuple[str, ...]) -> None:
+        """Exchanges the values of every name and of its partner, which is of the same type."""
+        here, there = _places(names, partners)
         self._words[here] = self._words[there]
-        for name, partner in zip(some, others, strict=True):
+        for name, partner in zip(names, partners, strict=True):
             self.values[name], self.values[partner] = self.values[partner], self.values[name]
 
     def __getattr__(self, name: str):

@@ -99,9 +99,9 @@ def _refuse_kernel(step: Run, known: set[str]) -> None:
     for parameter, _ in step.names:
         if parameter not in by_name.own_parameters(step.kernel):
             raise ValueError(f"{name} has no parameter {parameter}")
-    for taken in step.takes:
-        if taken not in known and taken != "part":
-            raise ValueError(f"{name} takes {taken}, which is no name that handles have")
+    for parameter in step.takes:
+        if parameter not in known and parameter != "part":
+            raise ValueError(f"{name} takes {parameter}, which is no name that handles have")
     if step.alone and "part" in step.takes:
         raise ValueError(f"{name} takes a part: it is not for one alone")
     if not step.alone and "part" not in step.takes:

@@ -81,12 +81,12 @@ def is_recording() -> bool:
 def first_call(name: str) -> Iterator[None]:
     """The first call of a kernel in this process, while no other process makes its own; triggers FIRST_CALL."""
     with (compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"),
-          _no_garbage_looked_for()):
+          _without_garbage_collection()):
         yield
 
 
 @contextmanager
-def _no_garbage_looked_for() -> Iterator[None]:
+def _without_garbage_collection() -> Iterator[None]:
     """Switches off garbage collection, which would search the millions of objects of a compilation again and again."""
     was_on = gc.isenabled()
     gc.disable()

@@ -166,7 +166,7 @@ def ties(j, i, w):
 
 
 @point
-def holds(g, j, i, group, vof):
+def contains_group(g, j, i, group, vof):
     """Whether a cell contains a body of group g."""
     found = False
     for m in range(vof.shape[0]):

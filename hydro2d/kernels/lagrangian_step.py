@@ -86,7 +86,7 @@ accelerate = Phase(
     acceleration.accelerate,
     when("contact", contact_motion.contact_node_forces),
     WAIT,
-    when("contact", alone(contact_velocities.settle)),
+    when("contact", alone(contact_velocities.resolve_contact)),
     alone(boundaries.transmit_edges),
     WAIT,
     acceleration.limit_speed,
@@ -95,36 +95,39 @@ accelerate = Phase(
     boundaries.ghost_vertices_r,
     boundaries.ghost_vertices_z,
     WAIT,
-    when("contact", alone(contact_velocities.warm_contact)),
+    when("contact", alone(contact_velocities.heat_contact_nodes)),
     alone(boundaries.sum_drag),
 )
 
 deform = Phase(
     "deform",
-    "Volumes that faces sweep; work, volume and strain of every body in the cells that it fills.",
+    "Volumes that faces sweep; in pure cells, work, volume and strain of the body that fills them.",
     when("remembers", memory.remember),
     acceleration.swept_volumes,
     when("contact",
          contact_volumes.even_out,
          contact_checkerboard.find_insides,
          WAIT,
-         contact_volumes.warm_evened,
+         contact_volumes.heat_evened_cells,
          contact_volumes.contact_swept_volumes,
          contact_checkerboard.find_checkerboards,
          WAIT,
          contact_volumes.contact_work,
-         contact_checkerboard.fade_deviators,
+         contact_checkerboard.damp_deviators,
          WAIT,
-         contact_checkerboard.fade_pressures),
+         contact_checkerboard.damp_pressures),
     WAIT,
     deformation.deform,
 )  # fmt: skip
 
 deform_mixed = Phase(
     "deform_mixed",
-    "The same in mixed cells; what equations of state remember; what faces sweep relative to a mesh that advances.",
+    """In mixed cells, work, volume and strain of every body; contact heat; shear in a slip layer; internal variables, cracks.
+
+    On a travelling mesh, the volumes that faces sweep relative to it, and tiny values set to zero.
+    """,
     mixed.deform_mixed,
-    when("contact", given(momentum.deposit, ranges="warmed", deficit="heat")),
+    when("contact", given(momentum.deposit, ranges="heated_columns", deficit="heat")),
     when("slip_layer", sliding.cut_shear),
     when("remembers",
          memory.update_memory,
@@ -133,7 +136,7 @@ deform_mixed = Phase(
          cracks.damage_by_cracks),
     when("travels",
          WAIT,
-         following.leave,
-         when("contact", following.leave_contact),
-         following.silence),
+         following.subtract_mesh_motion,
+         when("contact", following.subtract_mesh_motion_of_groups),
+         following.flush_tiny_values),
 )  # fmt: skip

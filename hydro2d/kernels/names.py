@@ -129,8 +129,8 @@ TIES = (
     Work("matrix", "x 2", "elements of the matrix, along r and z"),
     Work("impulses", "x 8", "impulses of the ties"),
     Work("search", "x 2", "search direction of conjugate gradients"),
-    Work("taken", "2 x 2", "impulse that a slave has given to its masters"),
-    Work("rubbing", "3 x", "friction impulse of a node on the soft group, and its size"),
+    Work("passed_impulse", "2 x 2", "impulse that a slave has given to its masters"),
+    Work("friction_impulse", "3 x", "friction impulse of a node on the soft group, and its size"),
 )
 
 #: path of the detonation of an explosive through a body (`hydro2d.kernels.light_times`); its axes are those of the mesh only

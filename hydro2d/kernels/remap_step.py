@@ -37,7 +37,7 @@ carry_bodies = Phase(
 
 carry_momentum = Phase(
     "carry_momentum",
-    "Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.",
+    "Velocities after the sweep; fractions below the cutoff removed; vertex masses and the columns of every body recomputed.",
     boundaries.close_mass_flux,
     WAIT,
     momentum.sweep_momentum,

@@ -48,7 +48,7 @@ def _stamp(dataset, time: float) -> None:
 
 
 @contextmanager
-def _silence() -> Iterator[None]:
+def _without_messages() -> Iterator[None]:
     """Keeps VTK from printing errors as many coloured lines; an exception reports them in one."""
     from vtkmodules.vtkCommonCore import vtkObject
 
@@ -71,7 +71,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     writer.EncodeAppendedDataOff()
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(BLOCK)
-    with replacing(path) as temporary, _silence():
+    with replacing(path) as temporary, _without_messages():
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
             raise _write_error(writer.GetErrorCode(), path)
@@ -269,7 +269,7 @@ class Dump:
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
     checksums.verify(path, VtkError)
-    with _silence():
+    with _without_messages():
         if not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")
         foreign.check_vtk(Path(path), VtkError)

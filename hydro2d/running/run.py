@@ -270,7 +270,7 @@ class Run:
     def _begun(self) -> None:
         """Called after the first cycle, in which kernels are loaded; the pace is measured from here on."""
         self.timed_from = self.spent["cycles_s"]
-        for text in self.compiled.settled() if self.compiled else ():
+        for text in self.compiled.closing_lines() if self.compiled else ():
             self.report.line(text)
 
     def _step(self) -> None:
@@ -392,7 +392,7 @@ class Run:
         with self._spending("outputs_s"):
             self._last_outputs(status, attempts)
         with attempts.writing(self.directory / SUMMARY):
-            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
+            summary = self.summary(*(("interrupted", attempts.failures) if attempts.failures else (status, reason)))
             remove(self.directory / PROGRESS)
             write_json(self.directory / SUMMARY, summary)
         attempts.conclude()
@@ -415,7 +415,7 @@ class Run:
                 with attempts.writing(self.directory / FOLDER):
                     self.series.dump(self.sim)
         with attempts.writing(self.directory / LOG):
-            if text := self.team.told():
+            if text := self.team.thread_use():
                 self.report.line(text)
 
     def _last_row(self, status: str) -> None:

@@ -15,7 +15,7 @@ from hydro2d.solver.books import Books
 from hydro2d.solver.contact import Contact, NoContact
 from hydro2d.solver.courses import Courses
 from hydro2d.solver.edge_lines import EdgeLines
-from hydro2d.solver.following import StandingMesh
+from hydro2d.solver.following import FixedMesh
 from hydro2d.solver.given import Given
 from hydro2d.solver.method import Method
 from hydro2d.solver.parts import Parts
@@ -46,7 +46,7 @@ class Cycle:
 
     def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None):
         self.state, self.table, self.method = state, table, method
-        self.mesh, self.sources = mesh or StandingMesh(), sources or Sources((), state, table, [])
+        self.mesh, self.sources = mesh or FixedMesh(), sources or Sources((), state, table, [])
         self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         self.contact = Contact(state) if state.groups > 1 else NoContact()
@@ -149,7 +149,7 @@ class Cycle:
         """Total stress of every cell at half the step, and the velocities at its end."""
         self.state.swap_velocities()
         self.method.boundaries.drive(self.time + self.dt)
-        self.sources.push(self.time, self.dt, self.edges.held)
+        self.sources.push(self.time, self.dt, self.edges.constrained_vertices)
         self.given.run(lagrangian_step.accelerate, dt=self.dt)
         self.books.acceleration()
 

@@ -24,7 +24,7 @@ from hydro2d.solver import bodies, debris, insertion, reach
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
-from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
+from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
 from hydro2d.solver.memory import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.solver.record import Recorder
@@ -114,11 +114,11 @@ class Simulation:
         penetrated = targets(self.deck, direction)
         return Penetrator(self, self.deck, penetrated, direction), [Crater(self, target, direction) for target in penetrated]
 
-    def _mesh(self, slots: list[str], method: Method) -> StandingMesh | FollowingMesh:
+    def _mesh(self, slots: list[str], method: Method) -> FixedMesh | FollowingMesh:
         """The motion of the mesh."""
         name = self.deck.mesh.follow
         if name is None:
-            return StandingMesh()
+            return FixedMesh()
         direction = float(np.sign(decks.body(self.deck, name).velocity[1]))
         space = UndisturbedSpace(self.deck, self.table, self.grid)
         inner, outer, *_ = method.boundaries.having("mirrors")
@@ -149,7 +149,7 @@ class Simulation:
         ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
         for edge, (at, kind, velocity) in enumerate(zip(ends, conditions.edges, conditions.velocity, strict=True)):
             normal = s.u[..., at] if edge < 2 else s.v[:, at]
-            if kind.holds():
+            if kind.constrains():
                 normal[...] = velocity
             elif kind.traction() == PUSH:
                 (np.maximum if edge % 2 == 0 else np.minimum)(normal, 0.0, out=normal)

@@ -22,7 +22,7 @@ def text(*steps) -> list[str]:
 
 def test_a_list_becomes_a_function():
     assert text(column_ranges.widen_ranges, WAIT, when("travels", alone(thermodynamics.least_step), WAIT),
-                unless("dj", given(momentum.deposit, ranges="warmed", deficit="heat"))) == [
+                unless("dj", given(momentum.deposit, ranges="heated_columns", deficit="heat"))) == [
         "    _0(part, w.body_ranges, w.group_ranges, w.parts)",
         "    wait(w.gate, w.parts)",
         "    if w.travels:",
@@ -30,7 +30,7 @@ def test_a_list_becomes_a_function():
         "            _1(w.bad, w.least_row, w.parts, w.row_step)",
         "        wait(w.gate, w.parts)",
         "    if not w.dj:",
-        "        _2(part, w.warmed, w.heat, w.cell_mass, w.deposited, w.group, w.metrics, w.parts, w.q, w.vof)",
+        "        _2(part, w.heated_columns, w.heat, w.cell_mass, w.deposited, w.group, w.metrics, w.parts, w.q, w.vof)",
     ]  # fmt: skip
 
 
@@ -43,8 +43,8 @@ def test_arguments_of_a_phase():
     ((thermodynamics.least_step,), "least_step takes no part: only one part can run it"),
     ((alone(column_ranges.widen_ranges),), "widen_ranges takes a part: it is not for one alone"),
     ((momentum.deposit,), "deposit takes ranges, which is no name"),
-    ((given(momentum.deposit, ranges="warmed", deficit="nonsense"),), "deposit takes nonsense, which is no name"),
-    ((given(momentum.deposit, range="warmed"),), "deposit has no parameter range"),
+    ((given(momentum.deposit, ranges="heated_columns", deficit="nonsense"),), "deposit takes nonsense, which is no name"),
+    ((given(momentum.deposit, range="heated_columns"),), "deposit has no parameter range"),
     ((given(momentum.deposit, vof="q"),), "deposit has no parameter vof"),
     ((when("nonsense", WAIT),), "nonsense is no number"),
     ((when("u", WAIT),), "u is no number"),

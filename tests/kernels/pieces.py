@@ -52,5 +52,5 @@ def tidy(engine) -> None:
     column_ranges.list_mixed(0, handle(parts=rows(engine), active_range=s.active_range, vof=s.vof, mixed_count=s.mixed_count,
                              mixed=s.mixed, scratch=s.scratch))
     remap.tidy(0, handle(parts=rows(engine), cutoff=method.cutoff, metrics=g.metrics, volume=g.volume, group=s.group,
-               mixed_count=s.mixed_count, mixed=s.mixed, pre=s.pre, dj=0, di=1, fr=s.fr, fz=s.fz, second=True, u=s.u, v=s.v,
-               vof=s.vof, q=s.q, cell_mass=s.cell_mass, removed=s.removed, centroid=s.centroid))
+               mixed_count=s.mixed_count, mixed=s.mixed, pre_sweep_volume=s.pre_sweep_volume, dj=0, di=1, fr=s.fr, fz=s.fz,
+               second=True, u=s.u, v=s.v, vof=s.vof, q=s.q, cell_mass=s.cell_mass, removed=s.removed, centroid=s.centroid))

@@ -192,7 +192,7 @@ def test_contact_nodes_are_where_both_groups_have_mass():
     assert cells.contact_nodes[2:7, :2].tolist() == 5 * [[4, 5]]
     assert cells.hard[3, 2:7].tolist() == [1, 1, 0.5, 0, 0]
     assert cells.soft[3, 2:7].tolist() == [0, 0, 0.5, 1, 1]
-    assert cells.warmed[4].tolist() == [2, 7]
+    assert cells.heated_columns[4].tolist() == [2, 7]
     cells.call(contact_geometry.number_nodes)
     assert cells.first_slot[2:8].tolist() == [0, 2, 4, 6, 8, 10]
 

@@ -135,15 +135,15 @@ def test_a_gas_counts_where_it_is():
 def test_the_contents_of_a_cell():
     """Its groups, whether several bodies are in it one of which has strength, and which fills most of it."""
     cell = Cell(strong=True, group=(0, 1))
-    assert cell.run(cut_cells.holds, g=0)
-    assert cell.run(cut_cells.holds, g=1)
+    assert cell.run(cut_cells.contains_group, g=0)
+    assert cell.run(cut_cells.contains_group, g=1)
     assert cell.run(cut_cells.joins_solids)
     cell.known["strong"][0] = False
     assert cell.run(cut_cells.joins_solids)
     cell.vof[:, *AT] = 0.0, 1.0
     assert not cell.run(cut_cells.joins_solids)  # only one body
     cell.vof[:, *AT] = 1.0, 0.0
-    assert not cell.run(cut_cells.holds, g=1)
+    assert not cell.run(cut_cells.contains_group, g=1)
     assert not cell.run(cut_cells.joins_solids)
     assert cell.run(cut_cells.most_of) == 0
     cell.vof[:, *AT] = 0.4, 0.6

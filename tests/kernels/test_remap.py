@@ -236,8 +236,8 @@ def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.nd
     flux = np.zeros((5, 1, 1, columns))
     carried = np.array([[4, 1, 2, 3, 4]])
     remap.flux_row.source(0, 2, 0, 0, 0, handle(i0=2, i1=columns - 2, carried=carried, rules=rules, body_ranges=body_ranges,
-                           pre=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0, vof=vof,
-                           q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
+                           pre_sweep_volume=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0,
+                           vof=vof, q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
     return flux[:, 0, 0]
 
 

@@ -41,7 +41,7 @@ def find_contact_nodes(j, w):
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
     Writes   contact_node_count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
-             warmed [j, 2], the cells around vertices that can be masters of a contact node
+             heated_columns [j, 2], the cells around vertices that can be masters of a contact node
     """
     j0, j1 = outer_rows(w.parts)
     found = 0
@@ -55,8 +55,8 @@ def find_contact_nodes(j, w):
             found += 1
     w.contact_node_count[j] = found
     lo, hi = union(w.group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
-    w.warmed[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
-    w.warmed[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
+    w.heated_columns[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
+    w.heated_columns[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
     if j < j1:
         lo, hi = union(w.group_ranges[1, 0], j - 2, j + 3)
         lo, hi = max(lo - 2, w.mesh_box[2]), min(hi + 2, w.mesh_box[3])

@@ -199,7 +199,7 @@ class _Sweep:
                 self.compiling = True
                 key = kernels(decks.loads(self.texts[todo[0].name]))
                 if not compilation.is_compiled(key):
-                    self.board.compiling = partial(compilation.told_of, key)
+                    self.board.compiling = partial(compilation.progress_of, key)
                     self.board.line("kernels not compiled by earlier runs are compiled first")
             for case in todo:
                 self._give(case)
