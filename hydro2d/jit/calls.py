@@ -137,10 +137,10 @@ def returns(function, arguments: str) -> tuple[str, ...]:
     arrays = ("par", "internal")
     types = tuple(numba.float64[::1] if name in arrays else numba.float64 for name in arguments.split(", "))
     function.compile(types)
-    found = function.overloads[types].signature.return_type
-    if isinstance(found, numba.types.BaseTuple):
-        return tuple(map(str, found))
-    return () if found == numba.types.none else (str(found),)
+    return_type = function.overloads[types].signature.return_type
+    if isinstance(return_type, numba.types.BaseTuple):
+        return tuple(map(str, return_type))
+    return () if return_type == numba.types.none else (str(return_type),)
 
 
 @functools.partial(Inner, forceinline=True, fastmath={"reassoc"})

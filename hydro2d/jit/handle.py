@@ -140,7 +140,7 @@ class _HandleAttributes(AttributeTemplate):
 def _look_up(context, builder, handle, value, name):
     """Reads a row of the table, marked for the compiler as unchanging: it is not written while compiled code runs."""
     row, kind, axes = _rows[name]
-    found, word = _type_of(kind, axes), ir.IntType(64)
+    numba_type, word = _type_of(kind, axes), ir.IntType(64)
     table = builder.inttoptr(value, word.as_pointer())
 
     def read(place: int, as_type=word):
@@ -152,16 +152,16 @@ def _look_up(context, builder, handle, value, name):
     if not axes:
         if kind is bool:
             return builder.icmp_signed("!=", read(0), ir.Constant(word, 0))
-        return read(0, context.get_value_type(found))
-    array = arrayobj.make_array(found)(context, builder)
-    size = context.get_abi_sizeof(context.get_data_type(found.dtype))
+        return read(0, context.get_value_type(numba_type))
+    array = arrayobj.make_array(numba_type)(context, builder)
+    size = context.get_abi_sizeof(context.get_data_type(numba_type.dtype))
     shape = [read(1 + axis) for axis in range(axes)]
     strides, step = [], ir.Constant(word, size)
     for length in reversed(shape):
         strides.insert(0, step)
         step = builder.mul(step, length, flags=["nsw"])
-    arrayobj.populate_array(array, data=builder.inttoptr(read(0), context.get_data_type(found.dtype).as_pointer()), shape=shape,
-                            strides=strides, itemsize=ir.Constant(word, size), meminfo=None)
+    arrayobj.populate_array(array, data=builder.inttoptr(read(0), context.get_data_type(numba_type.dtype).as_pointer()),
+                            shape=shape, strides=strides, itemsize=ir.Constant(word, size), meminfo=None)
     return array._getvalue()
 
 

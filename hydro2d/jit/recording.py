@@ -65,9 +65,9 @@ _calls: list[Call] | None = None
 def recorded() -> Iterator[list[Call]]:
     """Within the block kernels do nothing: their calls are recorded."""
     global _calls
-    _calls = found = []
+    _calls = calls = []
     try:
-        yield found
+        yield calls
     finally:
         _calls = None
 
@@ -107,11 +107,11 @@ def clocked(name: str, function: Callable, *arguments):
     if not _profiling:
         return function(*arguments)
     start = time.perf_counter()
-    found = function(*arguments)
+    result = function(*arguments)
     entry = timings.setdefault(name, [0.0, 0])
     entry[0] += time.perf_counter() - start
     entry[1] += 1
-    return found
+    return result
 
 
 def called(compiled):
@@ -122,9 +122,9 @@ def called(compiled):
     def first(*arguments):
         nonlocal run
         with first_call(name):
-            found = compiled(*arguments)
+            result = compiled(*arguments)
         run = compiled if by_name.takes_handle(function) else getattr(compiled, "whole", compiled)
-        return found
+        return result
 
     run = first
 

@@ -27,10 +27,10 @@ NORMAL_R, NORMAL_Z, KIND = range(3)
 @point
 def is_beside_gas(j, i, gases, vof):
     """Whether a cell contains a gas."""
-    found = False
+    has_gas = False
     for m in range(vof.shape[0]):
-        found = found or (vof[m, j, i] > 0.0 and gases[m])
-    return found
+        has_gas = has_gas or (vof[m, j, i] > 0.0 and gases[m])
+    return has_gas
 
 
 @point
@@ -168,10 +168,10 @@ def ties(j, i, w):
 @point
 def contains_group(g, j, i, group, vof):
     """Whether a cell contains a body of group g."""
-    found = False
+    contains = False
     for m in range(vof.shape[0]):
-        found = found or (group[m] == g and vof[m, j, i] > 0.0)
-    return found
+        contains = contains or (group[m] == g and vof[m, j, i] > 0.0)
+    return contains
 
 
 @point

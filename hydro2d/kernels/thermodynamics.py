@@ -455,17 +455,17 @@ def elastic_energy(m, j, i, shear, model, memory, par, q):
 
 @serial
 def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, shear, warm, chill, model, memory, par, vof, q,
-                   found):
+                   worst):
     """Cells in which the energy of body m is farthest above and below the range that it can reach there, those at 0 K included.
 
     Cells filled by less than `sliver` do not count. The elastic energy of a cell's own stress, with the shear modulus `shear`
     in Pa, does not count as heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
 
     Reads    vof [m, j, i]; q [k, m, j, i]
-    Writes   found [2, 3], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column
+    Writes   worst [2, 3], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column
     """
     for side in range(2):
-        found[side, 0] = -1e300
+        worst[side, 0] = -1e300
     for j in range(g, g + nz):
         for i in range(g, g + nr):
             if vof[m, j, i] < sliver:
@@ -480,7 +480,7 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
             for side in range(2):
                 beyond = cold if side else hot
                 beyond = beyond if beyond == beyond else 1e300
-                if beyond > found[side, 0]:
-                    found[side, 0] = beyond
-                    found[side, 1] = j
-                    found[side, 2] = i
+                if beyond > worst[side, 0]:
+                    worst[side, 0] = beyond
+                    worst[side, 1] = j
+                    worst[side, 2] = i

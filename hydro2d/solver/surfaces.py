@@ -64,11 +64,11 @@ class Follower:
         self._sim, self._m, self.place = sim, sim.table.names.index(gauge.surface), place
         self._group = int(sim.state.group[self._m])
         self._axis = 0 if gauge.along == "r" else 1
-        found = self._surfaces()
-        if not found:
+        places = self._surfaces()
+        if not places:
             line = f"{'zr'[self._axis]} = {place[1 - self._axis]:g}"
             raise DeckError(f'gauge "{gauge.name}": "{gauge.surface}" has no surface within the mesh on the line {line} m')
-        self.place[self._axis], self._side = min(found, key=lambda one: abs(one[0] - self.place[self._axis]))
+        self.place[self._axis], self._side = min(places, key=lambda one: abs(one[0] - self.place[self._axis]))
 
     def velocity(self) -> np.ndarray:
         """Velocity (u, v) of the body one cell inside its surface, or at its middle, m/s; NaN if there is no surface.

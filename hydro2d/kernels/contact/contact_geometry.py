@@ -44,16 +44,16 @@ def find_contact_nodes(j, w):
              heated_columns [j, 2], the cells around vertices that can be masters of a contact node
     """
     j0, j1 = outer_rows(w.parts)
-    found = 0
+    count = 0
     lo, hi = union(w.group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
     for i in range(max(lo - REACH - 1, w.mesh_box[2]), min(hi + REACH + 2, w.mesh_box[3] + 1)):
         for g in range(2):
             w.heat[g, j, i] = 0.0
     for i in range(max(w.group_ranges[1, 1, j, 0], w.mesh_box[2]), min(w.group_ranges[1, 1, j, 1] + 1, w.mesh_box[3] + 1)):
         if w.mass[0, j, i] > 0.0 and w.mass[1, j, i] > 0.0:
-            w.contact_nodes[j, found] = i
-            found += 1
-    w.contact_node_count[j] = found
+            w.contact_nodes[j, count] = i
+            count += 1
+    w.contact_node_count[j] = count
     lo, hi = union(w.group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
     w.heated_columns[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
     w.heated_columns[j, 1] = min(hi + REACH + 1, w.mesh_box[3])

@@ -45,13 +45,13 @@ def sureness(share):
 @point
 def in_debris(g, j, i, w):
     """Whether failed material of the group other than g fills a cell around vertex (j, i) by half or more."""
-    found = False
+    failed = False
     for m in range(w.group.shape[0]):
         if w.group[m] != g:
             for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
                 for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
-                    found = found or (w.vof[m, row, column] >= 0.5 and w.dmg[m, row, column] >= 1.0)
-    return found
+                    failed = failed or (w.vof[m, row, column] >= 0.5 and w.dmg[m, row, column] >= 1.0)
+    return failed
 
 
 @kernel
@@ -212,14 +212,14 @@ def find_extensions(j, w):
             if left > 0.0:
                 used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
                 w.weights[x, g, TIED] = left * (1.0 - used)
-            found = 0
+            count = 0
             for n in range(MASTERS + 1):
                 weight = w.weights[x, g, n]
                 if weight != 0.0:
-                    w.where[x, g, found] = n
-                    w.weights[x, g, found] = weight
-                    found += 1
-            w.masters[x, g] = found
+                    w.where[x, g, count] = n
+                    w.weights[x, g, count] = weight
+                    count += 1
+            w.masters[x, g] = count
         slack = SLACK * tied_weight(x, 0, w) * tied_weight(x, 1, w)
         for g in range(2):
             w.strength[x, g] *= 1.0 - slack
