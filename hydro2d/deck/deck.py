@@ -24,7 +24,7 @@ from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
 from hydro2d.deck.mesh import axis_edges, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import toml
-from hydro2d.files.lines import Sources, spelled
+from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain
 from hydro2d.materials import from_files, library
 

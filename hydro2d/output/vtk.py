@@ -1,7 +1,7 @@
 """Fields as VTK files that ParaView opens with one click: a .vtr file for each dump and a .pvd file with their times.
 
 In the files x = r and y = z. Values are float32, appended raw and compressed with LZ4. The outlines of the bodies and the
-tracers are separate series of .vtp files. Names and units: derived.py.
+tracers are separate series of .vtp files. Names and units: derived_quantities.py.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from hydro2d.files import checksums
 from hydro2d.files.whole import replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.registry import halved
-from hydro2d.output import derived, foreign
+from hydro2d.output import derived_quantities, foreign
 from hydro2d.output.outlines import Filling
 
 FOLDER = "vtk"
@@ -263,7 +263,7 @@ class Dump:
     def of(cls, sim, keys=("all",)) -> Dump:
         """The state of a simulation as a dump would hold it."""
         half = halved(sim.grid.geometry, sim.grid.r_edges[0], sim.deck.boundaries.r_min)
-        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time, half)
+        return cls(sim.grid.r_edges, sim.grid.z_edges, derived_quantities.evaluate(sim, keys), sim.time, half)
 
 
 def _read(reader, path: Path):

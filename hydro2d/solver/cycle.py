@@ -12,14 +12,14 @@ from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.books import Books
-from hydro2d.solver.contact import Contact, NoContact
+from hydro2d.solver.contact_ties import Contact, NoContact
 from hydro2d.solver.courses import Courses
 from hydro2d.solver.edge_lines import EdgeLines
 from hydro2d.solver.following import FixedMesh
 from hydro2d.solver.given import Given
 from hydro2d.solver.method import Method
-from hydro2d.solver.parts import Parts
 from hydro2d.solver.refusals import Refusals
+from hydro2d.solver.row_parts import Parts
 from hydro2d.solver.sources import Sources
 
 

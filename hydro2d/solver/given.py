@@ -14,7 +14,7 @@ from hydro2d.kernels import names
 from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.mesh.edges.base import EDGES
-from hydro2d.solver.contact import most_squares
+from hydro2d.solver.contact_ties import most_squares
 
 #: arrays that alternate: the velocities at the end of a step and at its beginning
 AT_END, AT_BEGINNING = ("velocity", "u", "v"), ("velocity0", "u0", "v0")

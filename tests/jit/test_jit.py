@@ -163,7 +163,7 @@ def test_an_edit_compiles_again_what_can_see_it_and_nothing_else():
     sees_strength = {file.stem for file in KERNELS if "strength/power_law.py" in seen_by(f"hydro2d/kernels/{file.name}")}
     assert {"deformation", "mixed"} <= sees_strength
     assert not sees_strength & {"remap", "momentum", "interfaces", "contact_geometry", "contact_motion", "contact_velocities",
-                                "contact_volumes", "acceleration", "sliding", "column_ranges", "following", "boundaries"}
+                                "contact_volumes", "vertex_forces", "sliding", "column_ranges", "mesh_motion", "boundaries"}
     assert "hydro2d/physics/interfaces.py" in seen_by("hydro2d/kernels/contact/contact_volumes.py")
     assert "hydro2d/physics/interfaces.py" not in seen_by("hydro2d/kernels/momentum.py")
 

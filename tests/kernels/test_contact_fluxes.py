@@ -7,7 +7,7 @@ from hydro2d.kernels import interfaces
 from hydro2d.kernels.contact import contact_volumes
 from hydro2d.kernels.contact.contact_volumes import BLEND_RANGE, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
-from hydro2d.physics.contact import GAP
+from hydro2d.physics.contact_faces import GAP
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 

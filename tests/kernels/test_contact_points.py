@@ -12,9 +12,9 @@ from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
-from hydro2d.physics.contact import GAP
+from hydro2d.physics.contact_faces import GAP
 from hydro2d.physics.momentum import SLIGHT
-from hydro2d.solver import contact
+from hydro2d.solver import contact_ties
 from tests.kernels.cells import handle
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 from tests.physics.continuity import changes_in_proportion
@@ -79,7 +79,7 @@ def test_an_impulse_moves_what_is_not_held(constrained, gained):
 
 def room_for_ties(slots: int, vertices=(7, 7)):
     """places and what `resolve_contact` writes of ties, which nothing has written yet."""
-    ties = contact.slots(slots)._asdict()
+    ties = contact_ties.slots(slots)._asdict()
     room = {name: ties[name] for name in ties if name not in ("strength", "masters", "where", "weights")}
     for values in room.values():
         values[...] = np.nan if values.dtype == np.float64 else -1

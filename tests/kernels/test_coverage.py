@@ -24,7 +24,7 @@ TESTED = {pair for file in FILES for pair in touched(source.tree(file), PACKAGE)
 
 def test_there_are_functions_to_look_for():
     assert {("remap", "sweep_z"), ("sliding", "slip_zones"), ("mixed", "soften")} <= set(CALLED)
-    assert ("acceleration", "accelerate_row") not in CALLED
+    assert ("vertex_forces", "accelerate_row") not in CALLED
 
 
 @pytest.mark.parametrize(("module", "function"), CALLED)

@@ -13,7 +13,7 @@ from math import sqrt
 
 from hydro2d.jit import cell_rows, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
-from hydro2d.physics.contact import GAP, end_apertures, known
+from hydro2d.physics.contact_faces import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
 

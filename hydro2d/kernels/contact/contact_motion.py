@@ -19,7 +19,7 @@ from hydro2d.kernels.cut_cells import (
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
-from hydro2d.physics.contact import meeting, volume_rate
+from hydro2d.physics.contact_faces import meeting, volume_rate
 from hydro2d.physics.corner import corner, corner_force
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale

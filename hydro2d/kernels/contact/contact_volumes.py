@@ -12,7 +12,7 @@ from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
-from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.physics.contact_faces import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.traction import smoothstep
 

@@ -10,7 +10,7 @@ from math import sqrt
 from hydro2d.jit import kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact.contact_geometry import REACH
-from hydro2d.physics.contact import dual_share
+from hydro2d.physics.contact_faces import dual_share
 from hydro2d.physics.traction import smoothstep
 
 #: filled share of its dual cell up to which a node of a group is under-filled, and from which it is not

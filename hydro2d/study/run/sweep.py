@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 
 from hydro2d.base.interrupt import Interrupt, signals, status
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.locks import locked

@@ -13,7 +13,7 @@ from hydro2d.output import history, station_arrays
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump, read_grid
 from hydro2d.results.viewer import packing
-from hydro2d.results.viewer.fields import Ranges, Stored, ViewError, arrays, asked, short, unit_of
+from hydro2d.results.viewer.field_arrays import Ranges, Stored, ViewError, arrays, asked, short, unit_of
 from hydro2d.running.run import HISTORY
 
 #: fields that every page has, to show the bodies
