@@ -194,4 +194,4 @@ def test_no_more_than_half_of_it_fades(monkeypatch):
     block = Block()
     block.q[SRR, 1] = 1e9 * block.sign
     block.fade()
-    assert inner(block.q[SRR, 1] / block.sign) == pytest.approx(1e9 * (1 - kernels.MOST), rel=1e-12)
+    assert inner(block.q[SRR, 1] / block.sign) == pytest.approx(1e9 * (1 - kernels.MOST_DAMPED), rel=1e-12)
