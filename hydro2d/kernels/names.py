@@ -111,7 +111,7 @@ METHOD = (
     Work("most_squares", "", "largest sum of the squares of an extension's weights"),
 )
 
-#: data that contact keeps of every contact node, in slots (`solver.contact.Ties`)
+#: data that contact keeps of every contact node, in slots (`solver.contact_ties.Ties`)
 TIES = (
     Work("strength", "x 2", "strength of a node's tie to its masters, 0 to 1"),
     Work("masters", "x 2", "number of its masters", int),

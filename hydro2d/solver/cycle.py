@@ -39,7 +39,7 @@ class Cycle:
     time, dt, number : time reached (s), last time step (s), cycles done
     cause : str, the cause of the last time step, and its place
     active : ActiveBox, the cells that are active;  box : its rows and columns [j0, j1, i0, i1]
-    rows : int64[n + 1], first row of each part of the box and one past the last (`parts`)
+    rows : int64[n + 1], first row of each part of the box and one past the last (`row_parts`)
     sound_speeds : float64[m], bulk sound speed of every body at rest, m/s
     audit : Audit
     """

@@ -27,7 +27,7 @@ ROUNDING = 1e-9
 def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     """The table of a run (results.Results) and its packed numbers in base64.
 
-    words : fields, as `fields.asked` takes them
+    words : fields, as `field_arrays.asked` takes them
     bits : bits of a value, one of packing.BITS
 
     Raises ViewError, FieldError, VtkError, HistoryError.
