@@ -68,7 +68,7 @@ class Handle:
         self.values: dict[str, object] = {}
         self.address: int = self._words.ctypes.data
 
-    def give(self, **values) -> None:
+    def update(self, **values) -> None:
         """Sets the values of names.
 
         Raises KeyError for a name that is not declared, TypeError for a value of another type, axes or order in memory.

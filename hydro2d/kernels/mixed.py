@@ -62,7 +62,7 @@ def insert_void_mixed_row(j, w):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or with smallest_tension the least (explanation/fracture).
-    Two groups do not stick together, and separate without this (`meet_traction`).
+    Two groups do not stick together, and separate without this (`traction_of_change`).
 
     Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]

@@ -331,7 +331,7 @@ ROUND_OFF = 1e-14
 
 
 @point
-def fade(share, cutoff):
+def kept_share(share, cutoff):
     """Part of a small share of a cell that is kept: all from twice the cutoff on, none below the cutoff or below ROUND_OFF.
 
     A body that shares its cell with less than that would seem to fill it.
@@ -346,7 +346,7 @@ def tidy(j, w):
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
     closed by scaling the bodies' volumes at constant mass. Between the cutoff and twice the cutoff a part is removed, so that
-    round-off decides nothing (`remap.fade`). A negative density or volume counts as sub-cutoff.
+    round-off decides nothing (`kept_share`). A negative density or volume counts as sub-cutoff.
 
     Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
@@ -355,7 +355,7 @@ def tidy(j, w):
     """
     for row in range(4 + w.vof.shape[0]):
         w.removed[row, j] = 0.0
-    left = 0
+    count = 0
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
         post = w.volume[j, i]
@@ -366,8 +366,8 @@ def tidy(j, w):
             f = w.vof[m, j, i]
             rho = w.q[RHO, m, j, i]
             if f > 0.0 and (f < 2.0 * w.cutoff or not rho > 0.0):
-                left_over = fade(f, w.cutoff) if rho > 0.0 else 0.0
-                mass = (f - left_over) * rho * post
+                kept = kept_share(f, w.cutoff) if rho > 0.0 else 0.0
+                mass = (f - kept) * rho * post
                 inner, outer = w.metrics[CM_IN, i] * mass, w.metrics[CM_OUT, i] * mass
                 g = w.group[m]
                 ub = w.u[g, j]
@@ -381,7 +381,7 @@ def tidy(j, w):
                 w.removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
                 w.removed[2, j] += inner * v_in + outer * v_out
                 w.removed[4 + m, j] += mass
-                f = left_over
+                f = kept
                 w.vof[m, j, i] = f
                 ended = True
             if f == 0.0:
@@ -390,7 +390,7 @@ def tidy(j, w):
             total += f
             present += 1 if f > 0.0 else 0
         if total > 1.0 - 2.0 * w.cutoff and total != 1.0:
-            void = fade(1.0 - total, w.cutoff)
+            void = kept_share(1.0 - total, w.cutoff)
             w.removed[3, j] += (max(1.0 - total, 0.0) - void) * post
             scale = (1.0 - void) / total
             for m in range(w.vof.shape[0]):
@@ -411,6 +411,6 @@ def tidy(j, w):
         kind = 0.0
         for m in range(w.vof.shape[0]):
             kind += (1000.0 if w.vof[m, j, i] == 1.0 else 0.0) + (1.0 if w.vof[m, j, i] > 0.0 else 0.0)
-        w.mixed[j, left] = i
-        left += 0 if kind == 0.0 or kind == 1001.0 else 1
-    w.mixed_count[j] = left
+        w.mixed[j, count] = i
+        count += 0 if kind == 0.0 or kind == 1001.0 else 1
+    w.mixed_count[j] = count

@@ -83,7 +83,7 @@ class Cycle:
             self.remap_momentum(dj, di, second)
 
         self.mesh.move(self.dt)
-        self.sources.give(self.time, self.dt, self.audit)
+        self.sources.add_heat(self.time, self.dt, self.audit)
         self.time += self.dt
         self.number += 1
 
@@ -104,7 +104,7 @@ class Cycle:
             self.speed_limit = time_step.speed_limit(s, self.sound_speeds)
         else:
             self.active.box = every
-        self.given.handle.give(speed_limit=self.speed_limit, dt=self.dt)
+        self.given.handle.update(speed_limit=self.speed_limit, dt=self.dt)
         if not self.active.is_all:  # beyond the box nothing has a range yet
             s.empty_ranges()
             self._in_one_part(remap_step.find_bodies, anew=True)
@@ -123,7 +123,7 @@ class Cycle:
                 self._in_one_part(remap_step.find_bodies, anew=True)
                 self._in_one_part(remap_step.list_mixed)
         self.rows = self.parts.of(self.box)
-        self.given.handle.give(parts=self.rows, i0=self.box[2], i1=self.box[3], anew=False)
+        self.given.handle.update(parts=self.rows, i0=self.box[2], i1=self.box[3], anew=False)
 
     # ------------------------------------------------------------------------------------------------ Lagrangian step
 

@@ -73,18 +73,18 @@ class Given:
         }
         if method.slip_widths is not None:
             choices["width_bl"], choices["width_sl"] = method.slip_widths
-        self.handle.give(**arrays, **_of(cycle.grid, names.MESH), **bodies, **edges, **choices, anew=False)
+        self.handle.update(**arrays, **_of(cycle.grid, names.MESH), **bodies, **edges, **choices, anew=False)
         self._keep_up()
 
     def _keep_up(self) -> None:
         """Updates the handle: velocities alternate, and ties may have new slots."""
         if self.handle.values.get("masters") is not self._contact.ties.masters:
-            self.handle.give(**self._contact.ties._asdict())
+            self.handle.update(**self._contact.ties._asdict())
         if self.handle.values["velocity"] is not self._state.velocity:
             self.handle.exchange(AT_END, AT_BEGINNING)
 
     def run(self, phase: Phase, **given) -> None:
         """Runs a phase with these values, which stay set."""
         self._keep_up()
-        self.handle.give(**given)
+        self.handle.update(**given)
         phase(self.handle)

@@ -115,7 +115,7 @@ class Sources:
         return begin([entry for entry, _ in self._all], [m for _, m in self._all], s.grid, self._table,
                      inner(s.vof), inner(s.rho), {m: inner(s.q[INTERNAL:, m]) for _, m in self._all})
 
-    def give(self, time: float, dt: float, audit: Audit) -> None:
+    def add_heat(self, time: float, dt: float, audit: Audit) -> None:
         """Adds the heat of the step from ``time`` on to the bodies in their state after it, and books it; J per radian."""
         s, grid = self.state, self.state.grid
         for entry, m in self._all:

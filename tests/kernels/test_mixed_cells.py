@@ -362,7 +362,7 @@ def test_failed_or_thin_material_has_no_yield_stress():
 
 
 def test_bodies_are_strained_across_by_what_their_traction_needs():
-    """The strain across the surface from `meet_traction` is added to the trial: 2 G (n n - 1/3) times the strain."""
+    """The strain across the surface from `traction_of_change` is added to the trial: 2 G (n n - 1/3) times the strain."""
     cell = Cell(strong=True)
     cell.skin[[NORMAL_R, KIND], *AT], cell.bulk[AT] = (1.0, INTERFACE), 1.6
     cell.mix[2, MODULUS], cell.mix[2, YIELD], cell.q[SRR, 0, *AT] = 5.0, (3.0, 0.0), 4.0

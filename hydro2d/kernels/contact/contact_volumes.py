@@ -114,23 +114,23 @@ def heat_evened_cells(j, w):
     """
     for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
         here = w.ph[j, i] + w.qr[j, i]
-        made = 0.0
+        heat = 0.0
         if w.even_r[j, i] != 0.0:
-            made += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
+            heat += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
         if w.even_r[j, i + 1] != 0.0:
-            made += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
+            heat += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
         if w.even_z[j, i] != 0.0:
-            made += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
+            heat += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
         if w.even_z[j + 1, i] != 0.0:
-            made += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
-        if made == 0.0:
+            heat += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
+        if heat == 0.0:
             continue
         mass = 0.0
         for m in range(w.vof.shape[0]):
             mass += w.vof[m, j, i] * w.q[RHO, m, j, i] * w.volume[j, i] if w.vof[m, j, i] > 0.0 else 0.0
         for m in range(w.vof.shape[0]):
             if w.vof[m, j, i] > 0.0:
-                w.q[E, m, j, i] += 0.5 * made / mass
+                w.q[E, m, j, i] += 0.5 * heat / mass
 
 
 @cell_rows
