@@ -70,7 +70,7 @@ def test_show():
 
 
 def test_numbers_do_not_need_pint():
-    script = "import sys; from hydro2d import units; units.to_si(3.0, 'm'); print('pint' in sys.modules)"
+    script = "import sys; from hydro2d.base import units; units.to_si(3.0, 'm'); print('pint' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

@@ -171,7 +171,7 @@ def test_a_compilation_that_fails_is_tried_again(tmp_path, monkeypatch):
 def test_of_two_processes_one_compiles(tmp_path):
     """The second waits for the first, and finds the work done."""
     code = (
-        "import sys, time; from hydro2d import compilation\n"
+        "import sys, time; from hydro2d.jit import compilation\n"
         "def slow(): time.sleep(0.5); open(sys.argv[1], 'a').write('x')\n"
         "compilation.once('a', slow)"
     )
