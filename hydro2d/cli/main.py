@@ -62,18 +62,18 @@ app.command(view)
 
 #: modules, and their exceptions for errors that the user can correct
 USER_ERRORS = (
-    ("errors", "DeckError"), ("errors", "MissingPackage"), ("errors", "TargetError"), ("files", "LockError"),
-    ("strange", "StrangeFile"),
+    ("base.errors", "DeckError"), ("base.errors", "MissingPackage"), ("base.errors", "TargetError"),
+    ("files.locks", "LockError"), ("files.strange", "StrangeFile"),
     ("penetration.model", "InputError"), ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"),
     ("output.vtk", "VtkError"), ("mesh.quantities", "FieldError"), ("running.run", "RunError"),
     ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
     ("results.terminal_charts", "ChartError"),
-    ("study.definition", "StudyError"),
+    ("study.plan.definition", "StudyError"),
 )
 
 
 #: modules, and their exceptions for what the machine refuses
-REFUSALS = (("files", "LostPlaceError"),)
+REFUSALS = (("files.locks", "LostPlaceError"),)
 
 
 def _loaded(errors: tuple[tuple[str, str], ...]) -> tuple[type[Exception], ...]:

@@ -21,7 +21,7 @@ import math
 import numpy as np
 
 from hydro2d.jit import point
-from hydro2d.parameters import REQUIRED, Parameter, collect
+from hydro2d.base.parameters import REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "voce"
@@ -64,7 +64,7 @@ import numpy as np
 
 from eos.layout import ROW
 from hydro2d.jit import point
-from hydro2d.parameters import REQUIRED, Parameter, collect
+from hydro2d.base.parameters import REQUIRED, Parameter, collect
 
 NAME = "gamma-two"
 EQUATION = "p = rho e"
@@ -92,7 +92,7 @@ STRAIN = '''\
 import numpy as np
 
 from hydro2d.jit import point
-from hydro2d.parameters import POSITIVE, REQUIRED, Parameter, collect
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from strength.layout import DAMAGE_ROW
 
 NAME = "strain"

@@ -248,7 +248,7 @@ def test_workers_take_over_the_models_of_a_study(folder):
     models = json.dumps([(VOCE, "my_model.py", "strength"), ((folder / "b.py").read_text(), "b.py", "strength")])
     text = f"""
         import json
-        from hydro2d.study.worker import Checkpoint
+        from hydro2d.study.run.worker import Checkpoint
         Checkpoint(False, json.loads({models!r})).setup(None)
         import strength.dispatch
         from hydro2d.deck import deck
@@ -289,7 +289,7 @@ def test_a_package_gives_models_by_name(folder, package):
         from hydro2d.cli.main import call
         from hydro2d.deck import deck
         from hydro2d.running import run
-        from hydro2d.errors import DeckError
+        from hydro2d.base.errors import DeckError
         print(run.models_from_outside(deck.load("shot.toml"))[0]["file"])
         for name in ("wrong", "other", "typo"):
             try:
