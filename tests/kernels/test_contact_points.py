@@ -355,15 +355,16 @@ def test_the_steeper_surface_takes_over_without_a_jump(ratio):
 @pytest.mark.parametrize("void", [GAP, 2.0 * GAP])
 @pytest.mark.parametrize("whole", [0.5 * contact_geometry.BETWEEN, contact_geometry.BETWEEN])
 def test_void_parts_the_groups_without_a_jump(void, whole):
-    parted = contact_geometry.parted.py_func
-    changes_in_proportion(lambda x: parted(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
-    changes_in_proportion(lambda x: parted(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
-    assert parted(0.1, 0.0, 1.0) == 1.0
-    for void in (contact_geometry.APART, contact_geometry.FAR_APART):
-        changes_in_proportion(lambda x: parted(x, 1.0, 1.0), void, 2.0 / (contact_geometry.FAR_APART - contact_geometry.APART))
-    assert parted(0.49, 1.0, 1.0) == 0.0
-    assert parted(0.76, 1.0, 1.0) == 1.0
-    assert parted(0.5 * GAP, 0.0, 1.0) == parted(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == parted(0.1, 0.0, 0.0) == 0.0
+    weight = contact_geometry.separation_weight.py_func
+    changes_in_proportion(lambda x: weight(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
+    changes_in_proportion(lambda x: weight(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
+    assert weight(0.1, 0.0, 1.0) == 1.0
+    start, end = contact_geometry.SEPARATION_START, contact_geometry.SEPARATION_FULL
+    for void in (start, end):
+        changes_in_proportion(lambda x: weight(x, 1.0, 1.0), void, 2.0 / (end - start))
+    assert weight(0.49, 1.0, 1.0) == 0.0
+    assert weight(0.76, 1.0, 1.0) == 1.0
+    assert weight(0.5 * GAP, 0.0, 1.0) == weight(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == weight(0.1, 0.0, 0.0) == 0.0
 
 
 # ------------------------------------------------------------------------------- what evens out along the surface
