@@ -14,7 +14,7 @@ import numpy as np
 
 from eos import solid
 from eos.layout import E0, RHO0, SOLID_AT
-from hydro2d.jit import late, point
+from hydro2d.jit import late_bound, point
 from hydro2d.mesh.fields import Field
 
 NAME = "cracked"
@@ -47,7 +47,7 @@ def density_of_solid(rho, internal, par):
     return rho / solid_share(rho, internal[CRACKS])
 
 
-@late
+@late_bound
 def evaluate(rho, e, internal, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
 
@@ -59,7 +59,7 @@ def evaluate(rho, e, internal, par):
     return p, dpdrho / (share * share) if internal[GROWTH] < 0.5 else 0.0, dpde, T
 
 
-@late
+@late_bound
 def density_at(p, rho_s, e, par):
     """Density of the solid at the pressure ``p``, Pa, and energy ``e``, by Newton's method from ``rho_s``; kg/m^3."""
     model, own = int(par[SOLID_MODEL]), par[SOLID_AT:]
@@ -74,7 +74,7 @@ def density_at(p, rho_s, e, par):
     return rho_s
 
 
-@late
+@late_bound
 def opened(rho, e, limit, cracks, par):
     """The crack volume w, m^3/kg, at which the tension is no more than ``limit``, Pa: explanation/fracture, (9)."""
     rho_s = rho / solid_share(rho, cracks)
@@ -84,7 +84,7 @@ def opened(rho, e, limit, cracks, par):
     return max(1.0 / rho - 1.0 / density_at(-limit, rho_s, e, par), cracks)
 
 
-@late
+@late_bound
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Closes cracks under pressure until the pressure or the cracks are gone: cracks bear none. explanation/fracture, (9)"""
     cracks = internal[CRACKS]

@@ -6,7 +6,7 @@ The models are those in ``registry`` when this module is imported, together with
 from __future__ import annotations
 
 from eos import mie_grueneisen, registry
-from hydro2d.jit import apart, by_id, point
+from hydro2d.jit import by_id, not_inlined, point
 from hydro2d.mesh.fields import DMG, RHO, E
 
 MODULES = registry.chosen()
@@ -34,7 +34,7 @@ _update = by_id(
     "Internal variables of an equation of state after a step: see `update`.", "None")
 
 
-@apart
+@not_inlined
 def evaluate_with_memory(model, rho, e, internal, par):
     """`evaluate` of a model with internal variables. Called, not inlined: kernels of bodies without memory stay as they are."""
     return _evaluate_with_memory(model, rho, e, internal, par)
@@ -51,7 +51,7 @@ def evaluate(model, rho, e, internal, par):
     return evaluate_without_memory(model, rho, e, par)
 
 
-@apart
+@not_inlined
 def update(model, rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Internal variables of an equation of state at the end of a Lagrangian step.
 
@@ -90,7 +90,7 @@ def temperature_row(model, par, first, number, f, rho, e, T):
         T[i] = evaluate_without_memory(model, rho[i], e[i], par)[3] if f[i] > 0.0 else 0.0
 
 
-@apart
+@not_inlined
 def pressure_row_with_memory(model, par, floor, m, j, first, at, number, vof, q, pm, c2):
     """`pressure_row` of body m in row j from column `at` on; the internal variables of its model begin at row `first` of q.
 
@@ -103,7 +103,7 @@ def pressure_row_with_memory(model, par, floor, m, j, first, at, number, vof, q,
         pm[m, j, i], c2[m, j, i] = _state(vof[m, j, i], q[DMG, m, j, i], q[RHO, m, j, i], floor, state)
 
 
-@apart
+@not_inlined
 def temperature_row_with_memory(model, par, m, j, first, at, number, vof, q, tm):
     """`temperature_row` of a model with internal variables; arguments as in `pressure_row_with_memory`.
 

@@ -18,7 +18,7 @@ import numpy as np
 from eos import solid
 from eos.layout import E0, RHO0, SOLID_AT
 from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
-from hydro2d.jit import late, point
+from hydro2d.jit import late_bound, point
 from hydro2d.mesh.fields import Field
 
 NAME = "p-alpha"
@@ -77,7 +77,7 @@ def density_of_solid(rho, internal, par):
     return solid_density(rho, internal[0], par)[0]
 
 
-@late
+@late_bound
 def evaluate(rho, e, internal, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
 
@@ -99,7 +99,7 @@ def crushed(p, par):
     return 1.0 + (par[DISTENTION] - 1.0) * left ** par[EXPONENT]
 
 
-@late
+@late_bound
 def excess(rho, e, distention, par):
     """(excess of the distention over the crush curve, pressure in Pa) of material that has ``distention`` at rest.
 
@@ -113,7 +113,7 @@ def excess(rho, e, distention, par):
     return rho_s / rho - crushed(p, par), p
 
 
-@late
+@late_bound
 def update(rho0, rho, e, dep, work, damage0, damage, released, time, dt, par, internal):
     """Crushes the pores until the distention is on the crush curve at density ``rho`` and energy ``e``, or all are closed.
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from eos.layout import E0, RHO0, ROW
 from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
-from hydro2d.jit import apart, point
+from hydro2d.jit import not_inlined, point
 
 NAME = "tabular"
 ID = 8
@@ -65,7 +65,7 @@ def interval(x, par, first, number):
     return low
 
 
-@apart
+@not_inlined
 def evaluate(rho, e, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` and specific energy ``e``; SI.
 

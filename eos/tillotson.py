@@ -23,7 +23,7 @@ import numpy as np
 from eos.layout import E0, RHO0, ROW, TABLE, TABLE_SIZE
 from eos.mie_grueneisen import INVERSE_CV, INVERSE_RHO0, INVERSE_STEP, ORIGIN, cold_temperature
 from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Parameter, collect
-from hydro2d.jit import apart, point
+from hydro2d.jit import not_inlined, point
 
 NAME = "tillotson"
 ID = 4
@@ -126,7 +126,7 @@ def mechanical(rho, e, par):
     return p, dpdrho, dpde
 
 
-@apart
+@not_inlined
 def evaluate(rho, e, par):
     """(p, dp/drho at constant e, dp/de at constant rho, T) at density ``rho`` > 0 and specific energy ``e``; SI.
 

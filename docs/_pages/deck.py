@@ -176,7 +176,7 @@ def boundary_conditions() -> str:
 
     rows = (
         (f"`{b.name}`", "every edge" if b.edges == EDGES else ", ".join(f"`{edge}`" for edge in b.edges),
-         b.ghost(), "given" if b.holds() else "free", ", ".join(f"`EDGE_{key.name}`" for key in b.keys) or "none",
+         b.ghost(), "given" if b.constrains() else "free", ", ".join(f"`EDGE_{key.name}`" for key in b.keys) or "none",
          f"`{b.sink}`", prose(b.meaning))
         for b in KINDS
     )

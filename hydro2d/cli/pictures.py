@@ -75,7 +75,7 @@ def plot(
         Colour map of matplotlib, such as magma; default: viridis, and blue to red for fields with negative values.
     """
     import_matplotlib()
-    from hydro2d.results import cutaway, figures, lines, tables
+    from hydro2d.results import cutaway, figures, line_figures, tables
     from hydro2d.results.reading import Results
     from hydro2d.results.scales import Scale
 
@@ -101,11 +101,11 @@ def plot(
     elif kind == "crater":
         figures.save_figure(figures.craters(opened), out)
     elif kind == "debris":
-        figures.save_figure(lines.debris(opened), out)
+        figures.save_figure(line_figures.debris(opened), out)
     elif kind == "line":
-        figures.save_figure(lines.line_outs(opened, field, _line(line), times, limits=limits, scale=scale), out)
+        figures.save_figure(line_figures.line_outs(opened, field, _line(line), times, limits=limits, scale=scale), out)
     elif kind == "xt":
-        figures.save_figure(lines.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
+        figures.save_figure(line_figures.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
     else:
         figures.save_figure(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window), limits=limits,
                                       scale=scale), out)  # fmt: skip
@@ -187,8 +187,8 @@ def _refuse_scale(kind: str, scaled: bool, line: bool) -> None:
 
 
 def _line(text: str | None):
-    """The line of an argument (lines.Line), None for the axis."""
-    from hydro2d.results.lines import Line
+    """The line of an argument (line_figures.Line), None for the axis."""
+    from hydro2d.results.line_figures import Line
 
     if text is None:
         return None

@@ -237,7 +237,7 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         return
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
-        if BY_NAME[kind].holds() or BY_NAME[kind].traction() == PUSH:
+        if BY_NAME[kind].constrains() or BY_NAME[kind].traction() == PUSH:
             yield ("boundaries", key), (f'a mesh that follows "{name}" must have open ends along z; {BY_NAME[kind].in_words} '
                                         "cannot travel with it")  # fmt: skip
     ahead, behind = room(deck, z)

@@ -25,12 +25,12 @@ from hydro2d.deck.layout import body_groups, edges, extent, layout, slots
 from hydro2d.deck.mesh import body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import toml
-from hydro2d.files.lines import Sources, spelled
+from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain
 from hydro2d.materials import from_files, library
 
 if TYPE_CHECKING:
-    from hydro2d.deck.bodies import AnyBody
+    from hydro2d.deck.shapes.registry import AnyBody
 
 __all__ = [
     "Deck",

@@ -9,7 +9,7 @@ from hydro2d.base.keys import Section
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes import registry as shapes
 from hydro2d.files import toml
-from hydro2d.files.lines import entry_index, spelled
+from hydro2d.files.key_lines import entry_index, spelled
 from hydro2d.sources.registry import KINDS
 
 #: the key that selects the kind of a table that may be one of several, and the sections that its words stand for

@@ -17,7 +17,7 @@ import tomli_w
 from hydro2d.base import units
 from hydro2d.base.errors import DeckError
 from hydro2d.files import checksums
-from hydro2d.files.lines import Sources, entry_index
+from hydro2d.files.key_lines import Sources, entry_index
 from hydro2d.files.shipped import problems_folder
 from hydro2d.files.whole import read_text
 

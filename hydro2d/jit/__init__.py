@@ -1,13 +1,13 @@
 """All numba options of the code, and the decorators and functions for compiled code.
 
-``@point``   a scalar function of physics, inlined by the compiler into the loops that call it
-``@late``    a scalar function that calls functions chosen when kernels are loaded
-``@apart``   a function that kernels call for rare cases
-``@rowwise`` one row of one phase, a piece of kernels
-``@kernel``  loops over the rows of one part of the mesh
+``@point``       a scalar function of physics, inlined by the compiler into the loops that call it
+``@late_bound``  a scalar function that calls functions chosen when kernels are loaded
+``@not_inlined`` a function that kernels call for rare cases
+``@rowwise``     one row of one phase, a piece of kernels
+``@kernel``      loops over the rows of one part of the mesh
 ``@cell_rows``, ``@vertex_rows``  the work of a kernel in one row of cells or vertices, applied to all rows of its part
-``@threaded`` loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
-``@serial``  loops over a short list, one thread
+``@threaded``    loops over the mesh outside of the step, threaded over rows by one outermost ``prange``
+``@serial``      loops over a short list, one thread
 
 A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
 
@@ -21,13 +21,13 @@ from hydro2d.jit import store, target
 from hydro2d.jit.cache import add_model, all_folder, module_of
 from hydro2d.jit.calls import (
     GATE,
-    apart,
     by_id,
     cell_rows,
     kernel,
-    late,
+    late_bound,
     max_threads,
     modules,
+    not_inlined,
     parts_at_once,
     plus,
     point,
@@ -51,8 +51,8 @@ from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, rec
 
 __all__ = [
     "Call", "FIRST_CALL", "GATE", "Handle", "MACHINE_CODE", "OPTIMISE", "PHASE_TYPES", "Phase", "WAIT", "add_model",
-    "all_folder", "alone", "apart", "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given",
-    "is_recording", "kernel", "late", "log", "max_threads", "module_of", "modules", "parts_at_once", "plus", "point",
-    "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial", "set_threads", "store",
-    "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",
+    "all_folder", "alone", "by_id", "cell_rows", "compiler_events", "declare", "declared", "exp", "given",
+    "is_recording", "kernel", "late_bound", "log", "max_threads", "module_of", "modules", "not_inlined", "parts_at_once",
+    "plus", "point", "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial",
+    "set_threads", "store", "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",
 ]  # fmt: skip

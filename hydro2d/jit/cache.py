@@ -68,8 +68,8 @@ def _private(folder: str) -> str:
     """The folder, made if need be, if it is the user's alone; else a new one for this process and its children."""
     with suppress(FileExistsError):
         os.mkdir(folder, 0o700)
-    found = os.lstat(folder)
-    if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077:
+    status = os.lstat(folder)
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid() and not status.st_mode & 0o077:
         return folder
     fresh = tempfile.mkdtemp(prefix="hydro2d-")
     atexit.register(shutil.rmtree, fresh, ignore_errors=True)
@@ -141,16 +141,16 @@ def seen_by(file: Path) -> frozenset[Path]:
 
     Models are chosen by lists of names: a file that sees the `dispatch` of `eos` or `strength` sees all of the folder.
     """
-    found, waiting = {each for each in HERE.glob("*.py") if each.name not in NO_CODE}, [file]
+    seen, waiting = {each for each in HERE.glob("*.py") if each.name not in NO_CODE}, [file]
     while waiting:
         each = waiting.pop()
-        if each in found:
+        if each in seen:
             continue
-        found.add(each)
+        seen.add(each)
         waiting += _imported(each)
         if each.stem == "dispatch":
             waiting += each.parent.glob("*.py")
-    return frozenset(found)
+    return frozenset(seen)
 
 
 @functools.cache
@@ -187,7 +187,7 @@ def about() -> dict[str, str]:
 
 
 @functools.cache
-def say_if_shipped_in_vain() -> None:
+def say_if_shipped_is_unused() -> None:
     """Says why the compiled code of the package cannot be used here, if there is some."""
     if not (SHIPPED / ABOUT).exists():
         return

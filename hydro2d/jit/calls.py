@@ -67,7 +67,7 @@ def point(function):
     return Inner(function, forceinline=True)
 
 
-def late(function):
+def late_bound(function):
     """`point` for a function that calls functions chosen only when kernels are loaded; it is not kept in the cache by itself.
 
     The folder of the cache is named when a function is defined, before models from outside are added. Kernels that
@@ -76,7 +76,7 @@ def late(function):
     return Inner(function, forceinline=True, kept=False)
 
 
-def apart(function):
+def not_inlined(function):
     """Compiles a function that is called, not inlined: rarely used code need not be compiled again at every call."""
     return Inner(function)
 
@@ -137,10 +137,10 @@ def returns(function, arguments: str) -> tuple[str, ...]:
     arrays = ("par", "internal")
     types = tuple(numba.float64[::1] if name in arrays else numba.float64 for name in arguments.split(", "))
     function.compile(types)
-    found = function.overloads[types].signature.return_type
-    if isinstance(found, numba.types.BaseTuple):
-        return tuple(map(str, found))
-    return () if found == numba.types.none else (str(found),)
+    return_type = function.overloads[types].signature.return_type
+    if isinstance(return_type, numba.types.BaseTuple):
+        return tuple(map(str, return_type))
+    return () if return_type == numba.types.none else (str(return_type),)
 
 
 @functools.partial(Inner, forceinline=True, fastmath={"reassoc"})

@@ -49,7 +49,7 @@ class Compilation(events.Listener):
         self._place, self._second, self._by_default = place, second, by_default
         self._needed: set[str] = set()
         self._done: set[str] = set()
-        self._listed, self._moved, self._told = True, False, 0.0
+        self._listed, self._moved, self._reported = True, False, 0.0
         self._seconds, self._start, self._depth = 0.0, 0.0, 0
         self._kernel, self._ended, self._lock = "", threading.Event(), threading.RLock()
 
@@ -63,7 +63,7 @@ class Compilation(events.Listener):
         """Number of kernels compiled so far, by any process, and of all that must be compiled, None if that is not known."""
         return len(self._needed & self._done), len(self._needed) if self._listed else None
 
-    def told(self, doing: str = "compiling") -> str:
+    def progress_line(self, doing: str = "compiling") -> str:
         """Line such as "compiling kernels: 14 of 23, 21 s"."""
         done, whole = self.state
         count = f"{done} of {whole}" if whole else f"{done} so far"
@@ -107,7 +107,7 @@ class Compilation(events.Listener):
             self._depth = max(self._depth - 1, 0)
             if self._depth == 0 and self._moved:
                 with suppress(OSError):
-                    self._place.rest(self.told("compiled"))
+                    self._place.rest(self.progress_line("compiled"))
 
     def _tick(self, ended: threading.Event) -> None:
         """Updates the line at every whole second of `seconds`."""
@@ -123,15 +123,15 @@ class Compilation(events.Listener):
             return
         done, whole = self.state
         with suppress(OSError):  # nobody reads the output; the next print raises the error
-            self._place.move(self.told(), done / whole if whole else None)
+            self._place.move(self.progress_line(), done / whole if whole else None)
 
-    def settled(self) -> list[str]:
+    def closing_lines(self) -> list[str]:
         """Lines for the log after the first cycle, once the kernels of a run are compiled. Ends the second process."""
         lines = []
-        if self.happened and self.seconds > self._told:
+        if self.happened and self.seconds > self._reported:
             done, _ = self.state
             lines.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
-            self._told = self.seconds
+            self._reported = self.seconds
         status = self._second.stop() if self._second else None
         return lines + ([f"the second process for compilation failed with exit status {status}; only time was lost"] if status
                         else [])
@@ -300,7 +300,7 @@ def _state(key: str) -> Path:
     return _mark(key).with_suffix(".state")
 
 
-def told_of(key: str) -> str:
+def progress_of(key: str) -> str:
     """The line of the process that compiles these kernels by `once`, on this machine; empty if none does."""
     with suppress(OSError, UnicodeDecodeError):
         return _state(key).read_text(encoding="utf-8").strip()

@@ -48,9 +48,9 @@ def declared() -> dict[str, tuple[type, int]]:
 
 
 @functools.cache
-def _places(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
+def _places(names: tuple[str, ...], partners: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Rows of names and of their partners, and of the partners and the names."""
-    return tuple(np.array([_rows[name][0] for name in names]) for names in ((*some, *others), (*others, *some)))
+    return tuple(np.array([_rows[name][0] for name in row]) for row in ((*names, *partners), (*partners, *names)))
 
 
 class Handle:
@@ -68,7 +68,7 @@ class Handle:
         self.values: dict[str, object] = {}
         self.address: int = self._words.ctypes.data
 
-    def give(self, **values) -> None:
+    def update(self, **values) -> None:
         """Sets the values of names.
 
         Raises KeyError for a name that is not declared, TypeError for a value of another type, axes or order in memory.
@@ -91,11 +91,11 @@ class Handle:
                 (self._floats if kind is float else self._words)[row, 0] = value
             kept[name] = value
 
-    def exchange(self, some: tuple[str, ...], others: tuple[str, ...]) -> None:
-        """Exchanges the values of every name and of its partner among the others, which is of the same type."""
-        here, there = _places(some, others)
+    def exchange(self, names: tuple[str, ...], partners: tuple[str, ...]) -> None:
+        """Exchanges the values of every name and of its partner, which is of the same type."""
+        here, there = _places(names, partners)
         self._words[here] = self._words[there]
-        for name, partner in zip(some, others, strict=True):
+        for name, partner in zip(names, partners, strict=True):
             self.values[name], self.values[partner] = self.values[partner], self.values[name]
 
     def __getattr__(self, name: str):
@@ -140,7 +140,7 @@ class _HandleAttributes(AttributeTemplate):
 def _look_up(context, builder, handle, value, name):
     """Reads a row of the table, marked for the compiler as unchanging: it is not written while compiled code runs."""
     row, kind, axes = _rows[name]
-    found, word = _type_of(kind, axes), ir.IntType(64)
+    numba_type, word = _type_of(kind, axes), ir.IntType(64)
     table = builder.inttoptr(value, word.as_pointer())
 
     def read(place: int, as_type=word):
@@ -152,16 +152,16 @@ def _look_up(context, builder, handle, value, name):
     if not axes:
         if kind is bool:
             return builder.icmp_signed("!=", read(0), ir.Constant(word, 0))
-        return read(0, context.get_value_type(found))
-    array = arrayobj.make_array(found)(context, builder)
-    size = context.get_abi_sizeof(context.get_data_type(found.dtype))
+        return read(0, context.get_value_type(numba_type))
+    array = arrayobj.make_array(numba_type)(context, builder)
+    size = context.get_abi_sizeof(context.get_data_type(numba_type.dtype))
     shape = [read(1 + axis) for axis in range(axes)]
     strides, step = [], ir.Constant(word, size)
     for length in reversed(shape):
         strides.insert(0, step)
         step = builder.mul(step, length, flags=["nsw"])
-    arrayobj.populate_array(array, data=builder.inttoptr(read(0), context.get_data_type(found.dtype).as_pointer()), shape=shape,
-                            strides=strides, itemsize=ir.Constant(word, size), meminfo=None)
+    arrayobj.populate_array(array, data=builder.inttoptr(read(0), context.get_data_type(numba_type.dtype).as_pointer()),
+                            shape=shape, strides=strides, itemsize=ir.Constant(word, size), meminfo=None)
     return array._getvalue()
 
 

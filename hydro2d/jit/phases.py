@@ -99,9 +99,9 @@ def _refuse_kernel(step: Run, known: set[str]) -> None:
     for parameter, _ in step.names:
         if parameter not in by_name.own_parameters(step.kernel):
             raise ValueError(f"{name} has no parameter {parameter}")
-    for taken in step.takes:
-        if taken not in known and taken != "part":
-            raise ValueError(f"{name} takes {taken}, which is no name that handles have")
+    for parameter in step.takes:
+        if parameter not in known and parameter != "part":
+            raise ValueError(f"{name} takes {parameter}, which is no name that handles have")
     if step.alone and "part" in step.takes:
         raise ValueError(f"{name} takes a part: it is not for one alone")
     if not step.alone and "part" not in step.takes:
@@ -170,7 +170,7 @@ class Phase:
     def _run(self, handle: Handle) -> None:
         if not self._address:
             with recording.first_call(self.full_name):
-                self._address = self._found_address()
+                self._address = self._compiled_address()
         run_parts(len(handle.parts) - 1, self._address, handle.address)
 
     @property
@@ -178,11 +178,11 @@ class Phase:
         """Its name among all compiled functions."""
         return f"hydro2d.{self.__name__}"
 
-    def _found_address(self) -> int:
+    def _compiled_address(self) -> int:
         """Compiles the phase, or takes it from the cache, and gives the address of its code."""
         self.compiled.compile(TYPES)
-        found = self.compiled.overloads[TYPES]
-        return found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)
+        overload = self.compiled.overloads[TYPES]
+        return overload.library.get_pointer_to_function(overload.fndesc.llvm_cfunc_wrapper_name)
 
     def as_python(self, handle: Handle, part: int = 0, wait=lambda: None) -> None:
         """Calls one kernel after another for one part; ``wait`` is what a barrier calls."""

@@ -65,9 +65,9 @@ _calls: list[Call] | None = None
 def recorded() -> Iterator[list[Call]]:
     """Within the block kernels do nothing: their calls are recorded."""
     global _calls
-    _calls = found = []
+    _calls = calls = []
     try:
-        yield found
+        yield calls
     finally:
         _calls = None
 
@@ -81,12 +81,12 @@ def is_recording() -> bool:
 def first_call(name: str) -> Iterator[None]:
     """The first call of a kernel in this process, while no other process makes its own; triggers FIRST_CALL."""
     with (compiler_events.trigger_event(FIRST_CALL, data={"kernel": name}), turn(Path(all_folder()) / f"{name}.lock"),
-          _no_garbage_looked_for()):
+          _without_garbage_collection()):
         yield
 
 
 @contextmanager
-def _no_garbage_looked_for() -> Iterator[None]:
+def _without_garbage_collection() -> Iterator[None]:
     """Switches off garbage collection, which would search the millions of objects of a compilation again and again."""
     was_on = gc.isenabled()
     gc.disable()
@@ -107,11 +107,11 @@ def clocked(name: str, function: Callable, *arguments):
     if not _profiling:
         return function(*arguments)
     start = time.perf_counter()
-    found = function(*arguments)
+    result = function(*arguments)
     entry = timings.setdefault(name, [0.0, 0])
     entry[0] += time.perf_counter() - start
     entry[1] += 1
-    return found
+    return result
 
 
 def called(compiled):
@@ -122,9 +122,9 @@ def called(compiled):
     def first(*arguments):
         nonlocal run
         with first_call(name):
-            found = compiled(*arguments)
+            result = compiled(*arguments)
         run = compiled if by_name.takes_handle(function) else getattr(compiled, "whole", compiled)
-        return found
+        return result
 
     run = first
 

@@ -88,7 +88,7 @@ class Kept(caching._Cache):
                 cache.say_once(f"{folder / name} is damaged ({problem}): the function is compiled anew")
             except OSError as problem:
                 cache.say_once(f"{folder} cannot be read ({problem.strerror}): what it keeps is compiled anew")
-        cache.say_if_shipped_in_vain()
+        cache.say_if_shipped_is_unused()
         return None
 
     def save_overload(self, sig, data) -> None:

@@ -65,15 +65,15 @@ def _chosen() -> Target | None:
 
     Raises TargetError.
     """
-    asked, found = os.environ.get("HYDRO2D_TARGET"), named()
+    asked, target = os.environ.get("HYDRO2D_TARGET"), named()
     if not asked or asked == NATIVE:
         return None
-    if found is None or asked != found.name:
-        known = " or ".join([NATIVE, *([found.name] if found else [])])
+    if target is None or asked != target.name:
+        known = " or ".join([NATIVE, *([target.name] if target else [])])
         raise TargetError(f"HYDRO2D_TARGET={asked}: must be {known} on this machine ({platform.machine()})")
-    if lacking := found.missing():
+    if lacking := target.missing():
         raise TargetError(f"HYDRO2D_TARGET={asked}: this processor has no {', '.join(lacking)}")
-    return found
+    return target
 
 
 def _fix() -> tuple[str, str, str]:
@@ -86,13 +86,13 @@ def _fix() -> tuple[str, str, str]:
     before = config.CPU_NAME, config.CPU_FEATURES
     if target is not None:
         config.CPU_NAME, config.CPU_FEATURES = target.name, target.flags
-    found = registry.cpu_target.target_context.codegen().magic_tuple()
-    if target is not None and found[2] != target.flags:
+    actual = registry.cpu_target.target_context.codegen().magic_tuple()
+    if target is not None and actual[2] != target.flags:
         config.CPU_NAME, config.CPU_FEATURES = before
-        found = registry.cpu_target.target_context.codegen().magic_tuple()
-        say(f"hydro2d: code is compiled for {found[1]}, not for {target.name}: numba was used before hydro2d was imported",
+        actual = registry.cpu_target.target_context.codegen().magic_tuple()
+        say(f"hydro2d: code is compiled for {actual[1]}, not for {target.name}: numba was used before hydro2d was imported",
             file=sys.stderr, flush=True)
-    return found
+    return actual
 
 
 #: the target of compiled code, as LLVM names it

@@ -5,14 +5,14 @@ the material that the deck has placed there (hydro2d/following). A transmitting 
 """
 
 
-from hydro2d.jit import apart, cell_rows, kernel, point, serial, vertex_rows
+from hydro2d.jit import cell_rows, kernel, not_inlined, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import PARITY
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
 from hydro2d.physics.waves import impedances
 
 
-@apart
+@not_inlined
 def fill(m, j, i, from_j, from_i, mirror, w):
     """Makes cell (j, i) of body m a copy or, in a mirror, an image of cell (from_j, from_i)."""
     if 0.0 < w.vof[m, j, i] < 1.0 or 0.0 < w.vof[m, from_j, from_i] < 1.0:  # otherwise it stays 0
@@ -120,7 +120,7 @@ def dashpots(along_r, j, i, w):
     return normal, shear
 
 
-@apart
+@not_inlined
 def transmit(edge, w):
     """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge, as if the material continued without end.
 
@@ -188,10 +188,10 @@ def sum_drag(w):
     """Momentum and energy that transmitting edges have taken, from the velocities at the end of the step.
 
     Reads    transmitting [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
-    Writes   held_back [2], axial momentum and energy
+    Writes   transmitted [2], axial momentum and energy
     """
     j0, j1 = outer_rows(w.parts)
-    w.held_back[0], w.held_back[1] = 0.0, 0.0
+    w.transmitted[0], w.transmitted[1] = 0.0, 0.0
     for edge in range(4):
         at = w.transmitting[edge]
         if at < 0:
@@ -201,8 +201,8 @@ def sum_drag(w):
             j, i = (place, at) if edge < 2 else (at, place)
             for b in range(w.u.shape[0]):
                 radial, axial = w.drag[edge, b, 0, place], w.drag[edge, b, 1, place]
-                w.held_back[0] += axial
-                w.held_back[1] += 0.5 * (radial * (w.u0[b, j, i] + w.u[b, j, i]) + axial * (w.v0[b, j, i] + w.v[b, j, i]))
+                w.transmitted[0] += axial
+                w.transmitted[1] += 0.5 * (radial * (w.u0[b, j, i] + w.u[b, j, i]) + axial * (w.v0[b, j, i] + w.v[b, j, i]))
 
 
 @point
@@ -212,19 +212,19 @@ def own_rows(part, parts, rows):
 
 
 @point
-def held_at(edge, only_pushes, given, free):
+def edge_normal_velocity(edge, only_pushes, given, free):
     """Normal velocity of a vertex at an edge: the prescribed one, or its own if it leaves an edge that only pushes."""
     return free if only_pushes and (free > 0.0 if edge % 2 == 0 else free < 0.0) else given
 
 
 @point
-def left_by_edges(at, low, free, w):
+def velocity_at_edges(at, low, free, w):
     """Normal velocity that the edges allow a vertex in column (low = 0) or row (low = 2) `at`: its own away from edges."""
     for edge in range(low, low + 2):
         if at == w.constrained[edge]:
             return w.edge_velocity[edge]
         if at == w.pushing[edge]:
-            return held_at(edge, True, w.edge_velocity[edge], free)
+            return edge_normal_velocity(edge, True, w.edge_velocity[edge], free)
     return free
 
 
@@ -247,7 +247,7 @@ def constrain(part, w):
                 at = max(w.constrained[edge], w.pushing[edge])
                 if at < 0:
                     continue
-                given = held_at(edge, w.pushing[edge] >= 0, w.edge_velocity[edge], w.u[b, j, at])
+                given = edge_normal_velocity(edge, w.pushing[edge] >= 0, w.edge_velocity[edge], w.u[b, j, at])
                 impulse = w.mass[b, j, at] * (w.u[b, j, at] - given)
                 w.walls[edge, 1, j] += 0.5 * impulse * (w.u0[b, j, at] + given)
                 w.u[b, j, at] = given
@@ -255,7 +255,7 @@ def constrain(part, w):
                 if max(w.constrained[edge], w.pushing[edge]) != j:
                     continue
                 for i in range(w.u.shape[2]):
-                    given = held_at(edge, w.pushing[edge] >= 0, w.edge_velocity[edge], w.v[b, j, i])
+                    given = edge_normal_velocity(edge, w.pushing[edge] >= 0, w.edge_velocity[edge], w.v[b, j, i])
                     impulse = w.mass[b, j, i] * (w.v[b, j, i] - given)
                     w.walls[edge, 0, j] += impulse
                     w.walls[edge, 1, j] += 0.5 * impulse * (w.v0[b, j, i] + given)

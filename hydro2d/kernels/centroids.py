@@ -15,7 +15,7 @@ FULL = 1.0 - 1e-9
 @point
 def size_after(j, i, w):
     """Volume of a cell after a sweep, m^3 per radian."""
-    return w.volume[j, i] if w.second else w.pre[j, i] - (w.face[j + w.dj, i + w.di] - w.face[j, i])
+    return w.volume[j, i] if w.second else w.pre_sweep_volume[j, i] - (w.face[j + w.dj, i + w.di] - w.face[j, i])
 
 
 @point
@@ -30,7 +30,7 @@ def donor_place(m, j, i, face_j, face_i, w):
     """Offset (along, across), from the middle of a face's swept strip, of the volume that body m gave from cell (j, i)."""
     if not (w.mesh_box[0] <= j < w.mesh_box[1] and w.mesh_box[2] <= i < w.mesh_box[3]):
         return 0.0, w.centroid[w.di, m, j, i]
-    if volume_before(m, j, i, w) > FULL * w.pre[j, i]:
+    if volume_before(m, j, i, w) > FULL * w.pre_sweep_volume[j, i]:
         return 0.0, 0.0
     return w.flux_place[0, m, face_j, face_i], w.flux_place[1, m, face_j, face_i]
 
@@ -42,8 +42,8 @@ def carry_centroids(j, w):
     The part that stays moves with the cell, or with the volumes that the faces sweep at the velocity of the body's group
     (explanation/interfaces, equation 8).
 
-    Reads    mixed [j, k]; face, volume, pre [j, i], own [b, j, i]; vof [m, j, i] after the sweep; flux_volume [m, j, i],
-             flux_place [2, m, j, i]
+    Reads    mixed [j, k]; face, volume, pre_sweep_volume [j, i], own [b, j, i]; vof [m, j, i] after the sweep;
+             flux_volume [m, j, i], flux_place [2, m, j, i]
     Updates  centroid [2, m, j, i]
     """
     dj, di = w.dj, w.di
@@ -65,16 +65,16 @@ def carry_centroids(j, w):
             if v_low != 0.0:
                 row, column = (j - dj, i - di) if v_low > 0.0 else (j, i)
                 x, y = donor_place(m, row, column, j, i, w)
-                low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * w.pre[j, i] - drift)
+                low = (0.5 + x) * abs(s_low) - (0.5 * after if v_low > 0.0 else 0.5 * w.pre_sweep_volume[j, i] - drift)
                 low *= v_low
                 side_low = v_low * y
             if v_high != 0.0:
                 row, column = (j + dj, i + di) if v_high < 0.0 else (j, i)
                 x, y = donor_place(m, row, column, j + dj, i + di, w)
-                high = (0.5 * after if v_high < 0.0 else 0.5 * w.pre[j, i] + drift) - (0.5 - x) * abs(s_high)
+                high = (0.5 * after if v_high < 0.0 else 0.5 * w.pre_sweep_volume[j, i] + drift) - (0.5 - x) * abs(s_high)
                 high *= -v_high
                 side_high = -v_high * y
-            along = stood * (w.centroid[dj, m, j, i] * w.pre[j, i] + drift) + (low + high)
+            along = stood * (w.centroid[dj, m, j, i] * w.pre_sweep_volume[j, i] + drift) + (low + high)
             across = stood * w.centroid[di, m, j, i] + (side_low + side_high)
             w.centroid[dj, m, j, i] = within(along / (left * after), w.vof[m, j, i])
             w.centroid[di, m, j, i] = within(across / left, w.vof[m, j, i])

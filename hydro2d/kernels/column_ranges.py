@@ -143,12 +143,12 @@ def mixed_row(j, active_range, kind, w):
             i = first + x
             kind[i] += (1000.0 if f_j[i] == 1.0 else 0.0) + (1.0 if f_j[i] > 0.0 else 0.0)
     out = w.mixed[j]
-    found = 0
+    count = 0
     for x in range(n):
         i = first + x
-        out[found] = i
-        found += 0 if kind[i] == 0.0 or kind[i] == 1001.0 else 1
-    w.mixed_count[j] = found
+        out[count] = i
+        count += 0 if kind[i] == 0.0 or kind[i] == 1001.0 else 1
+    w.mixed_count[j] = count
 
 
 @cell_rows

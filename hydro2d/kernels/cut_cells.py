@@ -6,7 +6,7 @@ Every body of a cut cell has the normal stress -p_c, and the strain across the s
 
 from math import sqrt
 
-from hydro2d.jit import apart, cell_rows, point
+from hydro2d.jit import cell_rows, not_inlined, point
 from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
@@ -27,10 +27,10 @@ NORMAL_R, NORMAL_Z, KIND = range(3)
 @point
 def is_beside_gas(j, i, gases, vof):
     """Whether a cell contains a gas."""
-    found = False
+    has_gas = False
     for m in range(vof.shape[0]):
-        found = found or (vof[m, j, i] > 0.0 and gases[m])
-    return found
+        has_gas = has_gas or (vof[m, j, i] > 0.0 and gases[m])
+    return has_gas
 
 
 @point
@@ -166,12 +166,12 @@ def ties(j, i, w):
 
 
 @point
-def holds(g, j, i, group, vof):
+def contains_group(g, j, i, group, vof):
     """Whether a cell contains a body of group g."""
-    found = False
+    contains = False
     for m in range(vof.shape[0]):
-        found = found or (group[m] == g and vof[m, j, i] > 0.0)
-    return found
+        contains = contains or (group[m] == g and vof[m, j, i] > 0.0)
+    return contains
 
 
 @point
@@ -237,59 +237,59 @@ def cut_pressure(j, i, rate, w):
 
 
 @point
-def grow(j, i, target, w):
+def growth_at(j, i, target, w):
     """(growth of the bodies of a cut cell at p_c = target, as a share of the cell; its decrease with target, 1/Pa).
 
     Reads    mix [j, MODULUS to BESIDE, m]
     Writes   mix [j, ACROSS, m], the strain of a body across the surface; mix [j, GROWTH, m], the growth of its volume
     """
     weight = surface_weight(j, i, w.skin)
-    total, give = 0.0, 0.0
+    total, compliance = 0.0, 0.0
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] == 0.0:
             continue
-        w.mix[j, ACROSS, m], w.mix[j, GROWTH, m], softer = strain_across(
+        w.mix[j, ACROSS, m], w.mix[j, GROWTH, m], body_compliance = strain_across(
             w.pm[m, j, i], target, w.km[m, j, i], w.mix[j, MODULUS, m], w.mix[j, FLOW, m], w.mix[j, SIZE, m],
             w.mix[j, ALONG, m], w.mix[j, BESIDE, m], weight)
         total += w.vof[m, j, i] * w.mix[j, GROWTH, m]
-        give += w.vof[m, j, i] * softer
-    return total, give
+        compliance += w.vof[m, j, i] * body_compliance
+    return total, compliance
 
 
-@apart
-def fill_room(j, i, room, start, w):
+@not_inlined
+def pressure_for_growth(j, i, room, start, w):
     """Pressure p_c (Pa) at which the bodies of a cell grow by `room`, a share of the cell, by Newton's rule from `start`.
 
-    Writes   as `grow`
+    Writes   as `growth_at`
     """
     target = start
     for _ in range(10):
-        total, give = grow(j, i, target, w)
+        total, compliance = growth_at(j, i, target, w)
         if abs(total - room) < 1e-14:
             break
-        target += (total - room) / give
+        target += (total - room) / compliance
     return target
 
 
-@apart
-def meet_traction(j, i, change, w):
+@not_inlined
+def traction_of_change(j, i, change, w):
     """p_c of a cut cell (Pa) at the end of a step in which its volume changes by `change`, a share of the cell.
 
     Void opens at p_c = 0 and closes before p_c rises; a crack inside a group carries the less tension the wider it is
     (explanation/mixed-cells, equation 12).
 
-    Writes   as `grow`
+    Writes   as `growth_at`
     """
     void = max(1.0 - w.solid[j, i], 0.0)
-    total, _ = grow(j, i, 0.0, w)
+    total, _ = growth_at(j, i, 0.0, w)
     if total > change + void:
-        return fill_room(j, i, change + void, max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0), w)
+        return pressure_for_growth(j, i, change + void, max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0), w)
     pull = pull_of(j, i, void, w.skin)
     if pull == 0.0 or total >= change:
         return 0.0
-    target = fill_room(j, i, change, min(w.p[j, i] - w.bulk[j, i] * change, 0.0), w)
+    target = pressure_for_growth(j, i, change, min(w.p[j, i] - w.bulk[j, i] * change, 0.0), w)
     target = min(target * pull, 0.0)
-    grow(j, i, target, w)
+    growth_at(j, i, target, w)
     return target
 
 

@@ -106,15 +106,15 @@ def yield_row(m, j, b, w):
         candidates += 0 if abs(trial_j[first + x]) <= floor else 1  # a NaN counts as one
     x = 0 if candidates > 0 else n
     while x < n:
-        found = 0
-        while x < n and found < LANES:
+        gathered = 0
+        while x < n and gathered < LANES:
             i = first + x
-            lane[COLUMN + found] = i
-            found += 0 if abs(trial_j[i]) <= floor else 1
+            lane[COLUMN + gathered] = i
+            gathered += 0 if abs(trial_j[i]) <= floor else 1
             x += 1
-        number = (found + WIDTH - 1) // WIDTH * WIDTH
+        number = (gathered + WIDTH - 1) // WIDTH * WIDTH
         for k in range(number):
-            i = int(lane[COLUMN + min(k, found - 1)])  # lanes left over copy the last
+            i = int(lane[COLUMN + min(k, gathered - 1)])  # lanes left over copy the last
             lane[TRIAL + k] = abs(trial_j[i])
             lane[STRAIN + k] = ep_j[i]
             lane[HEAT + k] = t_j[i]
@@ -123,7 +123,7 @@ def yield_row(m, j, b, w):
             lane[STIFFNESS + k] = 3.0 * shear_j[i]
         if number > 0:
             return_together(model, number, w.dt, scale, par, lane)
-        for k in range(found):
+        for k in range(gathered):
             dep = lane[INCREMENT + k]
             if dep != 0.0:
                 i = int(lane[COLUMN + k])

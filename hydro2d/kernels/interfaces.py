@@ -6,7 +6,7 @@ order bounds their cumulative fraction; void comes last.
 """
 
 
-from hydro2d.jit import apart, cell_rows, kernel, point, rowwise
+from hydro2d.jit import cell_rows, kernel, not_inlined, point, rowwise
 from hydro2d.kernels.column_ranges import columns, past_row
 from hydro2d.physics.centroids import beside, box_piece, forms, goes_on, piece, placed, within
 from hydro2d.physics.interfaces import add_body, at_most_full, cumulative, nested, surface
@@ -38,7 +38,7 @@ def report_row(j, w):
         i = first + number - 1 - x
         most = 0.0
         for m in range(w.vof.shape[0]):
-            if not w.pre[j, i] > 0.0 and abs(w.vof[m, j, i]) > most:
+            if not w.pre_sweep_volume[j, i] > 0.0 and abs(w.vof[m, j, i]) > most:
                 most = abs(w.vof[m, j, i])
                 w.turned[j, 0], w.turned[j, 1] = i, m
 
@@ -48,15 +48,15 @@ def sweep_volumes(j, w):
     """Volume of cells before a sweep: V + dF_r + dF_z for the first sweep, V + dF of its own direction for the second.
 
     Reads    volume [j, i], fr, fz [j, i], vof [m, j, i]
-    Writes   pre [j, i]; turned [j, 2], column of the first cell with a body in it that was turned inside out, -1 for none, and
-             the body that fills the most of it
+    Writes   pre_sweep_volume [j, i]; turned [j, 2], column of the first cell with a body in it that was turned inside out, -1
+             for none, and the body that fills the most of it
     """
     lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
     fr_j = w.fr[j]
     fz_b = w.fz[j]
     fz_t = w.fz[j + 1]
     volume_j = w.volume[j]
-    out = w.pre[j]
+    out = w.pre_sweep_volume[j]
     wrong = 0
     for x in range(n):
         i = lo + x
@@ -182,7 +182,7 @@ def beyond(below, box):
     return below[1] + box[0], below[2] + box[1], below[3] + box[2]
 
 
-@apart
+@not_inlined
 def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
     """Adds the part of a strip that body m fills, the next of the nested ones, times a weight; returns `below` for the next.
 
@@ -211,7 +211,7 @@ def next_body(m, f, thin, box, whole, total, side, width, weight, below, strip):
     return up_to, whole[0], whole[1], whole[2]
 
 
-@apart
+@not_inlined
 def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, strips, w):
     """Adds the parts of the strips of cell (j, i) that every body fills by the nested interfaces, times a weight.
 
@@ -265,7 +265,7 @@ def nest(j, i, last, widths, thin_first, weight, order, share, void, no_gap, str
                 return
 
 
-@apart
+@not_inlined
 def fill_strips(j, i, last, widths, order, share, void, strips, w):
     """Shares and centroids of every body in the strips at the low and the high side of cell (j, i), and in the whole cell.
 
@@ -318,7 +318,7 @@ def interface_volumes(j, w):
     monotone, each body gives no more than it has, and the excess that two opposite strips take together is passed on to the
     next body.
 
-    Reads    mixed [j, k], interface_order [k], face, pre [j, i], vof [m, j, i]
+    Reads    mixed [j, k], interface_order [k], face, pre_sweep_volume [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] and flux_place [2, m, j, i] at the faces through which mixed cells lose volume;
              centroid [2, m, j, i] of these cells: that of the part that the interfaces enclose, in full where SWEPT of the cell
              leaves
@@ -334,9 +334,9 @@ def interface_volumes(j, w):
         out_high = max(w.face[j + dj, i + di], 0.0)
         if out_low == 0.0 and out_high == 0.0:
             continue
-        size = w.pre[j, i]
+        size = w.pre_sweep_volume[j, i]
         w_low, w_high = out_low / size, out_high / size
-        taken = min((w_low + w_high) / SWEPT, 1.0)
+        swept_weight = min((w_low + w_high) / SWEPT, 1.0)
         if by_contact(j, i, w):
             w_low, w_high = 0.0, 0.0
         void = 1.0 - cumulative(j, i, w.interface_order.shape[0] - 1, w.interface_order, w.vof)
@@ -350,8 +350,8 @@ def interface_volumes(j, w):
             if w_high > 0.0:
                 w.flux_place[0, m, j + dj, i + di], w.flux_place[1, m, j + dj, i + di] = place_of(right, m)
             along, across = place_of(whole, m)
-            w.centroid[di, m, j, i] = within(w.centroid[di, m, j, i] + taken * (across - w.centroid[di, m, j, i]), f)
-            w.centroid[dj, m, j, i] = within(w.centroid[dj, m, j, i] + taken * (along - w.centroid[dj, m, j, i]), f)
+            w.centroid[di, m, j, i] = within(w.centroid[di, m, j, i] + swept_weight * (across - w.centroid[di, m, j, i]), f)
+            w.centroid[dj, m, j, i] = within(w.centroid[dj, m, j, i] + swept_weight * (along - w.centroid[dj, m, j, i]), f)
         # two strips together may not take more of a body than there is; the excess moves on to the next body
         if w_low > 0.0 and w_high > 0.0:
             excess = 0.0

@@ -62,7 +62,7 @@ def insert_void_mixed_row(j, w):
     """Opens void in mixed cells whose pressure falls below their fracture pressure, and frees them of stress.
 
     The threshold is the mean of the bodies' by volume fraction, or with smallest_tension the least (explanation/fracture).
-    Two groups do not stick together, and separate without this (`meet_traction`).
+    Two groups do not stick together, and separate without this (`traction_of_change`).
 
     Reads    mixed [j, k], skin [3, j, i]
     Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
@@ -296,10 +296,10 @@ def deform_mixed(j, w):
         i = w.mixed[j, k]
         volume = w.metrics[VOL_R, i] * w.dz[j]
         change = (w.fr[j, i + 1] - w.fr[j, i]) + (w.fz[j + 1, i] - w.fz[j, i])
-        work_q, work_p, held = 0.0, 0.0, 0
+        work_q, work_p, groups_present = 0.0, 0.0, 0
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
-                held += 1
+                groups_present += 1
                 cell_motion(j, i, g, w)
                 across = w.motion[j, g, MEAN_RR] + w.motion[j, g, MEAN_TT]
                 work_q = -w.dt * ((w.qr[j, i] * across + w.qz[j, i] * w.motion[j, g, MEAN_ZZ])
@@ -308,7 +308,7 @@ def deform_mixed(j, w):
         if groups > 1 and w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
             work_q = -w.qr[j, i] * change
             work_p = -w.ph[j, i] * change
-        meet = held > 1
+        meet = groups_present > 1
         dominant = dominant_body(j, i, w)
         for m in range(w.vof.shape[0]):
             w.mix[j, BEFORE, m] = w.vof[m, j, i]

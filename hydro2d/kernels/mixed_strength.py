@@ -1,7 +1,7 @@
 """Strength in mixed cells: elastic trial of every body, the strain across a surface, and the return to the yield surface."""
 
 from hydro2d.jit import point
-from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, firm_share, meet_traction, surface_weight
+from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, firm_share, surface_weight, traction_of_change
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
     ALONG,
@@ -87,7 +87,7 @@ def strain_deviators(j, i, rate, w):
     """Elastic trial of every body; returns the yield stress of the cell by mode (explanation/mixed-cells, equation 8).
 
     rate is the time step over the volume of the cell. Internal variables that are tensors turn with the material. In a cut cell
-    the strain across the surface is left out, by the surface's weight: `meet_traction` finds it, `strain_across` adds it.
+    the strain across the surface is left out, by the surface's weight: `traction_of_change` finds it, `strain_across` adds it.
 
     Updates  q (internal variables) [k, m, j, i]; scratch internal [j, k]
     Writes   mix [j, TRIAL_RR to TRIAL_RZ, m], deviators; mix [j, MODULUS, m], mix [j, YIELD, m], 0 without strength, all in Pa
@@ -140,7 +140,7 @@ def strain_deviators(j, i, rate, w):
 
 @point
 def strain_bodies_across(j, i, own, cell_yield, change, w):
-    """Strains the bodies of a cut cell across its surface; returns p_c at the end of the step, Pa (`meet_traction`).
+    """Strains the bodies of a cut cell across its surface; returns p_c at the end of the step, Pa (`traction_of_change`).
 
     A body that flows does so at its current stress, which may exceed its yield stress because of its rate.
 
@@ -151,7 +151,7 @@ def strain_bodies_across(j, i, own, cell_yield, change, w):
         if flow > 0.0:
             flow = max(flow, von_mises(w.q[SRR, m, j, i], w.q[SZZ, m, j, i], w.q[SRZ, m, j, i]))
         w.mix[j, FLOW, m] = flow
-    target = meet_traction(j, i, change, w)
+    target = traction_of_change(j, i, change, w)
     n_r, n_z, weight = w.skin[NORMAL_R, j, i], w.skin[NORMAL_Z, j, i], surface_weight(j, i, w.skin)
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] > 0.0 and w.models[m, STRENGTH] != 0:

@@ -1,7 +1,7 @@
 """The remap of momentum on dual cells, and of kinetic energy by the three advection choices."""
 
-from hydro2d.jit import apart, cell_rows, kernel, plus, point, rowwise
-from hydro2d.kernels.boundaries import held_at
+from hydro2d.jit import cell_rows, kernel, not_inlined, plus, point, rowwise
+from hydro2d.kernels.boundaries import edge_normal_velocity
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
@@ -75,7 +75,7 @@ def dual_row(g, j, slot, w):
                                        0.5 * a_r[x] * a_r[x], 0.5 * a_rr[x] * a_rr[x], w.steepness)
 
 
-@apart
+@not_inlined
 def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
     """Sets the normal velocity to 0 at vertices that rest on an edge that only pushes, or would go beyond it.
 
@@ -87,7 +87,7 @@ def rest_on_anvil(edge, g, j, lo, hi, new_j, left, w):
         return
     for i in range(max(at, lo) if c == 0 else lo, min(at + 1, hi) if c == 0 else hi):
         after = w.velocity[c, g, j, i]
-        if after == 0.0 or (w.velocity0[c, g, j, i] != 0.0 and held_at(edge, True, 0.0, after) != 0.0):
+        if after == 0.0 or (w.velocity0[c, g, j, i] != 0.0 and edge_normal_velocity(edge, True, 0.0, after) != 0.0):
             continue
         w.velocity[c, g, j, i] = 0.0
         left[i - lo] += 0.5 * after * after

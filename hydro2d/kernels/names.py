@@ -111,7 +111,7 @@ METHOD = (
     Work("most_squares", "", "largest sum of the squares of an extension's weights"),
 )
 
-#: data that contact keeps of every contact node, in slots (`solver.contact.Ties`)
+#: data that contact keeps of every contact node, in slots (`solver.contact_ties.Ties`)
 TIES = (
     Work("strength", "x 2", "strength of a node's tie to its masters, 0 to 1"),
     Work("masters", "x 2", "number of its masters", int),
@@ -129,8 +129,8 @@ TIES = (
     Work("matrix", "x 2", "elements of the matrix, along r and z"),
     Work("impulses", "x 8", "impulses of the ties"),
     Work("search", "x 2", "search direction of conjugate gradients"),
-    Work("taken", "2 x 2", "impulse that a slave has given to its masters"),
-    Work("rubbing", "3 x", "friction impulse of a node on the soft group, and its size"),
+    Work("passed_impulse", "2 x 2", "impulse that a slave has given to its masters"),
+    Work("friction_impulse", "3 x", "friction impulse of a node on the soft group, and its size"),
 )
 
 #: path of the detonation of an explosive through a body (`hydro2d.kernels.light_times`); its axes are those of the mesh only

@@ -31,7 +31,7 @@ def flux_row(dj, j, m, slot, b, w):
     equation 4), both of the body alone: no cell loses more of the body than it has.
 
     Reads    carried [m, n], how many rows of q the body carries in addition to its density, and which;
-             pre (pre-sweep volume) [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
+             pre_sweep_volume [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]
     Writes   flux [k, m, slot, i]
     """
     di = 1 - dj
@@ -43,8 +43,8 @@ def flux_row(dj, j, m, slot, b, w):
         f_l = w.vof[m, j - dj, lo - di:hi - di]
         f_r = w.vof[m, j, lo:hi]
         f_rr = w.vof[m, j + dj, lo + di:hi + di]
-        pre_l = w.pre[j - dj, lo - di:hi - di]
-        pre_r = w.pre[j, lo:hi]
+        size_l = w.pre_sweep_volume[j - dj, lo - di:hi - di]
+        size_r = w.pre_sweep_volume[j, lo:hi]
         r_ll = w.q[RHO, m, j - 2 * dj, lo - 2 * di:hi - 2 * di]
         r_l = w.q[RHO, m, j - dj, lo - di:hi - di]
         r_r = w.q[RHO, m, j, lo:hi]
@@ -55,7 +55,7 @@ def flux_row(dj, j, m, slot, b, w):
         for x in range(n):
             up = swept[x] > 0.0
             left, right = f_ll[x], f_rr[x]  # read before the choice, which would otherwise be a gather
-            volume_l, volume_r = f_l[x] * pre_l[x], f_r[x] * pre_r[x]
+            volume_l, volume_r = f_l[x] * size_l[x], f_r[x] * size_r[x]
             least = min(min(f_l[x], f_r[x]), left if up else right)
             clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
             donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], w.steepness)
@@ -85,7 +85,7 @@ def update_row(dj, j, m, below, above, b, w):
 
     Fields stay within the bounds of the table; failed material stays failed, to the last bit, and has no deviator.
 
-    Reads    carried [m, n] as flux_row; face, pre (pre-sweep volume) [j, i]; flux_volume [m, j, i];
+    Reads    carried [m, n] as flux_row; face, pre_sweep_volume [j, i]; flux_volume [m, j, i];
              flux [k, m, slot, i] in the slots `below` and `above`
     Updates  vof [m, j, i] (share of the volume after the sweep), q [k, m, j, i]
     """
@@ -101,7 +101,7 @@ def update_row(dj, j, m, below, above, b, w):
         m_out = w.flux[RHO, m, above, lo + di:hi + di]
         f_j = w.vof[m, j, lo:hi]
         r_j = w.q[RHO, m, j, lo:hi]
-        pre_j = w.pre[j, lo:hi]
+        size_j = w.pre_sweep_volume[j, lo:hi]
         old_v = w.scratch[0, b, lo:hi]
         old_m = w.scratch[1, b, lo:hi]
         new_v = w.scratch[2, b, lo:hi]
@@ -110,7 +110,7 @@ def update_row(dj, j, m, below, above, b, w):
         for x in range(n):
             f, rho, into, out = f_j[x], r_j[x], v_in[x], v_out[x]
             swept = s_out[x] - s_in[x]
-            volume = f * pre_j[x]
+            volume = f * size_j[x]
             mass = volume * rho
             after = volume + (into - out)
             mass_after = mass + (m_in[x] - m_out[x])
@@ -119,7 +119,7 @@ def update_row(dj, j, m, below, above, b, w):
             # divisions come before choices: a division inside a choice would keep the loop from being vectorised
             divisor, mass_divisor = after if after > TINY else TINY, mass_after if mass_after > TINY else TINY
             density, over_v, over_m = mass_after / divisor, 1.0 / divisor, 1.0 / mass_divisor
-            fraction = max(after / (pre_j[x] - swept), 0.0)
+            fraction = max(after / (size_j[x] - swept), 0.0)
             density = density if after > 0.0 else 0.0
             over_v, over_m = over_v if after > TINY else 0.0, over_m if mass_after > TINY else 0.0
             r_j[x] = rho if unchanged else density
@@ -174,10 +174,10 @@ def mass_flux_row(dj, j, slot, w):
 
 
 @rowwise
-def cell_mass_row(dj, di, j, pre, face, second, w):
+def cell_mass_row(dj, di, j, pre_sweep_volume, face, second, w):
     """Mass of each group in the cells of row j, in the volume that they have after the sweep.
 
-    Reads    group [m]; pre (pre-sweep volume), face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Reads    group [m]; pre_sweep_volume, face, volume [j, i]; vof [m, j, i]; q [k, m, j, i]
     Writes   cell_mass [b, j, i]
     """
     for g in range(w.cell_mass.shape[0]):
@@ -199,10 +199,10 @@ def cell_mass_row(dj, di, j, pre, face, second, w):
         else:
             s_in = face[j]
             s_out = face[j + dj]
-            pre_j = pre[j]
+            size_j = pre_sweep_volume[j]
             for x in range(n):
                 i = lo + x
-                out[i] *= pre_j[i] - (s_out[i + di] - s_in[i])
+                out[i] *= size_j[i] - (s_out[i + di] - s_in[i])
 
 
 @cell_rows
@@ -235,7 +235,7 @@ def sweep_row(dj, j, below, above, b, w):
     """
     for m in range(w.body_ranges.shape[1]):
         update_row(dj, j, m, below, above, b, w)
-    cell_mass_row(dj, 1 - dj, j, w.pre, w.face, w.second, w)
+    cell_mass_row(dj, 1 - dj, j, w.pre_sweep_volume, w.face, w.second, w)
     for k in range(w.mixed_count[j]):
         forget_centroids(j, w.mixed[j, k], w.vof, w.centroid)
     mixed_row(j, w.group_ranges[0, 0], w.scratch[0, b], w)
@@ -246,7 +246,7 @@ def sweep_r(j, part, w):
     """Carries every body along r: fluxes and update row by row.
 
     Reads    carried [m, n]; group [m]; rules [m, k, 4]; mesh_box (j0, j1, i0, i1 of the mesh), body_ranges, group_ranges; face,
-             pre (pre-sweep volume), volume [j, i]; flux_volume [m, j, i]
+             pre_sweep_volume, volume [j, i]; flux_volume [m, j, i]
     Updates  vof [m, j, i], q [k, m, j, i]
     Writes   flux_mass, cell_mass [b, j, i]; edge_flux [side, k, m, j] of mass and energy; mixed_count [j], mixed [j, k]
     Scratch  scratch [s, part, i], flux [k, m, slot, i]
@@ -331,7 +331,7 @@ ROUND_OFF = 1e-14
 
 
 @point
-def fade(share, cutoff):
+def kept_share(share, cutoff):
     """Part of a small share of a cell that is kept: all from twice the cutoff on, none below the cutoff or below ROUND_OFF.
 
     A body that shares its cell with less than that would seem to fill it.
@@ -346,7 +346,7 @@ def tidy(j, w):
 
     A body below the cutoff is removed with its mass, internal energy, momentum and kinetic energy; void below it is
     closed by scaling the bodies' volumes at constant mass. Between the cutoff and twice the cutoff a part is removed, so that
-    round-off decides nothing (`remap.fade`). A negative density or volume counts as sub-cutoff.
+    round-off decides nothing (`kept_share`). A negative density or volume counts as sub-cutoff.
 
     Reads    group [m]; u, v [b, j, i]
     Updates  mixed_count [j], mixed [j, k], the list of cells that are not full of one body; vof [m, j, i], q [k, m, j, i],
@@ -355,19 +355,19 @@ def tidy(j, w):
     """
     for row in range(4 + w.vof.shape[0]):
         w.removed[row, j] = 0.0
-    left = 0
+    count = 0
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
         post = w.volume[j, i]
         if not w.second:
-            post = w.pre[j, i] - (w.dj * (w.fz[j + 1, i] - w.fz[j, i]) + w.di * (w.fr[j, i + 1] - w.fr[j, i]))
+            post = w.pre_sweep_volume[j, i] - (w.dj * (w.fz[j + 1, i] - w.fz[j, i]) + w.di * (w.fr[j, i + 1] - w.fr[j, i]))
         total, present, ended = 0.0, 0, False
         for m in range(w.vof.shape[0]):
             f = w.vof[m, j, i]
             rho = w.q[RHO, m, j, i]
             if f > 0.0 and (f < 2.0 * w.cutoff or not rho > 0.0):
-                left_over = fade(f, w.cutoff) if rho > 0.0 else 0.0
-                mass = (f - left_over) * rho * post
+                kept = kept_share(f, w.cutoff) if rho > 0.0 else 0.0
+                mass = (f - kept) * rho * post
                 inner, outer = w.metrics[CM_IN, i] * mass, w.metrics[CM_OUT, i] * mass
                 g = w.group[m]
                 ub = w.u[g, j]
@@ -381,7 +381,7 @@ def tidy(j, w):
                 w.removed[1, j] += 0.5 * (inner * k_in + outer * k_out)
                 w.removed[2, j] += inner * v_in + outer * v_out
                 w.removed[4 + m, j] += mass
-                f = left_over
+                f = kept
                 w.vof[m, j, i] = f
                 ended = True
             if f == 0.0:
@@ -390,7 +390,7 @@ def tidy(j, w):
             total += f
             present += 1 if f > 0.0 else 0
         if total > 1.0 - 2.0 * w.cutoff and total != 1.0:
-            void = fade(1.0 - total, w.cutoff)
+            void = kept_share(1.0 - total, w.cutoff)
             w.removed[3, j] += (max(1.0 - total, 0.0) - void) * post
             scale = (1.0 - void) / total
             for m in range(w.vof.shape[0]):
@@ -411,6 +411,6 @@ def tidy(j, w):
         kind = 0.0
         for m in range(w.vof.shape[0]):
             kind += (1000.0 if w.vof[m, j, i] == 1.0 else 0.0) + (1.0 if w.vof[m, j, i] > 0.0 else 0.0)
-        w.mixed[j, left] = i
-        left += 0 if kind == 0.0 or kind == 1001.0 else 1
-    w.mixed_count[j] = left
+        w.mixed[j, count] = i
+        count += 0 if kind == 0.0 or kind == 1001.0 else 1
+    w.mixed_count[j] = count

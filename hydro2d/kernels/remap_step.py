@@ -4,7 +4,7 @@
 """
 
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
-from hydro2d.kernels import acceleration, boundaries, centroids, column_ranges, edge_sums, interfaces, momentum, remap
+from hydro2d.kernels import boundaries, centroids, column_ranges, edge_sums, interfaces, momentum, remap, vertex_forces
 from hydro2d.kernels.contact import contact_motion, contact_volumes
 
 carry_bodies = Phase(
@@ -37,7 +37,7 @@ carry_bodies = Phase(
 
 carry_momentum = Phase(
     "carry_momentum",
-    "Velocities after the sweep; then what is left over is tidied away, and the bodies are found anew.",
+    "Velocities after the sweep; fractions below the cutoff removed; vertex masses and the columns of every body recomputed.",
     boundaries.close_mass_flux,
     WAIT,
     momentum.sweep_momentum,
@@ -48,7 +48,7 @@ carry_momentum = Phase(
     remap.tidy,
     WAIT,
     alone(edge_sums.sum_kinetic_outflow),
-    acceleration.vertex_masses,  # by the old ranges: cells that bodies have left have no mass
+    vertex_forces.vertex_masses,  # by the old ranges: cells that bodies have left have no mass
     column_ranges.find_body_ranges,
     WAIT,
     column_ranges.find_active_ranges,
@@ -86,6 +86,6 @@ find_masses = Phase(
     "Mass of every group in cells and at vertices, and one velocity where one group has no mass.",
     remap.sum_cell_mass,
     WAIT,
-    acceleration.vertex_masses,
+    vertex_forces.vertex_masses,
     when("contact", contact_motion.keep_one),
 )

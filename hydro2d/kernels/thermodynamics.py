@@ -12,7 +12,7 @@ from eos.dispatch import (
     temperature_row_with_memory,
     zero_pressure_density,
 )
-from hydro2d.jit import apart, cell_rows, point, rowwise, serial
+from hydro2d.jit import cell_rows, not_inlined, point, rowwise, serial
 from hydro2d.kernels.column_ranges import columns, outer_rows
 from hydro2d.materials.rows import (
     CUTOFF_DENSITY,
@@ -48,7 +48,7 @@ from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 SOUND_FLOOR = 1.0
 
 
-@apart
+@not_inlined
 def insert_void_row(m, j, w):
     """Inserts void in the cells of row j that body m fills and that fracture; returns its volume.
 
@@ -74,7 +74,7 @@ def insert_void_row(m, j, w):
     return opened
 
 
-@apart
+@not_inlined
 def fail_row(m, j, w):
     """Makes body m fail in the cells of row j in which its largest principal stress exceeds its fracture stress.
 
@@ -94,7 +94,7 @@ def fail_row(m, j, w):
             release(m, j, i, w.q)
 
 
-@apart
+@not_inlined
 def report_row(m, j, w):
     """Counts the cells of row j in which body m is not finite.
 
@@ -455,17 +455,17 @@ def elastic_energy(m, j, i, shear, model, memory, par, q):
 
 @serial
 def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, shear, warm, chill, model, memory, par, vof, q,
-                   found):
+                   worst):
     """Cells in which the energy of body m is farthest above and below the range that it can reach there, those at 0 K included.
 
     Cells filled by less than `sliver` do not count. The elastic energy of a cell's own stress, with the shear modulus `shear`
     in Pa, does not count as heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
 
     Reads    vof [m, j, i]; q [k, m, j, i]
-    Writes   found [2, 3], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column
+    Writes   worst [2, 3], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column
     """
     for side in range(2):
-        found[side, 0] = -1e300
+        worst[side, 0] = -1e300
     for j in range(g, g + nz):
         for i in range(g, g + nr):
             if vof[m, j, i] < sliver:
@@ -480,7 +480,7 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
             for side in range(2):
                 beyond = cold if side else hot
                 beyond = beyond if beyond == beyond else 1e300
-                if beyond > found[side, 0]:
-                    found[side, 0] = beyond
-                    found[side, 1] = j
-                    found[side, 2] = i
+                if beyond > worst[side, 0]:
+                    worst[side, 0] = beyond
+                    worst[side, 1] = j
+                    worst[side, 2] = i

@@ -10,7 +10,7 @@ import functools
 from collections.abc import Mapping
 
 from hydro2d.base.errors import DeckError, unknown
-from hydro2d.files.lines import Sources
+from hydro2d.files.key_lines import Sources
 from hydro2d.files.shipped import problems_folder
 from hydro2d.files.toml import PARTS, merge, parse
 from hydro2d.materials.building import ABOUT, CHOICE, TABLES, Fail, build

@@ -61,7 +61,7 @@ class BoundaryConditions:
     def _flags(self) -> dict[str, tuple[bool, ...]]:
         return {
             "mirrors": tuple(edge.ghost() == IMAGES for edge in self.edges),
-            "holds": tuple(edge.holds() for edge in self.edges),
+            "constrains": tuple(edge.constrains() for edge in self.edges),
             "opens": tuple(edge.flow() != NOTHING for edge in self.edges),
             "supplies": tuple(edge.flow() == BOTH_WAYS for edge in self.edges),
             "drives": tuple(any(edge.speeds()) for edge in self.edges),
@@ -70,5 +70,5 @@ class BoundaryConditions:
         }
 
     def having(self, flag: str) -> tuple[bool, ...]:
-        """For each edge whether it mirrors, holds, opens, supplies, drives, transmits or pushes; called many times a cycle."""
+        """For each edge whether it mirrors, constrains, opens, supplies, drives, transmits or pushes; often called."""
         return self._flags[flag]

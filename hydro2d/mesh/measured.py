@@ -76,7 +76,7 @@ PASSAGE = {
     "exit_length_m": "length of the longest run of intact material on the axis then",
 }
 
-#: results of `bodies.measure` for every body, and their meanings; for material in the mesh unless stated otherwise
+#: results of `body_measurements.measure` for every body, and their meanings; for material in the mesh unless stated otherwise
 BODY = {
     "mass_kg": "mass",
     "momentum_N_s": "axial momentum",

@@ -1,4 +1,4 @@
-"""THE table of quantities that are written and drawn: name in files, unit, meaning. `output/derived.py` computes them.
+"""THE table of written and drawn quantities: name in files, unit, meaning. `output/derived_quantities.py` computes them.
 
 Names never change. All are cell values without ghosts, in SI units.
 """

@@ -94,7 +94,7 @@ class State:
         for m, values in enumerate(initial or ()):
             self.initial[fields.INTERNAL:fields.INTERNAL + len(values), m] = values
         self.q[...] = self.initial[:, :, None, None]
-        self.pre[...] = grid.volume  # ghosts keep it: a face next to them divides by it
+        self.pre_sweep_volume[...] = grid.volume  # ghosts keep it: a face next to them divides by it
         self.body_range, self.active_range = self.body_ranges[0], self.group_ranges[0, 0]
         self.empty_ranges()
 

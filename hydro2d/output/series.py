@@ -10,7 +10,7 @@ import numpy as np
 
 from hydro2d.files.locks import check_place, remove
 from hydro2d.files.strange import own_folder
-from hydro2d.output import derived, vtk
+from hydro2d.output import derived_quantities, vtk
 from hydro2d.output.outlines import Filling
 
 
@@ -74,7 +74,7 @@ class Series:
         check_place(self.directory / vtk.FOLDER)
         own_folder(self.directory / vtk.FOLDER)
         path = self._path("dump", number)
-        vtk.write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived.evaluated(sim, self.fields), time)
+        vtk.write_grid(path, sim.grid.r_edges, sim.grid.z_edges, derived_quantities.evaluated(sim, self.fields), time)
         vtk.write_lines(self._path("interfaces", number), _body_lines(sim), time)
         if len(sim.stations.tracers):
             vtk.write_points(self._path("tracers", number), sim.stations.tracers, time)
@@ -99,7 +99,7 @@ class Series:
 
 
 def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
-    cells, grid = derived.Cells(sim), sim.grid
+    cells, grid = derived_quantities.Cells(sim), sim.grid
     offsets = np.stack([cells.centroid_r(), cells.centroid_z()], axis=1)
     return [
         (m + 1, line)

@@ -1,7 +1,7 @@
 """Fields as VTK files that ParaView opens with one click: a .vtr file for each dump and a .pvd file with their times.
 
 In the files x = r and y = z. Values are float32, appended raw and compressed with LZ4. The outlines of the bodies and the
-tracers are separate series of .vtp files. Names and units: derived.py.
+tracers are separate series of .vtp files. Names and units: derived_quantities.py.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from hydro2d.files import checksums
 from hydro2d.files.whole import replacing, write_text
 from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.registry import halved
-from hydro2d.output import derived, foreign
+from hydro2d.output import derived_quantities, foreign
 from hydro2d.output.outlines import Filling
 
 FOLDER = "vtk"
@@ -48,7 +48,7 @@ def _stamp(dataset, time: float) -> None:
 
 
 @contextmanager
-def _silence() -> Iterator[None]:
+def _without_messages() -> Iterator[None]:
     """Keeps VTK from printing errors as many coloured lines; an exception reports them in one."""
     from vtkmodules.vtkCommonCore import vtkObject
 
@@ -71,7 +71,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     writer.EncodeAppendedDataOff()
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(BLOCK)
-    with replacing(path) as temporary, _silence():
+    with replacing(path) as temporary, _without_messages():
         writer.SetFileName(str(temporary))
         if writer.Write() != 1:
             raise _write_error(writer.GetErrorCode(), path)
@@ -263,13 +263,13 @@ class Dump:
     def of(cls, sim, keys=("all",)) -> Dump:
         """The state of a simulation as a dump would hold it."""
         half = halved(sim.grid.geometry, sim.grid.r_edges[0], sim.deck.boundaries.r_min)
-        return cls(sim.grid.r_edges, sim.grid.z_edges, derived.evaluate(sim, keys), sim.time, half)
+        return cls(sim.grid.r_edges, sim.grid.z_edges, derived_quantities.evaluate(sim, keys), sim.time, half)
 
 
 def _read(reader, path: Path):
     """The data that a VTK reader reads from a file. Raises VtkError."""
     checksums.verify(path, VtkError)
-    with _silence():
+    with _without_messages():
         if not reader.CanReadFile(str(path)):
             raise VtkError(f"{path} is not a VTK file of a run")
         foreign.check_vtk(Path(path), VtkError)

@@ -69,11 +69,11 @@ def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
     for _ in range(4):
         x = 2.0 * shear * e
         norm = sqrt(max(1.5 * (size + 2.0 * x * along + 2.0 / 3.0 * x * x), 0.0))
-        held = min(1.0, flow / norm) if norm > 0.0 else 1.0
-        stress = held * (along + 2.0 / 3.0 * x)
+        return_factor = min(1.0, flow / norm) if norm > 0.0 else 1.0
+        stress = return_factor * (along + 2.0 / 3.0 * x)
         slope = 2.0 / 3.0
-        if held < 1.0:
-            slope = max(held * (2.0 / 3.0 - 1.5 * (stress / flow) ** 2), 0.0) if flow > 0.0 else 0.0
+        if return_factor < 1.0:
+            slope = max(return_factor * (2.0 / 3.0 - 1.5 * (stress / flow) ** 2), 0.0) if flow > 0.0 else 0.0
         stiffness = modulus + weight * 2.0 * shear * slope
         e += (p - modulus * (beside + e) - weight * stress - target) / stiffness
     e = min(max(e, -MOST_GROWTH - beside), MOST_GROWTH - beside)

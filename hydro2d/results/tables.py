@@ -15,9 +15,9 @@ from hydro2d.base.errors import unknown
 from hydro2d.base.terminal import cell, shown
 from hydro2d.files.whole import replacing
 from hydro2d.output import history
-from hydro2d.results import figures, lines
+from hydro2d.results import figures, line_figures
 from hydro2d.results.figures import HISTORIES, reader_unit
-from hydro2d.results.lines import Line
+from hydro2d.results.line_figures import Line
 from hydro2d.results.scales import FigureError
 
 #: file ending of a table
@@ -40,10 +40,10 @@ def head(title: str, unit: str) -> str:
 def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[float | None] = (None,)) -> Table:
     """A field along a line: a row for each run (results.Results), time in s (None: the last dump) and cell that it crosses.
 
-    Raises FigureError as `lines.line_outs` does.
+    Raises FigureError as `line_figures.line_outs` does.
     """
     rows, heads, names = [], [], ()
-    for curve in lines.curves(runs, field, line, times):
+    for curve in line_figures.curves(runs, field, line, times):
         names = ("r", "z") if curve.line.label in "rz" else (curve.line.label, "r", "z")
         heads = ["run", head("t", "µs"), *(head(name, "mm") for name in names), head(curve.shown.title, curve.shown.unit)]
         places = {curve.line.label: curve.along, "r": curve.r, "z": curve.z}

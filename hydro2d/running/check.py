@@ -17,7 +17,7 @@ from hydro2d.mesh.edges.registry import BY_NAME, halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.physics.waves import STABLE
-from hydro2d.solver import insertion, memory, sources
+from hydro2d.solver import insertion, memory_needed, sources
 
 #: motion of a body at rest
 AT_REST = (0.0, 0.0), None
@@ -183,7 +183,7 @@ class Check:
 
 def check(deck) -> Check:
     """Puts a deck on its mesh. Raises DeckError for mistakes that show only then, and for a mesh too large for the memory."""
-    memory.refuse_too_large(deck)
+    memory_needed.refuse_too_large(deck)
     grid = Grid(*decks.edges(deck), deck.mesh.geometry)
     table = library.resolve(deck)
     start = insertion.initial_state(deck, grid, table)
@@ -197,7 +197,7 @@ def check(deck) -> Check:
     return Check(
         deck=deck, grid=grid, table=table, dump=_dump(grid, table, start, deck.boundaries.r_min),
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
-        memory=memory.needed(deck), cycles=cycles,
+        memory=memory_needed.needed(deck), cycles=cycles,
         seconds=cycles * grid.cells * pace * 1e-9, warnings=empty + decks.warnings(deck) + dark,
     )  # fmt: skip
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from hydro2d.mesh import measured
 from hydro2d.mesh.measured import PLACES
 from hydro2d.mesh.station_columns import PEAKS, QUANTITIES
-from hydro2d.running import residual
+from hydro2d.running import residual_velocity
 
 #: amounts of a sink, and of a contact transfer
 AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
@@ -59,7 +59,7 @@ SUMMARY: dict[str, str] = {
     **{key: meaning for key, meaning in measured.QUANTITIES.items() if key not in OLD},
     "projectile.body": "name of the projectile, which is also in `bodies`",
     **{f"projectile.{new}": measured.QUANTITIES[old] for old, new in measured.PROJECTILE.items()},
-    **{f"projectile.{key}": meaning for key, meaning in residual.MEANINGS.items()},
+    **{f"projectile.{key}": meaning for key, meaning in residual_velocity.MEANINGS.items()},
     **{old: f"old name of {new}, which later versions will not write" for old, new in OLD.items()},
     **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in measured.CRATER.items()},
     **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in measured.PASSAGE.items()},

@@ -48,7 +48,7 @@ def compile_decks(files: Sequence[Path]) -> None:
     for file, deck in [(file, decks.load(file)) for file in files]:
         with announced(moving.place(), deck if jit.threads() > 1 else None) as compiled:
             run_briefly(deck)
-            lines = compiled.settled()
+            lines = compiled.closing_lines()
         say(f"{file.name}: {'; '.join(lines) or 'was compiled already'}", flush=True)
 
 

@@ -48,14 +48,14 @@ class Attempts:
             self._errors.append(error)
 
     @property
-    def told(self) -> str:
+    def failures(self) -> str:
         """The files that could not be written, and why; empty if there are none."""
         return "; ".join(dict.fromkeys(map(_said, self._errors)))
 
     def conclude(self) -> None:
         """Raises the kept errors: a single one unchanged, several as an OSError that names all files."""
         if len(set(map(_said, self._errors))) > 1:
-            raise OSError(self.told) from self._errors[0]
+            raise OSError(self.failures) from self._errors[0]
         if self._errors:
             raise self._errors[0]
 

@@ -19,7 +19,7 @@ from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, one_line, say
 from hydro2d.mesh.measured import unit
 from hydro2d.output.history import Columns
-from hydro2d.running import ending, residual
+from hydro2d.running import ending, residual_velocity
 from hydro2d.running.ending import End
 
 T = TypeVar("T")
@@ -437,7 +437,7 @@ def _over_length(summary: dict) -> str:
 
 def _unsettled(shape: dict) -> str:
     """The change of the residual velocity if it is still changing."""
-    change, over = shape.get(residual.CHANGE), shape.get(residual.OVER)
+    change, over = shape.get(residual_velocity.CHANGE), shape.get(residual_velocity.OVER)
     if change is None or not abs(change) > SETTLED * abs(shape["residual_velocity_m_s"]):
         return ""
     return f"; still changing, by {change:+.1f} m/s in the last {over * 1e6:.1f} us"

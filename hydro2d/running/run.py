@@ -28,7 +28,7 @@ import numpy as np
 from hydro2d.base import interrupt as interrupts
 from hydro2d.base.errors import Error, UnphysicalState
 from hydro2d.base.interrupt import Interrupt, signals
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.base.version import __version__
 from hydro2d.deck.warnings import warnings
 from hydro2d.files.locks import locked, remove
@@ -39,13 +39,13 @@ from hydro2d.output import snapshot
 from hydro2d.output.history import History, HistoryError
 from hydro2d.output.series import Series, numbered
 from hydro2d.output.vtk import FOLDER, SERIES
-from hydro2d.running import provenance, residual
+from hydro2d.running import provenance, residual_velocity
 from hydro2d.running.outputs import Attempts, writing
 from hydro2d.running.progress import Clock
 from hydro2d.running.reporting import reporter
 from hydro2d.running.team import Team
 from hydro2d.solver.callbacks import Due
-from hydro2d.solver.record import ColumnError, check, row
+from hydro2d.solver.recorder import ColumnError, check, row
 
 if TYPE_CHECKING:
     from hydro2d.jit.compilation import Compilation
@@ -270,7 +270,7 @@ class Run:
     def _begun(self) -> None:
         """Called after the first cycle, in which kernels are loaded; the pace is measured from here on."""
         self.timed_from = self.spent["cycles_s"]
-        for text in self.compiled.settled() if self.compiled else ():
+        for text in self.compiled.closing_lines() if self.compiled else ():
             self.report.line(text)
 
     def _step(self) -> None:
@@ -392,7 +392,7 @@ class Run:
         with self._spending("outputs_s"):
             self._last_outputs(status, attempts)
         with attempts.writing(self.directory / SUMMARY):
-            summary = self.summary(*(("interrupted", attempts.told) if attempts.told else (status, reason)))
+            summary = self.summary(*(("interrupted", attempts.failures) if attempts.failures else (status, reason)))
             remove(self.directory / PROGRESS)
             write_json(self.directory / SUMMARY, summary)
         attempts.conclude()
@@ -415,7 +415,7 @@ class Run:
                 with attempts.writing(self.directory / FOLDER):
                     self.series.dump(self.sim)
         with attempts.writing(self.directory / LOG):
-            if text := self.team.told():
+            if text := self.team.thread_use():
                 self.report.line(text)
 
     def _last_row(self, status: str) -> None:
@@ -432,7 +432,7 @@ class Run:
         """The contents of summary.json."""
         sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
         last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
-        settling = residual.change(self.history, list(targets.values()), measured, sim.time)
+        settling = residual_velocity.change(self.history, list(targets.values()), measured, sim.time)
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         return {
             "deck": self.deck.name,

@@ -83,7 +83,7 @@ class Team:
         self._observe(seconds)
         return seconds
 
-    def told(self) -> str:
+    def thread_use(self) -> str:
         """Text such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
         if self.most == 1 or not self.cycles:
             return ""

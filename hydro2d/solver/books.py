@@ -33,8 +33,8 @@ class Books:
             self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
                            energy=float(s.limited[1, j0:j1 + 1].sum()))
         cycle.contact.account(j0, j1, self.audit)
-        if s.held_back.any():
-            self.audit.add("transmitted", momentum=float(s.held_back[0]), energy=float(s.held_back[1]))
+        if s.transmitted.any():
+            self.audit.add("transmitted", momentum=float(s.transmitted[0]), energy=float(s.transmitted[1]))
         for edge, (momentum, energy) in zip(self._edges, s.walls.sum(axis=2).tolist(), strict=True):
             if momentum != 0.0 or energy != 0.0:
                 self.audit.add(edge.sink, momentum=momentum, energy=energy)

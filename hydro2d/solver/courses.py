@@ -45,7 +45,7 @@ class Courses:
         inner, outer = grid.r[:-1], grid.r[1:]
         self._middle = 0.25 * (inner**2 + outer**2) if grid.cylindrical else grid.rc
         self._columns = np.sqrt(2.0 * self._middle) if grid.cylindrical else grid.rc
-        self._found = np.zeros((n, 7))
+        self._sums = np.zeros((n, 7))
         self._shape = g, grid.nz, grid.nr, grid.cylindrical
         self._last = 0.0
         self._momentum = np.zeros((n, 2))
@@ -72,8 +72,8 @@ class Courses:
         for m in range(s.bodies):
             b = s.group[m]
             sums.body_course(*self._shape, m, self._middle, grid.vol_r, grid.zc, grid.dr, grid.dz, grid.cm_out,
-                             grid.volume, s.vof, s.rho, s.centroid, s.u[b], s.v[b], self._found[m])
-        mass, moment, momentum, sizes = self._found[:, :1], self._found[:, 1:3], self._found[:, 3:5], self._found[:, 5:7]
+                             grid.volume, s.vof, s.rho, s.centroid, s.u[b], s.v[b], self._sums[m])
+        mass, moment, momentum, sizes = self._sums[:, :1], self._sums[:, 1:3], self._sums[:, 3:5], self._sums[:, 5:7]
         if not self._begun:
             self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
         else:

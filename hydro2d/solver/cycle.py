@@ -12,14 +12,14 @@ from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.books import Books
-from hydro2d.solver.contact import Contact, NoContact
+from hydro2d.solver.contact_ties import Contact, NoContact
 from hydro2d.solver.courses import Courses
 from hydro2d.solver.edge_lines import EdgeLines
-from hydro2d.solver.following import StandingMesh
+from hydro2d.solver.following import FixedMesh
 from hydro2d.solver.given import Given
 from hydro2d.solver.method import Method
-from hydro2d.solver.parts import Parts
 from hydro2d.solver.refusals import Refusals
+from hydro2d.solver.row_parts import Parts
 from hydro2d.solver.sources import Sources
 
 
@@ -39,14 +39,14 @@ class Cycle:
     time, dt, number : time reached (s), last time step (s), cycles done
     cause : str, the cause of the last time step, and its place
     active : ActiveBox, the cells that are active;  box : its rows and columns [j0, j1, i0, i1]
-    rows : int64[n + 1], first row of each part of the box and one past the last (`parts`)
+    rows : int64[n + 1], first row of each part of the box and one past the last (`row_parts`)
     sound_speeds : float64[m], bulk sound speed of every body at rest, m/s
     audit : Audit
     """
 
     def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None):
         self.state, self.table, self.method = state, table, method
-        self.mesh, self.sources = mesh or StandingMesh(), sources or Sources((), state, table, [])
+        self.mesh, self.sources = mesh or FixedMesh(), sources or Sources((), state, table, [])
         self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         self.contact = Contact(state) if state.groups > 1 else NoContact()
@@ -83,7 +83,7 @@ class Cycle:
             self.remap_momentum(dj, di, second)
 
         self.mesh.move(self.dt)
-        self.sources.give(self.time, self.dt, self.audit)
+        self.sources.add_heat(self.time, self.dt, self.audit)
         self.time += self.dt
         self.number += 1
 
@@ -104,7 +104,7 @@ class Cycle:
             self.speed_limit = time_step.speed_limit(s, self.sound_speeds)
         else:
             self.active.box = every
-        self.given.handle.give(speed_limit=self.speed_limit, dt=self.dt)
+        self.given.handle.update(speed_limit=self.speed_limit, dt=self.dt)
         if not self.active.is_all:  # beyond the box nothing has a range yet
             s.empty_ranges()
             self._in_one_part(remap_step.find_bodies, anew=True)
@@ -123,7 +123,7 @@ class Cycle:
                 self._in_one_part(remap_step.find_bodies, anew=True)
                 self._in_one_part(remap_step.list_mixed)
         self.rows = self.parts.of(self.box)
-        self.given.handle.give(parts=self.rows, i0=self.box[2], i1=self.box[3], anew=False)
+        self.given.handle.update(parts=self.rows, i0=self.box[2], i1=self.box[3], anew=False)
 
     # ------------------------------------------------------------------------------------------------ Lagrangian step
 
@@ -149,7 +149,7 @@ class Cycle:
         """Total stress of every cell at half the step, and the velocities at its end."""
         self.state.swap_velocities()
         self.method.boundaries.drive(self.time + self.dt)
-        self.sources.push(self.time, self.dt, self.edges.held)
+        self.sources.push(self.time, self.dt, self.edges.constrained_vertices)
         self.given.run(lagrangian_step.accelerate, dt=self.dt)
         self.books.acceleration()
 

@@ -17,7 +17,7 @@ class EdgeLines:
     ----------
     constrained, pushing, transmitting : int64[4], columns (2) and rows (2) of the edges whose normal velocity is given, that
         only push, and that have dashpots; -1 for the others
-    held : list of (sink, axis, vertices) of the edges that constrain their vertices
+    constrained_vertices : list of (sink, axis, vertices) of the edges that constrain their vertices
     widths : list of the four widths of the cells next to the edges along their normals, m
     """
 
@@ -26,8 +26,9 @@ class EdgeLines:
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
         self._boundaries, self._mesh = boundaries, np.roll(at, 2)
         self.constrained, self.pushing, self.transmitting = (
-            np.where(boundaries.having(flag), at, -1) for flag in ("holds", "pushes", "transmits"))
-        self.held = [(edge.sink, n // 2, lines[n]) for n, edge in enumerate(boundaries.edges) if edge.holds()]
+            np.where(boundaries.having(flag), at, -1) for flag in ("constrains", "pushes", "transmits"))
+        self.constrained_vertices = [
+            (edge.sink, n // 2, lines[n]) for n, edge in enumerate(boundaries.edges) if edge.constrains()]
         self.widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
 
     def void_beyond(self, leading: int | None) -> np.ndarray:

@@ -41,10 +41,10 @@ def _go_on_after_failure(part) -> None:
     for name in dir(type(part)) if part is not None else ():
         method = getattr(type(part), name)
         if not name.startswith("__") and callable(method) and not isinstance(method, type):
-            setattr(part, name, _quiet(getattr(part, name)))
+            setattr(part, name, _ignoring_errors(getattr(part, name)))
 
 
-def _quiet(method):
+def _ignoring_errors(method):
     @functools.wraps(method)
     def call(*arguments, **named):
         with contextlib.suppress(Exception):

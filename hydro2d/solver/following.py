@@ -21,7 +21,7 @@ from hydro2d.solver import insertion
 THINNEST = 1e-9
 
 
-class StandingMesh:
+class FixedMesh:
     """A mesh that stays where it is.
 
     velocity : float, of the mesh along z, m/s;  leading : the leading edge along z, 0 low, 1 high, None: neither

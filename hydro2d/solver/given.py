@@ -14,7 +14,7 @@ from hydro2d.kernels import names
 from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.mesh.edges.base import EDGES
-from hydro2d.solver.contact import most_squares
+from hydro2d.solver.contact_ties import most_squares
 
 #: arrays that alternate: the velocities at the end of a step and at its beginning
 AT_END, AT_BEGINNING = ("velocity", "u", "v"), ("velocity0", "u0", "v0")
@@ -73,18 +73,18 @@ class Given:
         }
         if method.slip_widths is not None:
             choices["width_bl"], choices["width_sl"] = method.slip_widths
-        self.handle.give(**arrays, **_of(cycle.grid, names.MESH), **bodies, **edges, **choices, anew=False)
+        self.handle.update(**arrays, **_of(cycle.grid, names.MESH), **bodies, **edges, **choices, anew=False)
         self._keep_up()
 
     def _keep_up(self) -> None:
         """Updates the handle: velocities alternate, and ties may have new slots."""
         if self.handle.values.get("masters") is not self._contact.ties.masters:
-            self.handle.give(**self._contact.ties._asdict())
+            self.handle.update(**self._contact.ties._asdict())
         if self.handle.values["velocity"] is not self._state.velocity:
             self.handle.exchange(AT_END, AT_BEGINNING)
 
     def run(self, phase: Phase, **given) -> None:
         """Runs a phase with these values, which stay set."""
         self._keep_up()
-        self.handle.give(**given)
+        self.handle.update(**given)
         phase(self.handle)

@@ -12,7 +12,7 @@ from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.mesh.measured import PASSAGE
 from hydro2d.mesh.regime import ERODED_MASS, LEFT, regime
 from hydro2d.mesh.sums import HALF
-from hydro2d.solver import bodies
+from hydro2d.solver import body_measurements
 from hydro2d.solver.targets import Target
 
 #: a rod has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
@@ -95,7 +95,7 @@ class Penetrator:
         self.length = decks.axial_length(deck, body) or shown
         self._stretch = self.length / shown if shown > 0.0 else 1.0
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
-        _, momentum, self.energy, *_ = bodies.motion(sim, self.m)
+        _, momentum, self.energy, *_ = body_measurements.motion(sim, self.m)
         self._against = targets[0].velocity
         self.impact_energy = self.energy - self._against * momentum + 0.5 * self.mass * self._against**2
         self._run = np.zeros(2, dtype=np.int64)
@@ -439,7 +439,7 @@ class Penetrator:
             "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else None,
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else None,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else None,
-            "rod_kinetic_energy_J": bodies.motion(self.sim, self.m)[2],
+            "rod_kinetic_energy_J": body_measurements.motion(self.sim, self.m)[2],
             "rod_residual_velocity_m_s": residual_velocity,
             "rod_residual_mass_kg": residual_mass,
             "rod_residual_length_m": length if residual_mass is not None and not self.left else None,

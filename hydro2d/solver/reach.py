@@ -44,7 +44,7 @@ class Reach(NamedTuple):
 
     lowest, highest : coldest and hottest state, which bound the mean;  cell_lowest, cell_highest : those of a cell
     worked : heat by plastic strain, J/kg, at the largest flow stress of the law;  plastic : that allowed in a cell
-    rubbing : heat of friction in a cell by time, W/kg
+    friction_heating : heat of friction in a cell by time, W/kg
     shear : shear modulus, Pa, by which elastic energy counts;  chill : energy by which a cell may be colder than 0 K, J/kg
     gas : which bodies are gases;  warm : which begin above a temperature of zero; bool[m]
     speed : the closing speed, m/s;  pressure : the highest pressure of the shot, Pa
@@ -59,7 +59,7 @@ class Reach(NamedTuple):
     cell_highest: np.ndarray
     worked: np.ndarray
     plastic: np.ndarray
-    rubbing: np.ndarray
+    friction_heating: np.ndarray
     shear: np.ndarray
     chill: np.ndarray
     gas: np.ndarray
@@ -120,7 +120,8 @@ def of(deck, table, state, start) -> Reach:
         cell_lowest=np.minimum(first, 0.0) - CELL_COLDER * (highest - first) - noise,
         cell_highest=np.maximum(first, 0.0) + np.maximum(CELL_HOTTER * (highest - first), speed**2) + noise,
         worked=np.array([strongest(table, m, pressure) for m in range(len(table))]) / density,
-        plastic=IDEAL_STRENGTH * shear / density, rubbing=deck.sliding.friction * pressure * speed / (finest * density),
+        plastic=IDEAL_STRENGTH * shear / density,
+        friction_heating=deck.sliding.friction * pressure * speed / (finest * density),
         shear=shear, chill=CHILL * (highest - lowest),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
         speed=speed, pressure=pressure, stands=_stands(deck),
@@ -144,7 +145,7 @@ def _highest(deck, pressures: list[float]) -> float:
     A body that meets a wall, or itself in a flow, reaches its own.
     """
     alone = len(pressures) == 1 or any(body.flow for body in deck.body)
-    stopped = alone or any(edge.holds() and edge.name != "axis" for edge in _edges(deck))
+    stopped = alone or any(edge.constrains() and edge.name != "axis" for edge in _edges(deck))
     return sorted(pressures)[-1 if stopped else -2]
 
 
@@ -184,7 +185,7 @@ def closing_speed(deck, grid) -> float:
 
 def _stands(deck) -> bool:
     """Whether there is an edge across z that bodies can meet: a wall, an anvil, dashpots, or one with its own velocity."""
-    return any(edge.holds() or edge.traction() != FREE for edge in _edges(deck)[2:])
+    return any(edge.constrains() or edge.traction() != FREE for edge in _edges(deck)[2:])
 
 
 def drift(start: Totals) -> float:

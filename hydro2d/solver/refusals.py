@@ -48,9 +48,10 @@ class Refusals:
             return
         j = j0 + int(np.argmax(s.turned[j0:j1, 0] >= 0))
         i, m = s.turned[j].tolist()
+        share = s.pre_sweep_volume[j, i] / self._cycle.grid.volume[j, i]
         raise UnphysicalState(
             f"{self._where(j, i, m)}: the step of {self._cycle.dt:.3g} s turned the cell inside out"
-            f"{' along one direction' if second else ''}, to {s.pre[j, i] / self._cycle.grid.volume[j, i]:.3g} of its volume")
+            f"{' along one direction' if second else ''}, to {share:.3g} of its volume")
 
     @property
     def _when(self) -> str:

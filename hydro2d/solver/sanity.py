@@ -133,7 +133,7 @@ def doubts(state, table, time: float, reach: Reach, given: np.ndarray) -> Iterat
 
     grid, worst = state.grid, np.zeros((2, 3))
     for m, name in enumerate(table.names):
-        high = reach.cell_highest[m] + reach.rubbing[m] * time + given[m]
+        high = reach.cell_highest[m] + reach.friction_heating[m] * time + given[m]
         worst_energies(grid.g, grid.nz, grid.nr, m, SLIVER, reach.cell_lowest[m], high, reach.plastic[m], MOST_STRAIN,
                        reach.shear[m], reach.warm[m], reach.chill[m], table.eos_model[m], table.memory[m], table.eos_par[m],
                        state.vof, state.q, worst)

@@ -20,14 +20,14 @@ from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
-from hydro2d.solver import bodies, debris, insertion, reach
+from hydro2d.solver import body_measurements, debris, insertion, reach
 from hydro2d.solver.audit import Audit, Totals, totals
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
-from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
-from hydro2d.solver.memory import refuse_too_large
+from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
+from hydro2d.solver.memory_needed import refuse_too_large
 from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
-from hydro2d.solver.record import Recorder
+from hydro2d.solver.recorder import Recorder
 from hydro2d.solver.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.solver.sources import Sources
 from hydro2d.solver.targets import targets
@@ -99,7 +99,7 @@ class Simulation:
         #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
         self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
         self.columns: dict[str, Callable[[Simulation], float]] = {}
-        self.lengths = bodies.lengths(self)
+        self.lengths = body_measurements.lengths(self)
         self.formulas = derived.expressions(deck)
         assert deck.output.history_interval is not None, "a resolved deck has one"
         self._recorder = Recorder(deck.output.history_interval)
@@ -114,11 +114,11 @@ class Simulation:
         penetrated = targets(self.deck, direction)
         return Penetrator(self, self.deck, penetrated, direction), [Crater(self, target, direction) for target in penetrated]
 
-    def _mesh(self, slots: list[str], method: Method) -> StandingMesh | FollowingMesh:
+    def _mesh(self, slots: list[str], method: Method) -> FixedMesh | FollowingMesh:
         """The motion of the mesh."""
         name = self.deck.mesh.follow
         if name is None:
-            return StandingMesh()
+            return FixedMesh()
         direction = float(np.sign(decks.body(self.deck, name).velocity[1]))
         space = UndisturbedSpace(self.deck, self.table, self.grid)
         inner, outer, *_ = method.boundaries.having("mirrors")
@@ -149,7 +149,7 @@ class Simulation:
         ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
         for edge, (at, kind, velocity) in enumerate(zip(ends, conditions.edges, conditions.velocity, strict=True)):
             normal = s.u[..., at] if edge < 2 else s.v[:, at]
-            if kind.holds():
+            if kind.constrains():
                 normal[...] = velocity
             elif kind.traction() == PUSH:
                 (np.maximum if edge % 2 == 0 else np.minimum)(normal, 0.0, out=normal)
@@ -348,8 +348,8 @@ class Simulation:
         return self.table.names[self.penetrator.m] if self.penetrator else None
 
     def of_bodies(self) -> dict[str, dict[str, float | None]]:
-        """Mass, motion and extent of every body, see `bodies.measure`."""
-        return bodies.measure(self)
+        """Mass, motion and extent of every body, see `body_measurements.measure`."""
+        return body_measurements.measure(self)
 
     def conservation(self) -> dict:
         """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name.
@@ -416,7 +416,7 @@ class Simulation:
 
         Raises FieldError.
         """
-        from hydro2d.output import derived as fields_now
+        from hydro2d.output import derived_quantities as fields_now
 
         quantity = quantities.BY_KEY.get(key)
         if quantity is None:
@@ -437,7 +437,7 @@ class Simulation:
 
     def to_pyvista(self) -> pyvista.RectilinearGrid:
         """All present quantities, as cell data of a pyvista.RectilinearGrid with x = r, y = z."""
-        from hydro2d.output import derived as fields_now
+        from hydro2d.output import derived_quantities as fields_now
         from hydro2d.output import vtk
 
         return vtk.pyvista_of(self.grid.r_edges, self.grid.z_edges, fields_now.evaluated(self), self.time)

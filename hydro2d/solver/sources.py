@@ -67,7 +67,7 @@ class Impulse(NamedTuple):
     """The effect of a source on one component (0 radial, 1 axial) of the velocities of a body group in a step.
 
     passed : impulses on the vertices of the mesh, N s, per radian, float64[nz + 1, nr + 1];  gained : their velocities
-    taken : (sink, line, impulses) of the edges that constrain vertices
+    absorbed : (sink, line, impulses) of the edges that constrain vertices
     """
 
     name: str
@@ -75,7 +75,7 @@ class Impulse(NamedTuple):
     component: int
     passed: np.ndarray
     gained: np.ndarray
-    taken: list[tuple[str, tuple, np.ndarray]]
+    absorbed: list[tuple[str, tuple, np.ndarray]]
 
 
 class Sources:
@@ -115,7 +115,7 @@ class Sources:
         return begin([entry for entry, _ in self._all], [m for _, m in self._all], s.grid, self._table,
                      inner(s.vof), inner(s.rho), {m: inner(s.q[INTERNAL:, m]) for _, m in self._all})
 
-    def give(self, time: float, dt: float, audit: Audit) -> None:
+    def add_heat(self, time: float, dt: float, audit: Audit) -> None:
         """Adds the heat of the step from ``time`` on to the bodies in their state after it, and books it; J per radian."""
         s, grid = self.state, self.state.grid
         for entry, m in self._all:
@@ -130,14 +130,14 @@ class Sources:
             audit.add(entry.name, energy=-float(np.sum(vof * rho * grid.interior(grid.volume) * gained)))
             self.given[m] += float(np.abs(heat).max(initial=0.0))
 
-    def push(self, time: float, dt: float, held: Iterable[tuple[str, int, tuple]]) -> None:
+    def push(self, time: float, dt: float, constrained_vertices: Iterable[tuple[str, int, tuple]]) -> None:
         """Computes the velocity that sources add to the vertices from ``time`` to ``time + dt``.
 
         The material of a cell gains it, and a vertex moves with the contents of its cells: its velocity changes by the
         impulse of the corner masses over its mass. An edge that constrains its vertices takes their impulse.
 
-        held : (sink, component, line) of the constraining edges: 0 for radial velocities and 1 for axial ones;  index of
-        their vertices among those of the mesh
+        constrained_vertices : (sink, component, line) of the constraining edges: 0 for radial velocities and 1 for axial ones;
+        index of their vertices among those of the mesh
         """
         if self.pushed.size == 0:
             return
@@ -148,7 +148,7 @@ class Sources:
         for component in range(2):
             for name, m, gain in gains:
                 impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
-                absorbed = [(sink, line, impulse[line].copy()) for sink, of, line in held if of == component]
+                absorbed = [(sink, line, impulse[line].copy()) for sink, of, line in constrained_vertices if of == component]
                 for _, line, _ in absorbed:
                     impulse[line] = 0.0
                 mass = grid.interior_vertices(s.mass[s.group[m]])
@@ -166,8 +166,8 @@ class Sources:
             start, end = (s.u0, s.u) if component == 0 else (s.v0, s.v)
             mean = 0.5 * (grid.interior_vertices(start[g]) + grid.interior_vertices(end[g]))
             momentum, energy = component * float(impulse.sum()), float((impulse * mean).sum())
-            for sink, line, lost in absorbed:
-                part, work = component * float(lost.sum()), float((lost * mean[line]).sum())
+            for sink, line, absorbed_impulse in absorbed:
+                part, work = component * float(absorbed_impulse.sum()), float((absorbed_impulse * mean[line]).sum())
                 momentum, energy = momentum + part, energy + work
                 audit.add(sink, momentum=part, energy=work)
             audit.add(name, momentum=-momentum, energy=-energy)

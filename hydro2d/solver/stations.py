@@ -43,15 +43,15 @@ class Stations:
         on_surface = {f"gauge_{name}": entry for entry in deck.gauge if entry.surface is not None for name, _ in entry.places()}
         self._followers = {n: Follower(sim, on_surface[name], self.places[n]) for n, name in enumerate(self.names)
                            if name in on_surface}
-        self._found = np.zeros((len(self.names), len(QUANTITIES)))
+        self._values = np.zeros((len(self.names), len(QUANTITIES)))
 
     def _look(self) -> None:
         g, s, t = self._sim.grid, self._sim.state, self._sim.table
         tracers.sample(g.g, g.nr, g.nz, g.r, g.z, self._groups, s.group, t.eos_model, t.memory, t.eos_par, s.vof, s.q, s.u, s.v,
-                       self.places, self._found)
+                       self.places, self._values)
         for n, follower in self._followers.items():
-            self._found[n, [U, V]] = follower.velocity()
-        tracers.keep_peaks(self._sim.time, self._found, self.peaks)
+            self._values[n, [U, V]] = follower.velocity()
+        tracers.keep_peaks(self._sim.time, self._values, self.peaks)
 
     def record(self) -> None:
         """After a cycle: tracers follow the velocity in their cell, bilinear, by the midpoint rule; gauges stay on
@@ -74,7 +74,7 @@ class Stations:
             return {}
         self._look()
         keys = ("r_m", "z_m", *QUANTITIES, *PEAKS)
-        rows = np.concatenate([self.places, self._found, self.peaks], axis=1)
+        rows = np.concatenate([self.places, self._values, self.peaks], axis=1)
         known = np.where(np.isfinite(rows), rows, None).tolist()
         return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, known, strict=True)}
 

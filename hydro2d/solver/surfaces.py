@@ -7,7 +7,7 @@ import numpy as np
 from hydro2d.base.errors import DeckError
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import FILLED
-from hydro2d.solver import bodies, tracers
+from hydro2d.solver import body_measurements, tracers
 
 #: largest distance that a surface may move in a cycle, in cells
 NEAR = 2.0
@@ -36,7 +36,7 @@ def thin_surfaces(sim, m: int, axis: int, line: int) -> list[tuple[float, int]]:
     """`surfaces` of body m on a line of cells, along r (axis 0) or z (1), from its boxes; neighbouring ones are merged."""
     ends: list[tuple[float, int]] = []
     before = -2
-    for _, cell, low, high in bodies.boxes(sim, m, axis, line):
+    for _, cell, low, high in body_measurements.boxes(sim, m, axis, line):
         if cell == before + 1:
             ends[-1] = high, 1
         else:
@@ -64,11 +64,11 @@ class Follower:
         self._sim, self._m, self.place = sim, sim.table.names.index(gauge.surface), place
         self._group = int(sim.state.group[self._m])
         self._axis = 0 if gauge.along == "r" else 1
-        found = self._surfaces()
-        if not found:
+        places = self._surfaces()
+        if not places:
             line = f"{'zr'[self._axis]} = {place[1 - self._axis]:g}"
             raise DeckError(f'gauge "{gauge.name}": "{gauge.surface}" has no surface within the mesh on the line {line} m')
-        self.place[self._axis], self._side = min(found, key=lambda one: abs(one[0] - self.place[self._axis]))
+        self.place[self._axis], self._side = min(places, key=lambda one: abs(one[0] - self.place[self._axis]))
 
     def velocity(self) -> np.ndarray:
         """Velocity (u, v) of the body one cell inside its surface, or at its middle, m/s; NaN if there is no surface.

@@ -94,7 +94,7 @@ def advect(g, nr, nz, dt, r, z, own, group, vof, u, v, points):
 
 
 @serial
-def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v, points, found):
+def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v, points, values):
     """Values in the cell of each point: mixtures over the bodies, as in the fields of these names.
 
     Pressure and stress are sums of volume fraction times value, with zero for void; temperature, strain and damage are means by
@@ -103,19 +103,19 @@ def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v
 
     Reads    r, z edges;  own [n], groups of the points (`group_at`);  group, eos_model, memory [m], eos_par [m, k];
              vof [m, j, i], q [k, m, j, i];  u, v [b, j-1/2, i-1/2];  points [n, 2]
-    Writes   found [n, QUANTITIES]
+    Writes   values [n, QUANTITIES]
     """
     for n in range(points.shape[0]):
         at_r, at_z = points[n, 0], points[n, 1]
         if not (r[g] <= at_r <= r[g + nr] and z[g] <= at_z <= z[g + nz]):
-            found[n] = nan
+            values[n] = nan
             continue
         i, x = place(r, g, nr, at_r)
         j, y = place(z, g, nz, at_z)
         b = group_at(own[n], group, vof, j, i)
-        found[n] = 0.0
-        found[n, U] = between(u[b], j, i, x, y)
-        found[n, V] = between(v[b], j, i, x, y)
+        values[n] = 0.0
+        values[n, U] = between(u[b], j, i, x, y)
+        values[n, V] = between(v[b], j, i, x, y)
         for m in range(vof.shape[0]):
             f = vof[m, j, i]
             if f <= 0.0:
@@ -125,42 +125,42 @@ def sample(g, nr, nz, r, z, own, group, eos_model, memory, eos_par, vof, q, u, v
             if q[DMG, m, j, i] >= 1.0:
                 pressure = max(pressure, 0.0)
             mass = f * q[RHO, m, j, i]
-            found[n, DENSITY] += mass
-            found[n, PRESSURE] += f * pressure
-            found[n, S_RR] += f * q[SRR, m, j, i]
-            found[n, S_ZZ] += f * q[SZZ, m, j, i]
-            found[n, S_RZ] += f * q[SRZ, m, j, i]
-            found[n, TEMPERATURE] += mass * temperature
-            found[n, STRAIN] += mass * q[EP, m, j, i]
-            found[n, FAILED] += mass * min(q[DMG, m, j, i], 1.0)
-        mass = max(found[n, DENSITY], 1e-300)
-        found[n, TEMPERATURE] /= mass
-        found[n, STRAIN] /= mass
-        found[n, FAILED] /= mass
-        found[n, MISES] = von_mises(found[n, S_RR], found[n, S_ZZ], found[n, S_RZ])
-        found[n, S_TT] = -(found[n, S_RR] + found[n, S_ZZ]) - found[n, PRESSURE]
-        found[n, S_RR] -= found[n, PRESSURE]
-        found[n, S_ZZ] -= found[n, PRESSURE]
+            values[n, DENSITY] += mass
+            values[n, PRESSURE] += f * pressure
+            values[n, S_RR] += f * q[SRR, m, j, i]
+            values[n, S_ZZ] += f * q[SZZ, m, j, i]
+            values[n, S_RZ] += f * q[SRZ, m, j, i]
+            values[n, TEMPERATURE] += mass * temperature
+            values[n, STRAIN] += mass * q[EP, m, j, i]
+            values[n, FAILED] += mass * min(q[DMG, m, j, i], 1.0)
+        mass = max(values[n, DENSITY], 1e-300)
+        values[n, TEMPERATURE] /= mass
+        values[n, STRAIN] /= mass
+        values[n, FAILED] /= mass
+        values[n, MISES] = von_mises(values[n, S_RR], values[n, S_ZZ], values[n, S_RZ])
+        values[n, S_TT] = -(values[n, S_RR] + values[n, S_ZZ]) - values[n, PRESSURE]
+        values[n, S_RR] -= values[n, PRESSURE]
+        values[n, S_ZZ] -= values[n, PRESSURE]
 
 
 @serial
-def keep_peaks(time, found, peaks):
+def keep_peaks(time, values, peaks):
     """Updates the extreme values of points by their present ones; NaN does not count.
 
-    Reads    found [n, QUANTITIES]
+    Reads    values [n, QUANTITIES]
     Updates  peaks [n, PEAKS]
     """
-    for n in range(found.shape[0]):
-        if not found[n, DENSITY] >= 0.0:
+    for n in range(values.shape[0]):
+        if not values[n, DENSITY] >= 0.0:
             continue
-        if found[n, PRESSURE] > peaks[n, 0]:
-            peaks[n, 0] = found[n, PRESSURE]
+        if values[n, PRESSURE] > peaks[n, 0]:
+            peaks[n, 0] = values[n, PRESSURE]
             peaks[n, 1] = time
-        peaks[n, 2] = min(peaks[n, 2], found[n, PRESSURE])
-        peaks[n, 3] = max(peaks[n, 3], sqrt(found[n, U] ** 2 + found[n, V] ** 2))
-        peaks[n, 4] = max(peaks[n, 4], found[n, MISES])
-        peaks[n, 5] = max(peaks[n, 5], found[n, TEMPERATURE])
-        peaks[n, 6] = max(peaks[n, 6], found[n, STRAIN])
+        peaks[n, 2] = min(peaks[n, 2], values[n, PRESSURE])
+        peaks[n, 3] = max(peaks[n, 3], sqrt(values[n, U] ** 2 + values[n, V] ** 2))
+        peaks[n, 4] = max(peaks[n, 4], values[n, MISES])
+        peaks[n, 5] = max(peaks[n, 5], values[n, TEMPERATURE])
+        peaks[n, 6] = max(peaks[n, 6], values[n, STRAIN])
 
 
 def velocity_at(grid, state, points, group: int | None = None) -> np.ndarray:

@@ -94,7 +94,7 @@ def test_a_signal_waits_for_the_end_of_an_import(tmp_path, number):
     slow = "import time\nprint('begun', flush=True)\ntime.sleep(1)\nprint('whole', flush=True)\n"
     (tmp_path / "slow_module.py").write_text(slow)
     script = """
-from hydro2d import interrupt
+from hydro2d.base import interrupt
 interrupt.raise_between_imports()
 try:
     import slow_module, time
@@ -117,7 +117,7 @@ except KeyboardInterrupt:
 def test_a_signal_is_not_lost_where_python_has_nobody_to_raise_it_to(lost):
     script = f"""
 import time
-from hydro2d import interrupt
+from hydro2d.base import interrupt
 interrupt.raise_between_imports()
 def wait():
     print('going', flush=True)

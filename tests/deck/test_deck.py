@@ -14,7 +14,7 @@ import pytest
 from hydro2d.base.errors import nearest
 from hydro2d.deck import deck, key_messages
 from hydro2d.deck.layout import axis_edges
-from hydro2d.files.lines import line_of
+from hydro2d.files.key_lines import line_of
 
 TEXT = """\
 title = "a rod and a plate"

@@ -18,7 +18,7 @@ def half_of(j, i, w):
     return 0.5 * w.u[0, j, i]
 
 
-@jit.apart
+@jit.not_inlined
 def pushed(j, i, more, w):
     """Velocity that a vertex gains."""
     return w.dt * half_of(j, i, w) + more

@@ -16,7 +16,7 @@ from hydro2d.base.terminal import duration
 from hydro2d.deck import deck as decks
 from hydro2d.files.locks import turn
 from hydro2d.jit import cache, compilation, phases, recording
-from hydro2d.jit.compilation import Second, announced, expect, is_compiled, once, told_of
+from hydro2d.jit.compilation import Second, announced, expect, is_compiled, once, progress_of
 from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.mesh import sums
 from hydro2d.running import compile_all
@@ -67,8 +67,8 @@ def test_one_line_moves_while_a_kernel_is_waited_for(place):
         with first_call("b"):
             time.sleep(0.1)
         assert place.moved[-1] == ("compiling kernels: 2 of 3, 0 s", 2 / 3)
-        assert compiled.settled() == [f"compiled 2 kernels in {duration(compiled.seconds, tenths=True)}"]
-        assert compiled.settled() == []  # it is reported once
+        assert compiled.closing_lines() == [f"compiled 2 kernels in {duration(compiled.seconds, tenths=True)}"]
+        assert compiled.closing_lines() == []  # it is reported once
     with first_call("c"):  # outside: no report
         time.sleep(0.1)
     assert len(place.rested) == 2
@@ -85,7 +85,7 @@ def test_unexpected_compilations_are_counted(place):
         assert compiled.state == (1, 2)
         assert compiled.happened
         compiled.expect(None)
-        assert compiled.told().startswith("compiling kernels: 1 so far, ")
+        assert compiled.progress_line().startswith("compiling kernels: 1 so far, ")
 
 
 def test_silence_where_kernels_come_from_the_cache(place):
@@ -93,7 +93,7 @@ def test_silence_where_kernels_come_from_the_cache(place):
         for name in "abcdefgh":
             with first_call(name):
                 time.sleep(0.01)
-        assert compiled.settled() == []
+        assert compiled.closing_lines() == []
         assert not compiled.happened
     assert (place.moved, place.rested) == ([], [])
 
@@ -171,7 +171,7 @@ def test_a_compilation_that_fails_is_tried_again(tmp_path, monkeypatch):
 def test_of_two_processes_one_compiles(tmp_path):
     """The second waits for the first, and finds the work done."""
     code = (
-        "import sys, time; from hydro2d import compilation\n"
+        "import sys, time; from hydro2d.jit import compilation\n"
         "def slow(): time.sleep(0.5); open(sys.argv[1], 'a').write('x')\n"
         "compilation.once('a', slow)"
     )
@@ -237,7 +237,7 @@ def test_a_second_process_that_fails_is_said_to(place, monkeypatch):
     with announced(place, SimpleNamespace(to_toml=lambda: "no deck at all")) as compiled:
         compiled.expect(["a", "b"])
         assert compiled._second._process.wait(120) == 1
-        assert compiled.settled() == ["the second process for compilation failed with exit status 1; only time was lost"]
+        assert compiled.closing_lines() == ["the second process for compilation failed with exit status 1; only time was lost"]
 
 
 def test_a_second_process_is_started_for_several_kernels_and_ended(place, monkeypatch):
@@ -273,11 +273,11 @@ def test_the_process_that_compiles_for_all_tells_the_others(place, tmp_path, mon
     def compiles():
         with first_call("a"):
             time.sleep(0.3)
-            lines.append(told_of("key"))
+            lines.append(progress_of("key"))
 
     once("key", compiles)
     assert lines == ["compiling kernels: 0 so far, 0 s"]
-    assert told_of("key") == ""
+    assert progress_of("key") == ""
 
 
 def test_turns_are_taken(tmp_path):

@@ -33,7 +33,7 @@ def read():
 
 def filled() -> Handle:
     handle = Handle()
-    handle.give(dt=1.5e-9, i1=7, travels=True, u=np.arange(24.0).reshape(2, 3, 4), zone=np.full((2, 3), -3, dtype=np.int8),
+    handle.update(dt=1.5e-9, i1=7, travels=True, u=np.arange(24.0).reshape(2, 3, 4), zone=np.full((2, 3), -3, dtype=np.int8),
                 gases=np.array([False, True]), mixed_count=np.array([4, 5, 6]), p=np.zeros((2, 2)))
     return handle
 
@@ -43,14 +43,14 @@ def test_compiled_code_reads_and_writes_by_name(read):
     read(handle.address, values)
     assert values.tolist() == [1.5e-9, 7.0, 1.0, 23.0, 234.0, -3.0, 1.0, 6.0]
     assert handle.p.tolist() == [[0.0, 0.0], [0.0, 7.0]]
-    handle.give(dt=2.0, travels=False, u=np.arange(48.0).reshape(2, 4, 6))
+    handle.update(dt=2.0, travels=False, u=np.arange(48.0).reshape(2, 4, 6))
     read(handle.address, values)
     assert values.tolist() == [2.0, 7.0, 0.0, 39.0, 246.0, -3.0, 1.0, 6.0]
 
 
 def test_two_handles_have_values_of_their_own(read):
     one, other, values = filled(), filled(), np.zeros(8)
-    other.give(dt=3.0)
+    other.update(dt=3.0)
     read(one.address, values)
     assert values[0] == 1.5e-9
 
@@ -58,7 +58,7 @@ def test_two_handles_have_values_of_their_own(read):
 def test_a_handle_keeps_its_arrays_alive(read):
     handle, values = filled(), np.zeros(8)
     for _ in range(20):
-        handle.give(u=np.full((2, 3, 4), 5.0))
+        handle.update(u=np.full((2, 3, 4), 5.0))
         np.full((2, 3, 4), -1.0)
         read(handle.address, values)
         assert values[3] == 5.0
@@ -71,7 +71,7 @@ def test_a_handle_keeps_its_arrays_alive(read):
 def test_arrays_of_another_type_are_refused(value):
     handle = filled()
     with pytest.raises(TypeError, match="u is an array of float64 with 3 axes"):
-        handle.give(u=value)
+        handle.update(u=value)
     assert handle.u.shape == (2, 3, 4)
 
 
@@ -79,12 +79,12 @@ def test_arrays_of_another_type_are_refused(value):
                                              ("travels", 2), ("travels", np.zeros(1))])
 def test_numbers_of_another_type_are_refused(name, value):
     with pytest.raises(TypeError, match=f"{name} is a number"):
-        filled().give(**{name: value})
+        filled().update(**{name: value})
 
 
 def test_names_that_nobody_has_declared_are_refused():
     with pytest.raises(KeyError):
-        filled().give(nonsense=1.0)
+        filled().update(nonsense=1.0)
     with pytest.raises(AttributeError):
         _ = filled().nonsense
     with pytest.raises(numba.TypingError, match="nonsense"):
@@ -99,7 +99,7 @@ def test_a_name_has_one_meaning():
 
 def test_names_exchange_their_arrays():
     handle, one, other = jit.Handle(), np.full((2, 1, 3, 4), 1.0), np.full((2, 1, 3, 4), 2.0)
-    handle.give(velocity=one, velocity0=other)
+    handle.update(velocity=one, velocity0=other)
     before = handle._words.copy()
     handle.exchange(("velocity",), ("velocity0",))
     assert handle.velocity is other

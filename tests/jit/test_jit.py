@@ -163,7 +163,7 @@ def test_an_edit_compiles_again_what_can_see_it_and_nothing_else():
     sees_strength = {file.stem for file in KERNELS if "strength/power_law.py" in seen_by(f"hydro2d/kernels/{file.name}")}
     assert {"deformation", "mixed"} <= sees_strength
     assert not sees_strength & {"remap", "momentum", "interfaces", "contact_geometry", "contact_motion", "contact_velocities",
-                                "contact_volumes", "acceleration", "sliding", "column_ranges", "following", "boundaries"}
+                                "contact_volumes", "vertex_forces", "sliding", "column_ranges", "mesh_motion", "boundaries"}
     assert "hydro2d/physics/interfaces.py" in seen_by("hydro2d/kernels/contact/contact_volumes.py")
     assert "hydro2d/physics/interfaces.py" not in seen_by("hydro2d/kernels/momentum.py")
 
@@ -217,19 +217,19 @@ def test_a_cache_in_the_current_directory_is_only_used_where_the_user_asks_for_i
     assert cache.root.__wrapped__() == str(tmp_path / "here")
 
 
-@pytest.mark.parametrize("apart", [True, False])
-def test_arrays_of_kernels_are_promised_not_to_overlap(apart):
+@pytest.mark.parametrize("promised", [True, False])
+def test_arrays_of_kernels_are_promised_not_to_overlap(promised):
     """The option is numba's own; without it the compiler compares addresses before every loop."""
     def add(n, a, b):
         for i in range(n):
             a[i] += b[i]
 
     assert jit.kernel(add).compiled.targetoptions["noalias"]
-    made = numba.njit(**options.OPTIONS, noalias=apart)(add)
+    made = numba.njit(**options.OPTIONS, noalias=promised)(add)
     made.compile((numba.int64, numba.float64[::1], numba.float64[::1]))
     (text,) = made.inspect_llvm().values()
     (head,) = [line for line in text.splitlines() if line.startswith("define ") and "%arg.a.4" in line]
-    assert len(re.findall(r"noalias[^,]*%arg\.[ab]\.4", head)) == (2 if apart else 0), head
+    assert len(re.findall(r"noalias[^,]*%arg\.[ab]\.4", head)) == (2 if promised else 0), head
 
 
 @pytest.mark.parametrize("only_calls", [True, False])

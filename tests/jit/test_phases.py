@@ -22,7 +22,7 @@ def text(*steps) -> list[str]:
 
 def test_a_list_becomes_a_function():
     assert text(column_ranges.widen_ranges, WAIT, when("travels", alone(thermodynamics.least_step), WAIT),
-                unless("dj", given(momentum.deposit, ranges="warmed", deficit="heat"))) == [
+                unless("dj", given(momentum.deposit, ranges="heated_columns", deficit="heat"))) == [
         "    _0(part, w.body_ranges, w.group_ranges, w.parts)",
         "    wait(w.gate, w.parts)",
         "    if w.travels:",
@@ -30,7 +30,7 @@ def test_a_list_becomes_a_function():
         "            _1(w.bad, w.least_row, w.parts, w.row_step)",
         "        wait(w.gate, w.parts)",
         "    if not w.dj:",
-        "        _2(part, w.warmed, w.heat, w.cell_mass, w.deposited, w.group, w.metrics, w.parts, w.q, w.vof)",
+        "        _2(part, w.heated_columns, w.heat, w.cell_mass, w.deposited, w.group, w.metrics, w.parts, w.q, w.vof)",
     ]  # fmt: skip
 
 
@@ -43,8 +43,8 @@ def test_arguments_of_a_phase():
     ((thermodynamics.least_step,), "least_step takes no part: only one part can run it"),
     ((alone(column_ranges.widen_ranges),), "widen_ranges takes a part: it is not for one alone"),
     ((momentum.deposit,), "deposit takes ranges, which is no name"),
-    ((given(momentum.deposit, ranges="warmed", deficit="nonsense"),), "deposit takes nonsense, which is no name"),
-    ((given(momentum.deposit, range="warmed"),), "deposit has no parameter range"),
+    ((given(momentum.deposit, ranges="heated_columns", deficit="nonsense"),), "deposit takes nonsense, which is no name"),
+    ((given(momentum.deposit, range="heated_columns"),), "deposit has no parameter range"),
     ((given(momentum.deposit, vof="q"),), "deposit has no parameter vof"),
     ((when("nonsense", WAIT),), "nonsense is no number"),
     ((when("u", WAIT),), "u is no number"),
@@ -83,7 +83,7 @@ def test_phases_run_as_python_what_the_numbers_choose():
                   when("second", alone(thermodynamics.least_step)), unless("second", column_ranges.find_active_ranges))
     handle = jit.Handle()
     for second in (True, False):
-        handle.give(second=second)
+        handle.update(second=second)
         seen.append([step if step == WAIT else step.kernel.__name__ for step in chosen(phase.steps, handle)])
     assert seen == [["widen_ranges", WAIT, "least_step"], ["widen_ranges", WAIT, "find_active_ranges"]]
 
@@ -94,12 +94,12 @@ def test_a_compiled_phase_waits_and_works_in_parts():
     u, v = np.zeros((1, 13, 9)), np.zeros((1, 13, 9))
     u[0, 4, 3], v[0, 9, 6] = 1.0, 2.0
     moving = np.zeros(4, dtype=int)
-    handle.give(parts=np.array([2, 6, 10]), i0=2, i1=6, u=u, v=v, row_moving=np.zeros((13, 2), dtype=int), moving=moving,
+    handle.update(parts=np.array([2, 6, 10]), i0=2, i1=6, u=u, v=v, row_moving=np.zeros((13, 2), dtype=int), moving=moving,
                 gate=np.zeros(jit.GATE, dtype=int))
     if jit.parts_at_once() >= 2:
         remap_step.find_moving(handle)
         assert moving.tolist() == [4, 10, 3, 7]
-    handle.give(parts=np.array([2, 10]))
+    handle.update(parts=np.array([2, 10]))
     moving[:] = 0
     remap_step.find_moving(handle)
     assert moving.tolist() == [4, 10, 3, 7]

@@ -187,7 +187,7 @@ def shipped(tmp_path, monkeypatch, capsys):
 
     def said(text: str | None = None, **changes: str) -> list[str]:
         cache.say_once.cache_clear()
-        cache.say_if_shipped_in_vain.cache_clear()
+        cache.say_if_shipped_is_unused.cache_clear()
         file = tmp_path / "_compiled" / cache.ABOUT
         write_json(file, {**cache.about(), **changes}) if text is None else file.write_text(text)
         compiled = test_store.made(test_store.add, tmp_path / "_compiled" / "folder", tmp_path / "own")

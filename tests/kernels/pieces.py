@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.kernels import acceleration, boundaries, column_ranges, remap
+from hydro2d.kernels import boundaries, column_ranges, remap, vertex_forces
 from hydro2d.kernels.contact import contact_motion
 from tests.kernels.cells import handle
 
@@ -42,7 +42,7 @@ def keep_one(engine) -> None:
 def sweep_faces(engine) -> None:
     """Volumes that the faces sweep in a step, from the velocities at its start and end."""
     s, g, (_, _, i0, i1) = engine.state, engine.grid, engine.box
-    acceleration.swept_volumes(0, handle(parts=rows(engine), i0=i0, i1=i1, dt=engine.dt, metrics=g.metrics, dz=g.dz,
+    vertex_forces.swept_volumes(0, handle(parts=rows(engine), i0=i0, i1=i1, dt=engine.dt, metrics=g.metrics, dz=g.dz,
                                group_ranges=s.group_ranges, u0=s.u0, v0=s.v0, u=s.u, v=s.v, fr=s.fr, fz=s.fz))
 
 
@@ -52,5 +52,5 @@ def tidy(engine) -> None:
     column_ranges.list_mixed(0, handle(parts=rows(engine), active_range=s.active_range, vof=s.vof, mixed_count=s.mixed_count,
                              mixed=s.mixed, scratch=s.scratch))
     remap.tidy(0, handle(parts=rows(engine), cutoff=method.cutoff, metrics=g.metrics, volume=g.volume, group=s.group,
-               mixed_count=s.mixed_count, mixed=s.mixed, pre=s.pre, dj=0, di=1, fr=s.fr, fz=s.fz, second=True, u=s.u, v=s.v,
-               vof=s.vof, q=s.q, cell_mass=s.cell_mass, removed=s.removed, centroid=s.centroid))
+               mixed_count=s.mixed_count, mixed=s.mixed, pre_sweep_volume=s.pre_sweep_volume, dj=0, di=1, fr=s.fr, fz=s.fz,
+               second=True, u=s.u, v=s.v, vof=s.vof, q=s.q, cell_mass=s.cell_mass, removed=s.removed, centroid=s.centroid))

@@ -90,7 +90,7 @@ def test_kernels(monkeypatch, options):
     assert after == before
 
 
-@pytest.mark.parametrize("compiled", [jit.point, jit.apart, jit.serial, jit.kernel])
+@pytest.mark.parametrize("compiled", [jit.point, jit.not_inlined, jit.serial, jit.kernel])
 def test_a_kernel_that_would_allocate_does_not_compile(compiled):
     def first_of(n, a):
         for j in jit.prange(n):

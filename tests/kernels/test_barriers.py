@@ -134,7 +134,7 @@ def owners(address: int, arrays: list) -> list[str]:
 
 def everything_happens(monkeypatch) -> None:
     """Makes rare events happen everywhere: groups part in every cell next to them, every contact node is a slave."""
-    for name in ("meeting", "come_apart"):
+    for name in ("meeting", "is_separating"):
         monkeypatch.setattr(contact_motion, name, lambda *_: True)
     monkeypatch.setattr(extension, "sureness", lambda share: 0.0)
     viscosity = contact_motion.contact_viscosity
@@ -194,10 +194,10 @@ RARE = [
 OFTEN = [
     ("close_cells", "mixed.close_cells", "u"), ("close_cells", "contact_geometry.number_nodes", "contact_node_count"),
     ("find_contact", "contact_geometry.face_apertures", "line"), ("find_contact", "extension.find_extensions", "filled"),
-    ("find_contact", "thermodynamics.least_step", "row_step"), ("accelerate", "acceleration.accelerate", "sig_rr"),
-    ("accelerate", "contact_velocities.settle", "u"), ("accelerate", "boundaries.constrain", "u"),
-    ("deform", "contact_volumes.warm_evened", "even_z"), ("deform", "contact_volumes.contact_work", "fz"),
-    ("deform", "contact_checkerboard.fade_pressures", "room"), ("deform", "deformation.deform", "vof"),
+    ("find_contact", "thermodynamics.least_step", "row_step"), ("accelerate", "vertex_forces.accelerate", "sig_rr"),
+    ("accelerate", "contact_velocities.resolve_contact", "u"), ("accelerate", "boundaries.constrain", "u"),
+    ("deform", "contact_volumes.heat_evened_cells", "even_z"), ("deform", "contact_volumes.contact_work", "fz"),
+    ("deform", "contact_checkerboard.damp_pressures", "room"), ("deform", "deformation.deform", "vof"),
     ("carry_bodies", "interfaces.interface_volumes", "flux_volume"), ("carry_bodies", "contact_volumes.contact_fluxes", "size"),
     ("carry_bodies", "remap.sweep_z", "flux"), ("carry_bodies", "edge_sums.sum_outflow", "edge_flux"),
     ("carry_momentum", "momentum.sweep_momentum", "flux_mass"), ("carry_momentum", "momentum.deposit", "deficit"),

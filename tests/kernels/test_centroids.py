@@ -121,8 +121,8 @@ def crossed(dj, swept, given=None, place=(0.0, 0.0)) -> Cells:
     face[target] = swept
     cells.flux_volume[0, *target] = swept if given is None else given
     cells.flux_place[:, 0, *target] = place
-    cells.pre[...] = 1.0
-    cells.pre[3, 3], cells.pre[target] = 1.0 + swept, 1.0 - swept
+    cells.pre_sweep_volume[...] = 1.0
+    cells.pre_sweep_volume[3, 3], cells.pre_sweep_volume[target] = 1.0 + swept, 1.0 - swept
     for row, column in ((3, 3), target):
         cells.mixed[row, cells.mixed_count[row]] = column
         cells.mixed_count[row] += 1
@@ -158,7 +158,7 @@ def test_a_full_cell_that_gives_more_than_comes_keeps_the_rest_where_it_was(dj):
     """It was as large as 1.25 cells; half a cell flows on and the cell behind gives nothing."""
     cells = crossed(dj, 0.5)
     face = cells.fz if dj else cells.fr
-    face[3, 3], cells.pre[3, 3] = 0.25, 1.25
+    face[3, 3], cells.pre_sweep_volume[3, 3] = 0.25, 1.25
     target = (3 + dj, 4 - dj)
     cells.vof[0, 3, 3], cells.vof[0, *target] = 0.75, 0.5
     carry(cells, dj)
@@ -192,10 +192,10 @@ def test_a_centroid_moves_with_the_cell_where_only_void_flows(dj):
     """Both faces move in by a tenth of a cell: the body does not flow, and is as before, in a cell of 0.8 m^3."""
     cells = crossed(dj, -0.1, given=0.0)
     face = cells.fz if dj else cells.fr
-    face[3, 3], cells.pre[3, 3], cells.vof[0, 3, 3], cells.centroid[dj, 0, 3, 3] = 0.1, 0.8, 0.3, 0.2
+    face[3, 3], cells.pre_sweep_volume[3, 3], cells.vof[0, 3, 3], cells.centroid[dj, 0, 3, 3] = 0.1, 0.8, 0.3, 0.2
     carry(cells, dj)
     assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.16, abs=1e-15)
-    face[3 + dj, 4 - dj], cells.pre[3, 3] = 0.1, 1.0  # both forward: it is carried along
+    face[3 + dj, 4 - dj], cells.pre_sweep_volume[3, 3] = 0.1, 1.0  # both forward: it is carried along
     carry(cells, dj)
     assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.26, abs=1e-15)
     carry(cells, dj)
@@ -214,7 +214,7 @@ def test_inflow_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_strip(dj)
         face[face_cell], cells.flux_volume[0, *face_cell] = (-0.2, -0.1) if side else (0.2, 0.1)
         cells.flux_place[:, 0, *face_cell] = np.nan
         cells.centroid[:, 0, *beyond] = 0.15
-        cells.pre[...], cells.pre[cell] = 1.0, 0.8
+        cells.pre_sweep_volume[...], cells.pre_sweep_volume[cell] = 1.0, 0.8
         cells.vof[0, *cell], cells.vof[0, *beyond] = 0.1, np.nan
         cells.mixed_count[cell[0]], cells.mixed[cell[0], 0] = 1, cell[1]
         carry(cells, dj)
@@ -228,7 +228,7 @@ def test_outflow_through_the_edge_of_the_mesh_is_removed_at_its_place(dj):
     cells = Cells()
     face = cells.fz if dj else cells.fr
     cell = (2, 3) if dj else (3, 2)
-    face[cell], cells.flux_volume[0, *cell], cells.pre[cell], cells.vof[0, *cell] = -0.1, -0.1, 1.1, 0.2
+    face[cell], cells.flux_volume[0, *cell], cells.pre_sweep_volume[cell], cells.vof[0, *cell] = -0.1, -0.1, 1.1, 0.2
     cells.centroid[dj, 0, *cell] = (0.15 - 0.55) / 1.1
     cells.mixed_count[cell[0]], cells.mixed[cell[0], 0] = 1, cell[1]
     carry(cells, dj)
@@ -242,7 +242,7 @@ def test_outflow_through_either_face_is_removed_at_its_place_in_the_strip(dj):
         cells = Cells()
         face = cells.fz if dj else cells.fr
         cell, swept = (3 + dj * side, 3 + (1 - dj) * side), 0.1 if side else -0.1
-        face[cell], cells.flux_volume[0, *cell], cells.pre[3, 3], cells.vof[0, 3, 3] = swept, 0.2 * swept, 1.1, 0.2
+        face[cell], cells.flux_volume[0, *cell], cells.pre_sweep_volume[3, 3], cells.vof[0, 3, 3] = swept, 0.2 * swept, 1.1, 0.2
         cells.flux_place[:, 0, *cell] = place, 0.1
         cells.centroid[dj, 0, 3, 3], cells.mixed_count[3], cells.mixed[3, 0] = 0.1, 1, 3
         carry(cells, dj)
@@ -255,7 +255,7 @@ def test_outflow_through_either_face_is_removed_at_its_place_in_the_strip(dj):
 def test_in_cells_of_a_contact_a_body_moves_with_its_group(dj):
     """The face is at rest; the body's group moves forward by a tenth of a cell, the other one back by two tenths."""
     cells = Cells(bodies=2, group=[1, 0])
-    cells.pre[...] = 1.0
+    cells.pre_sweep_volume[...] = 1.0
     cells.vof[:, 3, 3] = 0.3, 0.4
     cells.centroid[dj, :, 3, 3] = -0.3, 0.2
     cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
@@ -279,16 +279,17 @@ def test_only_cells_that_are_mixed_get_centroids():
 
 def test_sizes_and_volumes_of_a_cell_around_a_sweep():
     """After the first of two sweeps the faces give the size of a cell, after the second it is that of the mesh."""
-    volume, pre, face = np.full((3, 3), 2.0), np.full((3, 3), 1.75), np.zeros((4, 4))
+    face = np.zeros((4, 4))
+    sizes = {"volume": np.full((3, 3), 2.0), "pre_sweep_volume": np.full((3, 3), 1.75), "face": face}
     face[1, 1], face[1, 2], face[2, 1] = 0.5, 0.25, 0.125
-    assert size_after(1, 1, handle(dj=0, di=1, second=True, volume=volume, pre=pre, face=face)) == 2.0
-    assert size_after(1, 1, handle(dj=0, di=1, second=False, volume=volume, pre=pre, face=face)) == 2.0
-    assert size_after(1, 1, handle(dj=1, di=0, second=False, volume=volume, pre=pre, face=face)) == 2.125
+    assert size_after(1, 1, handle(dj=0, di=1, second=True, **sizes)) == 2.0
+    assert size_after(1, 1, handle(dj=0, di=1, second=False, **sizes)) == 2.0
+    assert size_after(1, 1, handle(dj=1, di=0, second=False, **sizes)) == 2.125
     vof, flux = np.full((1, 3, 3), 0.5), np.zeros((1, 4, 4))
     flux[0, 1, 1], flux[0, 1, 2], flux[0, 2, 1] = 0.25, 0.125, 0.0625
-    assert volume_before(0, 1, 1, handle(dj=0, di=1, second=True, volume=volume, pre=pre, face=face, vof=vof,
+    assert volume_before(0, 1, 1, handle(dj=0, di=1, second=True, **sizes, vof=vof,
                          flux_volume=flux)) == 0.875
-    assert volume_before(0, 1, 1, handle(dj=1, di=0, second=False, volume=volume, pre=pre, face=face, vof=vof,
+    assert volume_before(0, 1, 1, handle(dj=1, di=0, second=False, **sizes, vof=vof,
                          flux_volume=flux)) == 0.875
 
 
@@ -299,8 +300,8 @@ def test_a_donor_gives_from_where_it_was_cut_or_all_across_or_from_beyond_the_ed
     place[:, 0, 1, 2], centroid[:, 0] = (0.25, -0.125), 0.0625
 
     def given(j, i):
-        return donor_place(0, j, i, 1, 2, handle(dj=0, di=1, second=True, mesh_box=box, volume=volume, pre=volume, face=face,
-                           vof=vof, flux_volume=flux, flux_place=place, centroid=centroid))
+        return donor_place(0, j, i, 1, 2, handle(dj=0, di=1, second=True, mesh_box=box, volume=volume, pre_sweep_volume=volume,
+                           face=face, vof=vof, flux_volume=flux, flux_place=place, centroid=centroid))
 
     assert given(1, 1) == (0.25, -0.125)
     assert given(1, 3) == (0.0, 0.0625)
@@ -435,7 +436,7 @@ def test_a_cell_that_a_sweep_fills_forgets_its_centroids():
     """Two thirds are in it, and a third flows in."""
     cells = Cells()
     cells.vof[0, 3, 3:5], cells.q[RHO, 0], cells.centroid[:, 0, 3, 4] = (1.0, 0.75), 2.0, 0.1
-    cells.pre[3, 3], cells.pre[3, 4], cells.fr[3, 4] = 1.25, 0.75, 0.25
+    cells.pre_sweep_volume[3, 3], cells.pre_sweep_volume[3, 4], cells.fr[3, 4] = 1.25, 0.75, 0.25
     cells.vof[0, 3, 4], cells.flux_volume[0, 3, 4] = 1.0, 0.25
     cells.mixed_count[3], cells.mixed[3, 0] = 1, 4
     cells.call(remap.sweep_r, face=cells.fr, second=True)

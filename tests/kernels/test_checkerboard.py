@@ -48,7 +48,7 @@ class Block:
             parts=rows, mesh_box=np.array([j0, j1, j0, j1]), dt=STEP, group=group, group_ranges=ranges, volume=g.volume,
             hg_coefficient=hg, cell_mass=cell_mass, contact_columns=columns, inside=inside, checkerboard=found, room=room,
             vof=self.vof, pm=self.pm, km=self.km, q=self.q, fr=self.fr, fz=self.fz, own_r=self.own_r, own_z=self.own_z)
-        for kernel in (kernels.find_insides, kernels.find_checkerboards, kernels.fade_deviators, kernels.fade_pressures):
+        for kernel in (kernels.find_insides, kernels.find_checkerboards, kernels.damp_deviators, kernels.damp_pressures):
             kernel(0, names)
         return self
 
@@ -194,4 +194,4 @@ def test_no_more_than_half_of_it_fades(monkeypatch):
     block = Block()
     block.q[SRR, 1] = 1e9 * block.sign
     block.fade()
-    assert inner(block.q[SRR, 1] / block.sign) == pytest.approx(1e9 * (1 - kernels.MOST), rel=1e-12)
+    assert inner(block.q[SRR, 1] / block.sign) == pytest.approx(1e9 * (1 - kernels.MOST_DAMPED), rel=1e-12)

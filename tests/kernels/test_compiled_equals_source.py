@@ -103,5 +103,5 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     if follows:
         unused |= {"moving_columns", "moving_box"}  # a mesh that travels skips no cells
     else:
-        unused |= {"transmit"} | {name for module, name, _ in kernels if module.__name__ == "hydro2d.kernels.following"}
+        unused |= {"transmit"} | {name for module, name, _ in kernels if module.__name__ == "hydro2d.kernels.mesh_motion"}
     assert seen == {name for _, name, _ in kernels} - unused

@@ -5,13 +5,13 @@ import pytest
 
 from hydro2d.kernels import interfaces
 from hydro2d.kernels.contact import contact_volumes
-from hydro2d.kernels.contact.contact_volumes import OTHERS, contact_fluxes, contact_shares
+from hydro2d.kernels.contact.contact_volumes import BLEND_RANGE, contact_fluxes, contact_shares
 from hydro2d.kernels.interfaces import fill_strips
-from hydro2d.physics.contact import GAP
+from hydro2d.physics.contact_faces import GAP
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-take = contact_volumes.take.source
+add_group_flux = contact_volumes.add_group_flux.source
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
@@ -142,7 +142,7 @@ def test_a_full_cell_takes_its_own_body_more_and_more_as_the_gap_opens(share):
     changes_in_proportion(with_gap, share * GAP, 10.0)
 
 
-@pytest.mark.parametrize("share", [1.0, 1.0 - OTHERS])
+@pytest.mark.parametrize("share", [1.0, 1.0 - BLEND_RANGE])
 def test_a_cell_is_full_by_degrees(share):
     changes_in_proportion(lambda beside: fluxes(upright(0.3, 0.6, beside), -0.01, (-0.01, -0.01)), share, 5.0, sides=(-1.0,))
 
@@ -151,7 +151,7 @@ def shares(hard: float, soft: float, stretch: float) -> tuple[float, float]:
     """(scale of the fractions, size) of a cell of 1 m^3 whose volume before the sweep is stretch."""
     vof, part, size = upright(hard, soft), np.zeros((2, *SHAPE)), np.zeros(SHAPE)
     contact_shares(0, handle(parts=ROWS, mesh_box=MESH_BOX, contact_columns=COLUMNS, volume=np.ones(SHAPE),
-                   pre=np.full(SHAPE, stretch), vof=vof, own_share=part, size=size))
+                   pre_sweep_volume=np.full(SHAPE, stretch), vof=vof, own_share=part, size=size))
     return part[0, ROW, GIVER] / hard, size[ROW, GIVER]
 
 
@@ -160,8 +160,8 @@ def test_the_shares_of_a_cell_do_not_jump_as_it_becomes_one_body_s_or_full(stret
     assert shares(1.0, 0.0, stretch) == (1.0, stretch)
     assert shares(0.6, 0.4, stretch) == pytest.approx((stretch, 1.0))
     assert shares(0.6, 0.3, stretch)[0] == pytest.approx(min(stretch, 1.0 / 0.9))
-    steepness = 1.5 / OTHERS * 0.06
-    for share in (1.0, 1.0 - OTHERS):
+    steepness = 1.5 / BLEND_RANGE * 0.06
+    for share in (1.0, 1.0 - BLEND_RANGE):
         changes_in_proportion(lambda hard: shares(hard, 0.0, stretch), share, steepness, sides=(-1.0,))
         changes_in_proportion(lambda hard: shares(hard, 1.0 - hard, stretch), share, steepness, sides=(-1.0,))
         changes_in_proportion(lambda filled: shares(0.6, filled - 0.6, stretch), share, steepness + 2.0, sides=(-1.0,))
@@ -201,7 +201,7 @@ def taken(g, more, vof, flux):
     """(what group g of bodies soft, hard, soft cannot take, fluxes of all): cells of 2 m^3 left and right of the face."""
     vof, result = np.array(vof)[:, None, :], np.zeros((3, 1, 2))
     result[:, 0, 1] = flux
-    left = take(g, more, 0, 1, handle(dj=0, di=1, group=np.array([0, 1, 0]), own_share=vof, size=np.full((1, 2), 2.0),
+    left = add_group_flux(g, more, 0, 1, handle(dj=0, di=1, group=np.array([0, 1, 0]), own_share=vof, size=np.full((1, 2), 2.0),
                 vof=vof, flux_volume=result))
     return left, list(result[:, 0, 1])
 

@@ -6,29 +6,29 @@ import pytest
 from hydro2d.kernels import momentum
 from hydro2d.kernels.contact import contact_geometry, contact_velocities
 from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z, REACH
-from hydro2d.kernels.contact.contact_velocities import settle, warm_contact
-from hydro2d.kernels.contact.contact_volumes import EVENING, even_out, warm_evened
+from hydro2d.kernels.contact.contact_velocities import heat_contact_nodes, resolve_contact
+from hydro2d.kernels.contact.contact_volumes import EVENING, even_out, heat_evened_cells
 from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
-from hydro2d.physics.contact import GAP
+from hydro2d.physics.contact_faces import GAP
 from hydro2d.physics.momentum import SLIGHT
-from hydro2d.solver import contact
+from hydro2d.solver import contact_ties
 from tests.kernels.cells import handle
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 from tests.physics.continuity import changes_in_proportion
 
 master = contact_velocities.master.py_func
-held = contact_velocities.held.py_func
-give = contact_velocities.give.source
-give_tie = contact_velocities.give_tie.source
+is_constrained = contact_velocities.is_constrained.py_func
+apply_impulse = contact_velocities.apply_impulse.source
+apply_tie_impulse = contact_velocities.apply_tie_impulse.source
 mismatch = contact_velocities.mismatch.source
 list_ties = contact_velocities.list_ties.source
 masters_mobility = contact_velocities.masters_mobility.source
 mobility = contact_velocities.mobility.source
-warm_up = contact_velocities.warm_up.source
-pressed = contact_velocities.pressed.source
+deposit_heat = contact_velocities.deposit_heat.source
+normal_force = contact_velocities.normal_force.source
 face_aperture = contact_geometry.face_aperture.source
 
 NOWHERE = np.full(4, -1)
@@ -60,33 +60,33 @@ def test_places_of_masters_do_not_meet():
 
 def test_axis_and_walls_hold_one_component():
     constrained = np.array([2, 9, -1, 7])
-    assert held(4, 2, constrained) == (True, False)
-    assert held(4, 9, constrained) == (True, False)
-    assert held(7, 5, constrained) == (False, True)
-    assert held(7, 2, constrained) == (True, True)
-    assert held(4, 5, constrained) == (False, False)
+    assert is_constrained(4, 2, constrained) == (True, False)
+    assert is_constrained(4, 9, constrained) == (True, False)
+    assert is_constrained(7, 5, constrained) == (False, True)
+    assert is_constrained(7, 2, constrained) == (True, True)
+    assert is_constrained(4, 5, constrained) == (False, False)
 
 
 @pytest.mark.parametrize(("constrained", "gained"), [(NOWHERE, (1.5, -2.0)), (np.array([1, -1, -1, -1]), (0.0, -2.0)),
                                                (np.array([-1, -1, 1, -1]), (1.5, 0.0))])
 def test_an_impulse_moves_what_is_not_held(constrained, gained):
     mass, u, v, transfer = np.full((2, 3, 3), 2.0), np.zeros((2, 3, 3)), np.zeros((2, 3, 3)), np.zeros((5, 3))
-    give(0, 1, 1, 3.0, -4.0, handle(constrained=constrained, mass=mass, u=u, v=v, transfer=transfer))
+    apply_impulse(0, 1, 1, 3.0, -4.0, handle(constrained=constrained, mass=mass, u=u, v=v, transfer=transfer))
     assert (u[0, 1, 1], v[0, 1, 1]) == gained
     assert np.count_nonzero(u) + np.count_nonzero(v) == np.count_nonzero(gained)
     assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
 
 
 def room_for_ties(slots: int, vertices=(7, 7)):
-    """places and what `settle` writes of ties, which nothing has written yet."""
-    ties = contact.slots(slots)._asdict()
+    """places and what `resolve_contact` writes of ties, which nothing has written yet."""
+    ties = contact_ties.slots(slots)._asdict()
     room = {name: ties[name] for name in ties if name not in ("strength", "masters", "where", "weights")}
     for values in room.values():
         values[...] = np.nan if values.dtype == np.float64 else -1
     return {"places": np.zeros((2, *vertices), dtype=np.int64), **room}
 
 
-def apart(number, where, weights, mass, u, v, constrained):
+def mismatch_of_one_tie(number, where, weights, mass, u, v, constrained):
     """By what the slave of `one_tie`, at (3, 3), differs from its masters."""
     count, nodes, first = np.zeros(7, dtype=np.int64), np.full((7, 7), 3), np.zeros(8, dtype=np.int64)
     count[3] = 1
@@ -102,23 +102,23 @@ def apart(number, where, weights, mass, u, v, constrained):
 def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
     number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
     mass, u, v, transfer = np.full((2, 7, 7), 2.0), np.zeros((2, 7, 7)), np.zeros((2, 7, 7)), np.zeros((5, 7))
-    give_tie(1, 3, 3, 0, 8.0, -4.0, handle(constrained=NOWHERE, masters=number, where=where, weights=weights, mass=mass, u=u,
-             v=v, transfer=transfer))
+    ties = handle(constrained=NOWHERE, masters=number, where=where, weights=weights, mass=mass, u=u, v=v, transfer=transfer)
+    apply_tie_impulse(1, 3, 3, 0, 8.0, -4.0, ties)
     assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
     np.testing.assert_array_equal(v, -0.5 * u)
-    assert apart(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
-    assert apart(number, where, weights, mass, u, v, np.array([2, -1, 3, -1])) == (-4.0 - 0.25 - 1.0, 0.0)
+    assert mismatch_of_one_tie(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
+    assert mismatch_of_one_tie(number, where, weights, mass, u, v, np.array([2, -1, 3, -1])) == (-4.0 - 0.25 - 1.0, 0.0)
 
 
 def test_a_slave_is_as_heavy_as_it_and_its_masters():
     number, where, weights = one_tie((place(0, -1), 0.75), (TIED, 0.25))
     mass, strength = np.full((2, 7, 7), 4.0), np.array([[0.0, 1.0]])
     mass[0, 3, 3] = 2.0
-    ease = 0.75**2 / 4.0 + 0.25**2 / 2.0
+    master_mobility = 0.75**2 / 4.0 + 0.25**2 / 2.0
     ties = handle(constrained=NOWHERE, strength=strength, masters=number, where=where, weights=weights, mass=mass)
-    assert masters_mobility(1, 3, 3, 0, ties) == pytest.approx((ease, ease))
+    assert masters_mobility(1, 3, 3, 0, ties) == pytest.approx((master_mobility, master_mobility))
     assert mobility(0, 3, 3, 0, ties) == 0.5
-    tied = 1.0 / (4.0 + 1.0 / ease)
+    tied = 1.0 / (4.0 + 1.0 / master_mobility)
     assert mobility(1, 3, 3, 0, ties) == pytest.approx(tied)
     strength[0, 1] = 0.25
     assert mobility(1, 3, 3, 0, ties) == pytest.approx(0.25 * tied + 0.75 / 4.0)
@@ -130,11 +130,11 @@ def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
     """By mass, times the size of the weight for a master: a tie of a heavy slave to a light node must not burn that."""
     number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
     mass, heat = np.arange(1.0, 99.0).reshape(2, 7, 7), np.zeros((2, 7, 7))
-    warm_up(1, 3, 3, 0, 6.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
+    deposit_heat(1, 3, 3, 0, 6.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
     assert heat[1, 3, 3] == pytest.approx(6.0 / (
         mass[1, 3, 3] + 0.75 * mass[1, 3, 2] + 0.25 * mass[1, 4, 4] + 0.5 * mass[0, 3, 3]))
     assert heat[0, 3, 3] == pytest.approx(0.5 * heat[1, 3, 3])
-    warm_up(0, 3, 3, 0, 5.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
+    deposit_heat(0, 3, 3, 0, 5.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
     assert np.sum(heat * mass) == pytest.approx(11.0)
     assert heat[1, 3, 2] == pytest.approx(3.0 * heat[1, 4, 4])
 
@@ -143,7 +143,7 @@ def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
 
 
 class Settled:
-    """Random velocities of both groups at the vertices of a mesh, before and after `settle`, and the heat of it."""
+    """Random velocities of both groups at the vertices of a mesh, before and after `resolve_contact`, and the heat of it."""
 
     def __init__(self, found: Extensions, before, strength=None, friction=0.0, constrained=NOWHERE):
         g, slots, vertices, cells = found.grid, int(found.first[-1]), found.grid.vertex_shape, found.grid.shape
@@ -160,8 +160,8 @@ class Settled:
             first_slot=found.first, contact_normal=found.normal, touch=np.ones(vertices), strength=ties[0], masters=ties[1],
             where=ties[2], weights=ties[3], sig_rr=pressure, sig_zz=pressure.copy(), sig_rz=np.zeros(cells), mass=self.mass,
             u0=before[0].copy(), v0=before[1].copy(), u=w[0], v=w[1], **listed, heat=self.heat, transfer=self.transfer)
-        settle(names)
-        warm_contact(names)
+        resolve_contact(names)
+        heat_contact_nodes(names)
         self.after = w
         slot, group = names.nodes[:2]
         #: of every slave: its strength, and by what it differs from its masters before and after
@@ -227,8 +227,8 @@ def test_a_slave_that_is_loosely_tied_goes_part_of_the_way(strength):
     found = Extensions(hard, (1.0, 0.0))
     settled = Settled(found, velocities(found), strength)
     assert len(settled.slaves) == 4
-    m, ease = 0.25 * 0.1, 1.0 / (1.0 - 0.25 * 0.1)
-    met = (1.0 / m + ease) / (1.0 / (strength * m) + ease)
+    m, master_mobility = 0.25 * 0.1, 1.0 / (1.0 - 0.25 * 0.1)
+    met = (1.0 / m + master_mobility) / (1.0 / (strength * m) + master_mobility)
     assert strength < met < 1.0
     for _, before, after in settled.slaves:
         assert after == pytest.approx((1.0 - met) * before, rel=1e-9)
@@ -286,12 +286,12 @@ def test_pressure_on_a_flat_surface_is_force_over_its_area():
     line[contact_geometry.SHARE, :j] = 1.0  # the hard body lies below
     zz = np.full(shape, -3e9)
     nothing = np.zeros(shape)
-    force = pressed(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
+    force = normal_force(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
                     sig_rr=nothing, sig_zz=zz, sig_rz=nothing))
     area = g.az_out[i - 1] + g.az_in[i]
     assert area == pytest.approx(g.face_r[i] * 1e-3, rel=0.02)
     assert force == pytest.approx(3e9 * area)
-    assert pressed(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
+    assert normal_force(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
                    sig_rr=nothing, sig_zz=-zz, sig_rz=nothing)) == 0.0
 
 
@@ -355,15 +355,16 @@ def test_the_steeper_surface_takes_over_without_a_jump(ratio):
 @pytest.mark.parametrize("void", [GAP, 2.0 * GAP])
 @pytest.mark.parametrize("whole", [0.5 * contact_geometry.BETWEEN, contact_geometry.BETWEEN])
 def test_void_parts_the_groups_without_a_jump(void, whole):
-    parted = contact_geometry.parted.py_func
-    changes_in_proportion(lambda x: parted(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
-    changes_in_proportion(lambda x: parted(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
-    assert parted(0.1, 0.0, 1.0) == 1.0
-    for void in (contact_geometry.APART, contact_geometry.FAR_APART):
-        changes_in_proportion(lambda x: parted(x, 1.0, 1.0), void, 2.0 / (contact_geometry.FAR_APART - contact_geometry.APART))
-    assert parted(0.49, 1.0, 1.0) == 0.0
-    assert parted(0.76, 1.0, 1.0) == 1.0
-    assert parted(0.5 * GAP, 0.0, 1.0) == parted(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == parted(0.1, 0.0, 0.0) == 0.0
+    weight = contact_geometry.separation_weight.py_func
+    changes_in_proportion(lambda x: weight(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
+    changes_in_proportion(lambda x: weight(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
+    assert weight(0.1, 0.0, 1.0) == 1.0
+    start, end = contact_geometry.SEPARATION_START, contact_geometry.SEPARATION_FULL
+    for void in (start, end):
+        changes_in_proportion(lambda x: weight(x, 1.0, 1.0), void, 2.0 / (end - start))
+    assert weight(0.49, 1.0, 1.0) == 0.0
+    assert weight(0.76, 1.0, 1.0) == 1.0
+    assert weight(0.5 * GAP, 0.0, 1.0) == weight(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == weight(0.1, 0.0, 0.0) == 0.0
 
 
 # ------------------------------------------------------------------------------- what evens out along the surface
@@ -386,7 +387,7 @@ def evened(pressure, kind=INTERFACE, viscosity=0.0, solid=1.0, stress=(0.0, 0.0,
     even_out(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, skin=skin, bulk=bulk, ph=pressure,
              qr=qr, even_r=r, even_z=z, dt=0.1, dz=np.ones(6), metrics=grid.metrics[:, grid.g:], line=line, sig_rr=rr,
              sig_zz=zz, sig_rz=rz, rhobar=np.full(shape, 5.0), solid=np.broadcast_to(np.asarray(solid, float), shape).copy()))
-    warm_evened(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, ph=pressure, qr=qr, even_r=r,
+    heat_evened_cells(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, ph=pressure, qr=qr, even_r=r,
                 even_z=z, vof=vof, q=q))
     return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
 

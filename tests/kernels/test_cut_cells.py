@@ -18,9 +18,9 @@ skin_deviator = cut_cells.skin_deviator.source
 surface_weight = cut_cells.surface_weight.py_func
 pull_of = cut_cells.pull_of.py_func
 cut_pressure = cut_cells.cut_pressure.source
-grow = cut_cells.grow.source
-fill_room = cut_cells.fill_room.source
-meet_traction = cut_cells.meet_traction.source
+growth_at = cut_cells.growth_at.source
+pressure_for_growth = cut_cells.pressure_for_growth.source
+traction_of_change = cut_cells.traction_of_change.source
 fill_cut_cell = cut_cells.fill_cut_cell.source
 
 RIGID = 1e6  # a yield stress, in units of the modulus, that nothing reaches
@@ -51,7 +51,7 @@ class Cell:
 
     def meet(self, change: float) -> float:
         p, bulk = (np.full((1, 1), x) for x in self.common())
-        return meet_traction(0, 0, change, handle(skin=self.skin, p=p, bulk=bulk, vof=self.vof, pm=self.pm, km=self.km,
+        return traction_of_change(0, 0, change, handle(skin=self.skin, p=p, bulk=bulk, vof=self.vof, pm=self.pm, km=self.km,
                              mix=self.mix, solid=self.solid))
 
     @property
@@ -146,7 +146,7 @@ def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight)
         return cell.meet(change), *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
 
     free = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
-    total, _ = grow(0, 0, 0.0, handle(vof=free.vof, pm=free.pm, km=free.km, mix=free.mix, skin=free.skin))
+    total, _ = growth_at(0, 0, 0.0, handle(vof=free.vof, pm=free.pm, km=free.km, mix=free.mix, skin=free.skin))
     for change in (total, total - void):
         changes_in_proportion(after, change, 10.0)
     assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
@@ -154,18 +154,19 @@ def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight)
 
 def test_growth_of_bodies_falls_with_the_pressure_as_stated():
     cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM), weight=0.6).strained([-0.002, 0.001], [0.003, -0.001])
-    low, give = grow(0, 0, 0.0, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
+    low, compliance = growth_at(0, 0, 0.0, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     by_hand = sum(f * (0.6 / (k + 0.6 * 4.0 / 3.0 * g) + 0.4 / k) for f, (k, g) in ((0.3, STEEL), (0.5, ALUMINIUM)))
-    assert give == pytest.approx(by_hand, rel=1e-12)
-    high, _ = grow(0, 0, 1e-3, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
-    assert (low - high) / 1e-3 == pytest.approx(give, rel=1e-9)  # no body flows, so that is exact
+    assert compliance == pytest.approx(by_hand, rel=1e-12)
+    high, _ = growth_at(0, 0, 1e-3, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
+    assert (low - high) / 1e-3 == pytest.approx(compliance, rel=1e-9)  # no body flows, so that is exact
     assert high == pytest.approx(cell.grown)
 
 
 @pytest.mark.parametrize("start", [-0.01, 0.0, 0.03])
 def test_a_room_is_filled_from_anywhere(start):
     cell = Cell((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM))
-    target = fill_room(0, 0, -0.004, start, handle(vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
+    target = pressure_for_growth(0, 0, -0.004, start, handle(
+        vof=cell.vof, pm=cell.pm, km=cell.km, mix=cell.mix, skin=cell.skin))
     assert cell.grown == pytest.approx(-0.004, rel=1e-9)
     assert cell.normal_pressures() == pytest.approx([target] * 2, rel=1e-9)
 

@@ -6,7 +6,7 @@ In the contact the hard body fills columns 2 and 3, the soft one columns 5 and b
 import numpy as np
 import pytest
 
-from hydro2d.kernels import acceleration
+from hydro2d.kernels import vertex_forces
 from hydro2d.kernels.contact import contact_geometry, contact_motion, contact_volumes
 from hydro2d.kernels.contact.contact_geometry import (
     CONSTANT,
@@ -30,7 +30,7 @@ ROWS = slice(2, 6)
 def test_a_vertex_has_a_quarter_of_every_cell_around():
     cells = Cells()
     cells.cell_mass[0, 3, 3:5] = 4.0, 8.0
-    cells.call(acceleration.vertex_masses, i1=7)
+    cells.call(vertex_forces.vertex_masses, i1=7)
     assert cells.mass[0, 3, 2:7].tolist() == cells.mass[0, 4, 2:7].tolist() == [0, 1, 3, 2, 0]
     assert cells.mass.sum() == 12.0
 
@@ -39,7 +39,7 @@ def test_a_vertex_of_revolution_has_more_of_the_cell_inside_of_it():
     """From r = 1 to 2 m: (2 r1 + r2)/(6 (r1 + r2)) = 2/9 of the cell at an inner vertex, 5/18 at an outer one."""
     cells = Cells(geometry="cylindrical")
     cells.cell_mass[0, 3, 3] = 18.0
-    cells.call(acceleration.vertex_masses, i1=7)
+    cells.call(vertex_forces.vertex_masses, i1=7)
     assert cells.mass[0, 3, 2:6] == pytest.approx([0, 4, 5, 0])
 
 
@@ -55,7 +55,7 @@ def stressed(**q) -> Cells:
 
 
 def sums(cells: Cells, **given) -> list:
-    cells.call(acceleration.total_stress, **{"dt": 0.4, "by_what_is_solid": False, "hard_bodies": np.array([False, False]),
+    cells.call(vertex_forces.total_stress, **{"dt": 0.4, "by_what_is_solid": False, "hard_bodies": np.array([False, False]),
                                              "hard_threshold": 0.5, **given})  # fmt: skip
     return [getattr(cells, name)[3, 3] for name in ("ph", "sig_rr", "sig_zz", "sig_tt", "sig_rz")]
 
@@ -96,7 +96,7 @@ def accelerated(pushed: np.ndarray = NOTHING, **fields) -> Cells:
     for name, value in fields.items():
         getattr(cells, name)[3, 3] = value
     cells.u0[0, 3:5, 3:5] = fields.get("hg_coefficient", 0.0) / 10.0 * np.array([[1, -1], [-1, 1]])
-    cells.call(acceleration.accelerate, dt=0.1, pushed=pushed)
+    cells.call(vertex_forces.accelerate, dt=0.1, pushed=pushed)
     return cells
 
 
@@ -131,7 +131,7 @@ def test_the_push_of_sources_is_added():
 def limited(**given) -> Cells:
     """Vertices of 1 kg around the cell (3, 3) that were at rest and fly apart by 0.4 m/s both ways, limited to 0.2 m/s."""
     cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
-    cells.call(acceleration.limit_speed, speed_limit=0.2, underfilled_density=10.0, **{"edge_velocity": np.zeros(4), **given})
+    cells.call(vertex_forces.limit_speed, speed_limit=0.2, underfilled_density=10.0, **{"edge_velocity": np.zeros(4), **given})
     return cells
 
 
@@ -163,7 +163,7 @@ def test_faces_sweep_what_their_vertices_move():
     """From 4 to 2 m/s in 0.1 s along r, from 0 to 1 m/s at one end along z."""
     cells = Cells()
     cells.u0[0, 3:5, 4], cells.u[0, 3:5, 4], cells.v[0, 4, 3] = 4.0, 2.0, 1.0
-    cells.call(acceleration.swept_volumes, dt=0.1)
+    cells.call(vertex_forces.swept_volumes, dt=0.1)
     assert cells.fr[2:5, 4] == pytest.approx([0.15, 0.3, 0.15])
     assert cells.fz[4, 2:4] == pytest.approx([0.025, 0.025])
     assert np.count_nonzero(cells.fz) == 2
@@ -179,7 +179,7 @@ def halves(nz: int = 4) -> Cells:
     cells.q[RHO, 0], cells.q[RHO, 1] = 1.0, 4.0
     cells.cell_mass[:, 2:2 + nz] = (cells.vof * cells.q[RHO])[:, 2:2 + nz]
     cells.skin[KIND] = WHOLE
-    cells.call(acceleration.vertex_masses, i1=8)
+    cells.call(vertex_forces.vertex_masses, i1=8)
     cells.call(contact_geometry.find_contact_nodes)
     cells.call(contact_geometry.contact_lines)
     cells.call(contact_geometry.face_apertures)
@@ -192,7 +192,7 @@ def test_contact_nodes_are_where_both_groups_have_mass():
     assert cells.contact_nodes[2:7, :2].tolist() == 5 * [[4, 5]]
     assert cells.hard[3, 2:7].tolist() == [1, 1, 0.5, 0, 0]
     assert cells.soft[3, 2:7].tolist() == [0, 0, 0.5, 1, 1]
-    assert cells.warmed[4].tolist() == [2, 7]
+    assert cells.heated_columns[4].tolist() == [2, 7]
     cells.call(contact_geometry.number_nodes)
     assert cells.first_slot[2:8].tolist() == [0, 2, 4, 6, 8, 10]
 
@@ -327,7 +327,7 @@ def test_both_ways_of_summing_the_corner_forces_agree():
     cells.sig_tt[...] = -(cells.sig_rr + cells.sig_zz)
     cells.hg_coefficient[...] = random.uniform(0.0, 1.0, cells.grid.shape)
     cells.u0[0], cells.v0[0] = random.standard_normal((2, *cells.grid.vertex_shape))
-    cells.call(acceleration.accelerate, dt=0.1, pushed=NOTHING)
+    cells.call(vertex_forces.accelerate, dt=0.1, pushed=NOTHING)
     inside = np.s_[0, 3:6, 3:6]
     by_rows = np.array([cells.u[inside], cells.v[inside]])
     cells.contact_node_count[3:6], cells.contact_nodes[3:6, :3] = 3, [3, 4, 5]

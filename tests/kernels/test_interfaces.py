@@ -179,7 +179,7 @@ def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywh
     interfaces.interface_volumes.source(0, handle(
         parts=ONE_ROW, dj=dj, di=1 - dj, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
         interface_order=np.arange(2), group=ONE_GROUP[:2], gases=SOLIDS[:2], mixed_count=np.ones(5, dtype=np.int64),
-        mixed=mixed, face=face, pre=np.ones((5, 5)), vof=vof, centroid=np.zeros((2, 2, 5, 5)), flux_volume=flux,
+        mixed=mixed, face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=np.zeros((2, 2, 5, 5)), flux_volume=flux,
         flux_place=np.zeros((2, 2, 5, 5)), strips=np.zeros((5, 3, 4, 2))))
     return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
 
@@ -361,7 +361,7 @@ def test_of_contact_interface_cells_within_the_mesh_only_the_centroids_are_worke
         interfaces.interface_volumes.source(0, handle(
             parts=ONE_ROW, dj=dj, di=di, mesh_box=mesh_box, contact_columns=columns, dr=np.ones(5), dz=np.ones(5),
             interface_order=np.arange(3), group=ONE_GROUP, gases=SOLIDS, mixed_count=np.ones(5, dtype=np.int64), mixed=mixed,
-            face=face, pre=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=flux, flux_place=place,
+            face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=flux, flux_place=place,
             strips=np.zeros((5, 3, 4, 3))))
         np.testing.assert_allclose(centroid, exact, atol=1e-14)
         assert flux.any() != left
@@ -439,7 +439,7 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     interfaces.interface_volumes.source(0, handle(
         parts=ONE_ROW, dj=dj, di=di, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
         interface_order=np.arange(3), group=ONE_GROUP, gases=SOLIDS, mixed_count=np.ones(5, dtype=np.int64), mixed=mixed,
-        face=face, pre=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=flux, flux_place=place,
+        face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=flux, flux_place=place,
         strips=np.zeros((5, 3, 4, 3))))
     np.testing.assert_allclose(flux[:, 2, 2], [-0.1, 0.0, 0.0], atol=1e-15)
     np.testing.assert_allclose(flux[:, 2 + dj, 2 + di], [0.0, 0.1, 0.5], atol=1e-15)
@@ -459,6 +459,6 @@ def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
         interfaces.interface_volumes.source(0, handle(
             parts=ONE_ROW, dj=0, di=1, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
             interface_order=np.arange(1), group=ONE_GROUP[:1], gases=SOLIDS[:1], mixed_count=np.ones(5, dtype=np.int64),
-            mixed=mixed, face=face, pre=np.ones((5, 5)), vof=vof, centroid=centroid, flux_volume=np.zeros((1, 5, 5)),
-            flux_place=np.zeros((2, 1, 5, 5)), strips=np.zeros((5, 3, 4, 1))))
+            mixed=mixed, face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=centroid,
+            flux_volume=np.zeros((1, 5, 5)), flux_place=np.zeros((2, 1, 5, 5)), strips=np.zeros((5, 3, 4, 1))))
         assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

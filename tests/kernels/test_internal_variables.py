@@ -5,7 +5,7 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.mesh.fields import INTERNAL
-from hydro2d.output import derived
+from hydro2d.output import derived_quantities
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, material, mesh, stop, table, walls
 from tests.kernels.test_lagrangian import BLOCK, driven, engine
@@ -197,9 +197,9 @@ def test_a_restart_goes_on_with_them():
 def test_they_are_written_of_the_bodies_that_have_them():
     simulation = Simulation(deck.loads(IMPACT))
     simulation.state.q[ZZ, 0] = 4e6
-    fields = derived.evaluate(simulation)
+    fields = derived_quantities.evaluate(simulation)
     names = [f"Back Stress {part} of block [Pa]" for part in ("rr", "zz", "rz")]
     assert [name for name in fields if name.startswith("Back Stress")] == names
     filled = fields["Volume Fraction for block"] > 0
     np.testing.assert_array_equal(fields[names[1]], np.where(filled, 4e6, 0.0))
-    assert not set(names) & set(derived.evaluate(simulation, ["standard"]))
+    assert not set(names) & set(derived_quantities.evaluate(simulation, ["standard"]))

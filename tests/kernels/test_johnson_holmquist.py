@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from eos import MODELS
-from hydro2d.kernels import memory
+from hydro2d.kernels import eos_memory
 from hydro2d.kernels.plastic_return import return_to_surface, weaken
 from hydro2d.materials.rows import DAMAGE_AT, EOS_AT, FADES, STRENGTH_AT, TENSILE
 from hydro2d.materials.rows import FACTOR as YIELD_FACTOR
@@ -53,7 +53,7 @@ class Element:
     def names(self, damage0=0.0, dt=1e-6):
         """The values that kernels take from it; damage0 : before the step."""
         before = np.zeros((3, 1, 1, 1))
-        before[memory.DAMAGED] = damage0
+        before[eos_memory.DAMAGED] = damage0
         return handle(dt=dt, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm, q=self.q, before=before,
                       internal=self.internal[None])
 
@@ -65,7 +65,7 @@ class Element:
         rr, zz = rr - 2.0 / 3.0 * G * strain, zz + 4.0 / 3.0 * G * strain
         damage0 = self.q[DMG, 0, 0, 0]
         *self.deviator, dep, _ = return_to_surface(0, 0, 0, rr, zz, rz, G, True, 0.0, self.names(dt=dt))
-        lost = memory.released(0, 0, 0, dep / dt, self.names(damage0))
+        lost = eos_memory.released(0, 0, 0, dep / dt, self.names(damage0))
         rho = self.q[RHO, 0, 0, 0] = RHO0 / length
         self.eos.update(RHO0 / before, rho, 0.0, dep, 0.0, damage0, self.q[DMG, 0, 0, 0], lost, 0.0, dt, self.eos_row,
                         self.q[INTERNAL:, 0, 0, 0])
@@ -194,5 +194,5 @@ def test_stress_falls_to_the_strength_at_the_damage_of_the_step():
     assert element.q[DMG, 0, 0, 0] == pytest.approx(damage, rel=1e-12)
     assert stress == pytest.approx(weak, rel=1e-12)
     assert strain == pytest.approx(dep + (intact - weak) / (3.0 * G), rel=1e-12) == element.q[EP, 0, 0, 0]
-    lost = memory.released(0, 0, 0, dep / 1e-6, element.names(0.0))
+    lost = eos_memory.released(0, 0, 0, dep / 1e-6, element.names(0.0))
     assert lost == pytest.approx((intact**2 - weak**2) / (6.0 * G), rel=1e-12)

@@ -135,15 +135,15 @@ def test_a_gas_counts_where_it_is():
 def test_the_contents_of_a_cell():
     """Its groups, whether several bodies are in it one of which has strength, and which fills most of it."""
     cell = Cell(strong=True, group=(0, 1))
-    assert cell.run(cut_cells.holds, g=0)
-    assert cell.run(cut_cells.holds, g=1)
+    assert cell.run(cut_cells.contains_group, g=0)
+    assert cell.run(cut_cells.contains_group, g=1)
     assert cell.run(cut_cells.joins_solids)
     cell.known["strong"][0] = False
     assert cell.run(cut_cells.joins_solids)
     cell.vof[:, *AT] = 0.0, 1.0
     assert not cell.run(cut_cells.joins_solids)  # only one body
     cell.vof[:, *AT] = 1.0, 0.0
-    assert not cell.run(cut_cells.holds, g=1)
+    assert not cell.run(cut_cells.contains_group, g=1)
     assert not cell.run(cut_cells.joins_solids)
     assert cell.run(cut_cells.most_of) == 0
     cell.vof[:, *AT] = 0.4, 0.6
@@ -362,7 +362,7 @@ def test_failed_or_thin_material_has_no_yield_stress():
 
 
 def test_bodies_are_strained_across_by_what_their_traction_needs():
-    """The strain across the surface from `meet_traction` is added to the trial: 2 G (n n - 1/3) times the strain."""
+    """The strain across the surface from `traction_of_change` is added to the trial: 2 G (n n - 1/3) times the strain."""
     cell = Cell(strong=True)
     cell.skin[[NORMAL_R, KIND], *AT], cell.bulk[AT] = (1.0, INTERFACE), 1.6
     cell.mix[2, MODULUS], cell.mix[2, YIELD], cell.q[SRR, 0, *AT] = 5.0, (3.0, 0.0), 4.0

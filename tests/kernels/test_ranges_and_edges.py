@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import boundaries, column_ranges, edge_sums, following, triad
+from hydro2d.kernels import boundaries, column_ranges, edge_sums, mesh_motion, triad
 from hydro2d.kernels.column_ranges import NOTHING
 from hydro2d.mesh.fields import RHO, SRR, SRZ, E
 from tests.kernels.cells import Cells
@@ -182,9 +182,9 @@ def test_energy_taken_by_dashpots_follows_the_velocities_at_the_end():
     cells, edges, energy = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
     cells.drag[1, 0, :, 3] = 2.0, 3.0
     cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0
-    cells.call(boundaries.sum_drag, transmitting=edges, held_back=energy)
+    cells.call(boundaries.sum_drag, transmitting=edges, transmitted=energy)
     assert energy.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
-    cells.call(boundaries.sum_drag, held_back=energy)
+    cells.call(boundaries.sum_drag, transmitted=energy)
     assert not energy.any()
 
 
@@ -216,11 +216,11 @@ def test_faces_sweep_less_by_what_the_mesh_advances():
     """A column from 1 to 2 m of radius has an area of 1.5 m^2 per radian."""
     cells = Cells(bodies=2, group=[0, 1], geometry="cylindrical")
     cells.group_ranges[0, 1, :] = 3, 4
-    cells.call(following.leave, advance=0.1)
+    cells.call(mesh_motion.subtract_mesh_motion, advance=0.1)
     assert cells.fz[2:7, 3] == pytest.approx(5 * [-0.15])
     assert np.count_nonzero(cells.fz) == 5
     cells.contact_columns[...], cells.contact_columns[3] = EMPTY, (3, 4)
-    cells.call(following.leave_contact, advance=0.1)
+    cells.call(mesh_motion.subtract_mesh_motion_of_groups, advance=0.1)
     assert cells.own_z[:, 3:5, 3] == pytest.approx(np.full((2, 2), -0.15))
     assert np.count_nonzero(cells.own_z) == 4
 
@@ -228,7 +228,7 @@ def test_faces_sweep_less_by_what_the_mesh_advances():
 def test_faded_values_are_zero():
     cells = Cells()
     cells.q[:, 0, 3, 3:5] = -1e-31, 1e-29
-    cells.call(following.silence)
+    cells.call(mesh_motion.flush_tiny_values)
     assert cells.q[RHO, 0, 3, 3] == -1e-31
     assert cells.q[[E, SRR, SRZ], 0, 3, 3].tolist() == [0.0, 0.0, 0.0]
     assert (cells.q[:, 0, 3, 4] == 1e-29).all()

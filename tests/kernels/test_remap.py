@@ -208,10 +208,10 @@ def test_a_cell_with_a_little_of_another_body_is_not_full():
 @pytest.mark.parametrize("shares", [1.0, 2.0])
 def test_a_small_share_goes_without_a_jump(shares):
     """At the cutoff none of it remains, at twice that all of it; masses and the amount removed add up."""
-    fade = remap.fade.py_func
-    changes_in_proportion(lambda x: fade(x, 0.005), 0.005 * shares, 3.0)
-    assert fade(0.005, 0.005) == fade(-1.0, 0.005) == fade(-1.0, 0.0) == 0.0
-    assert fade(0.01, 0.005) == 0.01
+    kept_share = remap.kept_share.py_func
+    changes_in_proportion(lambda x: kept_share(x, 0.005), 0.005 * shares, 3.0)
+    assert kept_share(0.005, 0.005) == kept_share(-1.0, 0.005) == kept_share(-1.0, 0.0) == 0.0
+    assert kept_share(0.01, 0.005) == 0.01
     e = engine(WITH_VOID)
     s = e.state
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
@@ -219,7 +219,7 @@ def test_a_small_share_goes_without_a_jump(shares):
     s.vof[:, j, i], s.rho[1, j, i] = (1.0 - small, small), 2770.0
     tidy(e)
     left = s.vof[1, j, i]
-    assert left == pytest.approx(fade(small, e.method.cutoff), rel=1e-7, abs=0.0)
+    assert left == pytest.approx(kept_share(small, e.method.cutoff), rel=1e-7, abs=0.0)
     assert s.removed[5, j] == pytest.approx((small - left) * 2770.0 * e.grid.volume[j, i], rel=1e-7, abs=0.0)
 
 
@@ -236,8 +236,8 @@ def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.nd
     flux = np.zeros((5, 1, 1, columns))
     carried = np.array([[4, 1, 2, 3, 4]])
     remap.flux_row.source(0, 2, 0, 0, 0, handle(i0=2, i1=columns - 2, carried=carried, rules=rules, body_ranges=body_ranges,
-                           pre=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0, vof=vof,
-                           q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
+                           pre_sweep_volume=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0,
+                           vof=vof, q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
     return flux[:, 0, 0]
 
 

@@ -22,14 +22,14 @@ def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
     swept = {"dj": dj, "di": di, "face": getattr(cells, face)}
     cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=False)
     cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
-    assert cells.pre[source] == 1.25
-    assert cells.pre[target] == 0.75
+    assert cells.pre_sweep_volume[source] == 1.25
+    assert cells.pre_sweep_volume[target] == 0.75
     assert cells.flux_volume[0, *target] == 0.25
     assert np.count_nonzero(cells.flux_volume) == 1
     getattr(cells, face)[target] = -0.25
     cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=True)
     cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
-    assert cells.pre[source] == 0.75
+    assert cells.pre_sweep_volume[source] == 0.75
     assert not cells.flux_volume.any()
 
 
@@ -41,7 +41,7 @@ def test_a_cell_that_is_turned_inside_out_is_reported_with_its_body(first):
     cells.fr[3, 3:7] = 2.0, 0.5, -0.5, -3.0
     cells.fr[4, 3] = -0.99
     cells.call(interfaces.sweep_volumes, dj=0, di=1, second=not first)
-    assert cells.pre[3, 3:6].tolist() == [-0.5, 0.0, -1.5]
+    assert cells.pre_sweep_volume[3, 3:6].tolist() == [-0.5, 0.0, -1.5]
     assert cells.turned[3].tolist() == [4, 1]
     assert cells.turned[[2, 4, 5], 0].tolist() == [-1, -1, -1]
 
@@ -74,7 +74,7 @@ def test_a_mixed_cell_gives_the_material_at_its_face(dj, di, source, target, fac
 def carried(dj, di, source, target, face) -> tuple[Cells, dict]:
     """A cell of 1.25 m^3, full, of which a quarter of a cubic metre flows on; the next one has 0.75 m^3 of void."""
     cells = Cells()
-    cells.vof[0, *source], cells.pre[source], cells.pre[target] = 1.0, 1.25, 0.75
+    cells.vof[0, *source], cells.pre_sweep_volume[source], cells.pre_sweep_volume[target] = 1.0, 1.25, 0.75
     cells.q[[RHO, E, SRR, DMG], 0, *source] = 2.0, 10.0, -6.0, 0.5
     getattr(cells, face)[target] = cells.flux_volume[0, *target] = 0.25
     return cells, {"face": getattr(cells, face), "second": True}
@@ -122,7 +122,7 @@ def column(*orders: int) -> list:
     """A full column after a sweep along z, by one part or by two parts in an order; every face sweeps a tenth."""
     cells, chance = Cells(nr=1, nz=8), np.random.default_rng(7)
     cells.vof[...], cells.q[...] = 1.0, chance.uniform(1.0, 1.2, cells.q.shape)
-    cells.fz[3:10], cells.pre[...] = 0.1, 1.0
+    cells.fz[3:10], cells.pre_sweep_volume[...] = 0.1, 1.0
     cells.flux_volume[0, 3:10] = 0.1
     two = {"parts": np.array([2, 6, 10]), "flux": np.zeros((*cells.flux.shape[:2], 12, cells.flux.shape[3])),
            "scratch": np.zeros((4, 2, 13))}  # fmt: skip

@@ -196,7 +196,7 @@ CHOSEN = """
     from hydro2d.jit import cache
     from hydro2d.deck import deck
     def folders():
-        names = "deformation", "mixed", "remap", "acceleration"
+        names = "deformation", "mixed", "remap", "vertex_forces"
         return [cache.folder_of(str(cache.ROOT / f"hydro2d/kernels/{name}.py")) for name in names]
     before = folders()
     loaded = deck.load("shot.toml")

@@ -33,7 +33,7 @@ def of(kind, **values):
 def test_flags(kind):
     values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
     conditions = of(kind, **values)
-    flags = "mirrors", "holds", "opens", "supplies", "drives", "transmits", "pushes"
+    flags = "mirrors", "constrains", "opens", "supplies", "drives", "transmits", "pushes"
     assert tuple(conditions.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 

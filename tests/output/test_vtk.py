@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hydro2d.mesh import quantities
-from hydro2d.output import derived, vtk
+from hydro2d.output import derived_quantities, vtk
 from hydro2d.output.series import Series
 from tests import fake
 
@@ -22,7 +22,7 @@ def test_fields_survive_as_float32(moved, tmp_path):
     assert dump.bodies == ["rod", "plate"]
     np.testing.assert_array_equal(dump.r_edges, moved.grid.r_edges)
     np.testing.assert_array_equal(dump.z_edges, moved.grid.z_edges)
-    expected = derived.evaluate(moved, ["standard"])
+    expected = derived_quantities.evaluate(moved, ["standard"])
     assert set(dump.fields) == set(expected)
     for name, values in expected.items():
         kind = np.int32 if name == "Material" else np.float32
@@ -44,7 +44,7 @@ def test_pyvista_sees_the_geometry(moved, tmp_path):
 def test_velocity_is_the_mean_of_four_vertices(moved):
     state, grid = moved.state, moved.grid
     state.v[0] = np.arange(state.v[0].size).reshape(state.v[0].shape)
-    v = derived.evaluate(moved, ["velocity"])["Velocity [m/s]"]
+    v = derived_quantities.evaluate(moved, ["velocity"])["Velocity [m/s]"]
     j, i = 7, 3
     corners = state.v[0][j + grid.g : j + grid.g + 2, i + grid.g : i + grid.g + 2]
     assert v[j, i, 1] == corners.mean()
@@ -54,13 +54,13 @@ def test_velocity_is_the_mean_of_four_vertices(moved):
 def test_von_mises_includes_the_hoop_component(moved):
     state = moved.state
     state.srr[:], state.szz[:], state.srz[:] = 1.0, 1.0, 0.0  # then s_tt = -2, and the equivalent stress is 3
-    values = derived.evaluate(moved, ["von_mises"])
+    values = derived_quantities.evaluate(moved, ["von_mises"])
     full = values["Volume Fraction for rod"] == 1
     np.testing.assert_allclose(values["Von Mises Stress [Pa]"][full], 3.0, rtol=1e-14)
 
 
 def test_void_is_zero(moved):
-    values = derived.evaluate(moved)
+    values = derived_quantities.evaluate(moved)
     void = values["Volume Fraction for rod"] + values["Volume Fraction for plate"] == 0
     assert void.any()
     for name in ("Density [kg/m3]", "Temperature [K]", "Density of rod [kg/m3]", "Material"):

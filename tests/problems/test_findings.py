@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from problems.cth_nose_shape import findings, pages, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result
 

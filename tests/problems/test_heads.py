@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from problems.cth_nose_shape import heads
 from problems.cth_nose_shape.rigid_rod import Result
 from tests.rules import source

@@ -4,7 +4,7 @@ from statistics import median
 
 import pytest
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.study.records import keeping
 from problems.cth_nose_shape import members, rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.mesh.regime import DEFORMING, ERODING, RIGID, regime
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.scaling import Size

@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.study.plan import cases
 from hydro2d.study.records import keeping
 from problems.cth_nose_shape import transitions

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hydro2d.cli.main import call
-from hydro2d.results import figures, lines, tables
-from hydro2d.results.lines import Line
+from hydro2d.results import figures, line_figures, tables
+from hydro2d.results.line_figures import Line
 from hydro2d.results.reading import Results
 from hydro2d.results.scales import FigureError
 from tests.results import made_run
@@ -34,7 +34,7 @@ def test_a_line_out_has_the_numbers_of_the_picture(run, tmp_path):
                  "1 mm,-1 cm,1 mm,6 cm"]) == 0  # fmt: skip
     heads, rows = read(file)
     assert heads == ["run", "t [us]", "r [mm]", "z [mm]", "Pressure [GPa]"]
-    drawn = lines.line_outs([run], "pressure", ALONG_Z, (13e-6, 40e-6)).axes[0].lines
+    drawn = line_figures.line_outs([run], "pressure", ALONG_Z, (13e-6, 40e-6)).axes[0].lines
     times = sorted({row[1] for row in rows})
     assert times == pytest.approx([40 / 3, 40.0])
     for curve, time in zip(drawn, times, strict=True):

@@ -9,7 +9,7 @@ import textwrap
 import pytest
 
 from hydro2d.kernels import lagrangian_step, remap_step
-from hydro2d.solver.contact import Contact
+from hydro2d.solver.contact_ties import Contact
 from hydro2d.solver.cycle import Cycle
 from tests.rules import source
 from tests.rules.test_imports import LAYERS, within

@@ -178,9 +178,9 @@ def users(library: str) -> set[str]:
         ("jinja2", ("hydro2d.study.report.page",)),
         ("pandas", ("hydro2d.study.records.table", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
-        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact", "hydro2d.solver.following",
-                             "hydro2d.solver.cycle", "hydro2d.solver.given", "hydro2d.solver.sanity", "hydro2d.solver.sources",
-                             "hydro2d.running.bench")),
+        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact_ties",
+                             "hydro2d.solver.following", "hydro2d.solver.cycle", "hydro2d.solver.given",
+                             "hydro2d.solver.sanity", "hydro2d.solver.sources", "hydro2d.running.bench")),
     ],
 )
 def test_only_these_import(library, allowed):

@@ -7,7 +7,7 @@ import pytest
 from tests.rules import source
 
 #: decorators of compiled functions; those with a parallel loop
-MARKS = ("threaded", "kernel", "cell_rows", "vertex_rows", "serial", "rowwise", "apart", "late", "point")
+MARKS = ("threaded", "kernel", "cell_rows", "vertex_rows", "serial", "rowwise", "not_inlined", "late_bound", "point")
 PARALLEL = {"threaded"}
 ALLOCATIONS = ("zeros", "empty", "ones", "full", "array", "zeros_like", "empty_like", "copy", "concatenate")
 COMPILED = [
@@ -125,7 +125,7 @@ BAD_THREADED = {
     "not outermost": ("    for j in prange(0, n):", "    if n > 0:\n     for j in prange(0, n):"),
     "serial": ("@threaded", "@serial"),
     "a row": ("@threaded", "@rowwise"),
-    "what is called": ("@threaded", "@apart"),
+    "what is called": ("@threaded", "@not_inlined"),
     "a kernel": ("@threaded", "@kernel"),
 }
 WRONG = [pytest.param(good, *change, id=f"{what}: {name}")

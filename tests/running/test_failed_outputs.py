@@ -12,7 +12,7 @@ from hydro2d.output import history, snapshot, vtk
 from hydro2d.output.series import Series
 from hydro2d.running import run as runs
 from hydro2d.running.run import run
-from hydro2d.solver.record import ColumnError
+from hydro2d.solver.recorder import ColumnError
 from tests import fake
 from tests.cli.test_main import DECK
 

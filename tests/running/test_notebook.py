@@ -14,7 +14,8 @@ CELLS = [
     "shot",
     "hydro2d.run(deck, 'quiet', threads=1, quiet=True);",
     "import time\n"
-    "from hydro2d import compilation, jit\n"
+    "from hydro2d import jit\n"
+    "from hydro2d.jit import compilation\n"
     "compilation.BEAT = 0.1\n"
     "compilation.expect('none', lambda: [])\n"
     "with compilation.events.trigger_event(jit.FIRST_CALL, data={'kernel': 'a'}):\n"

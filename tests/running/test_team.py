@@ -63,14 +63,14 @@ def test_a_run_on_one_thread_tries_nothing():
     machine = Machine(1, lambda threads, now: 0.01)
     machine.run(100)
     assert machine.team.cycles == {1: 100}
-    assert machine.team.told() == ""
+    assert machine.team.thread_use() == ""
 
 
 def test_the_log_says_what_was_used():
     machine = Machine(2, lambda threads, now: 0.006 if threads == 1 else 0.06)
-    assert machine.team.told() == ""
+    assert machine.team.thread_use() == ""
     machine.run(100)
-    assert machine.team.told() == "1 thread in 95 % of the cycles, 2 in 5 %"
+    assert machine.team.thread_use() == "1 thread in 95 % of the cycles, 2 in 5 %"
 
 
 def test_in_the_end_all_threads_are_free_again():

@@ -6,7 +6,7 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.physics.waves import impedances
 from hydro2d.running import check
-from hydro2d.solver.following import FollowingMesh, StandingMesh, UndisturbedSpace
+from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
 from hydro2d.solver.simulation import Simulation
 from tests.decks import mesh, plate, rod, stop
 
@@ -65,7 +65,7 @@ def test_check_says_how_far_the_mesh_reaches_and_what_enters():
 def test_a_deck_chooses_how_the_mesh_moves():
     moving, standing = Simulation(decks.loads(TEXT)), Simulation(decks.loads(TEXT.replace('follow = "rod"\n', "").replace(
         'z_front = "20 mm"', 'z_front = "6 mm"')))
-    assert type(standing.engine.mesh) is StandingMesh
+    assert type(standing.engine.mesh) is FixedMesh
     assert type(moving.engine.mesh) is FollowingMesh
     assert moving.engine.mesh.leading == 1
 

@@ -8,7 +8,7 @@ import pytest
 from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.kernels import lagrangian_step, names, remap_step
-from hydro2d.solver.contact import Ties, slots
+from hydro2d.solver.contact_ties import Ties, slots
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.given import Given
 from hydro2d.solver.simulation import Simulation

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
 
@@ -29,6 +29,6 @@ def test_numbers_of_this_version(name):
     for _ in range(CYCLES):
         simulation.step()
     numbers = simulation.time, simulation.conservation()["internal_energy_J"], simulation.diagnostics()["rod_length_m"]
-    why = "the numbers of a run have moved: give hydro2d/base/method.py the day of the change, and this test the new numbers"
+    why = "the numbers of a run have moved: give hydro2d/base/method_version.py the day of the change, this test the numbers"
     assert numbers == pytest.approx((time, energy, length), rel=SAME), why
     assert METHOD == OF, "the numbers of a run are as before: leave METHOD, or give this test its new numbers"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck
 from hydro2d.files.whole import write_json
 from hydro2d.output import vtk

@@ -8,7 +8,7 @@ import pytest
 import rich.console
 
 import hydro2d
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.cli.main import call
 from hydro2d.files.whole import write_json
 from hydro2d.study.plan import cases

@@ -68,12 +68,12 @@ def judged(text: str) -> dict:
 
 def _read(simulation) -> None:
     """Requests everything in a summary and a dump."""
-    from hydro2d.output import derived
+    from hydro2d.output import derived_quantities
 
     for each in (simulation.diagnostics, simulation.of_bodies, simulation.of_targets, simulation.holes, simulation.conservation,
                  simulation.stations.measure):
         each()
-    derived.evaluated(simulation)
+    derived_quantities.evaluated(simulation)
 
 
 def _serve(pipe) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 
 from hydro2d.deck import deck as decks
 from hydro2d.files import toml
-from hydro2d.files.lines import Sources
+from hydro2d.files.key_lines import Sources
 from tests.trials import changes
 
 #: cells of a deck before it is changed, and cycles that it runs for

@@ -118,7 +118,7 @@ def _speeds(simulation) -> np.ndarray:
     grid, edges = simulation.grid, simulation.engine.method.boundaries
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
-    speeds = [(0.0, 0.0)] if any(edges.having("holds")) else []
+    speeds = [(0.0, 0.0)] if any(edges.having("constrains")) else []
     for body in simulation.deck.body:
         u, v = insertion.body_velocity(body, r, z)
         speeds += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]

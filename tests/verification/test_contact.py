@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.output.derived import Cells
+from hydro2d.output.derived_quantities import Cells
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, contact, mesh, stop, table, walls
 from tests.verification.running import ADVECTION, Line, advection, between, finish

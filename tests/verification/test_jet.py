@@ -6,7 +6,7 @@ Both are means over several diameters of depth, because jet and target oscillate
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.materials import thermal
+from hydro2d.materials import pressure_temperature
 from problems.validation import jet
 from tests.verification.running import advection, finish
 
@@ -23,7 +23,7 @@ def errors(name: str, *overrides: str, last: float = 10.0) -> tuple[float, float
         if simulation.cycle % EVERY == 0:
             grid = simulation.grid
             shares = (grid.interior(body)[:, 0] for body in simulation.state.vof)
-            pressures, _ = thermal.of(simulation)
+            pressures, _ = pressure_temperature.of(simulation)
             columns = tuple(body[:, 0] for body in pressures)
             points.append(jet.point(grid.z_edges, *shares, columns, jet.REACH * radius, simulation.time))
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.materials import thermal
+from hydro2d.materials import pressure_temperature
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.solver.simulation import Simulation
 from tests.contract.test_models import STRENGTH_CASES
@@ -144,7 +144,7 @@ def test_a_melt_forgets_its_stress_in_full_and_in_cut_cells(mixed):
     full, cut = vof == 1.0, (vof > 0.1) & (vof < 1.0)
     assert full.any()
     assert cut.any()
-    assert [np.median(thermal.of(each)[1][0][full]) > 1400.0 for each in (hot, warm)] == [True, False]
+    assert [np.median(pressure_temperature.of(each)[1][0][full]) > 1400.0 for each in (hot, warm)] == [True, False]
     for key in ("srr", "szz", "srz"):
         melt, solid = (each.grid.interior(getattr(each.state, key)[0]) for each in (hot, warm))
         assert (melt[full | cut] == 0.0).all()

@@ -27,7 +27,7 @@ def shipped(name: str, *overrides: str) -> Simulation:
 
 
 class Settled:
-    """Velocities before and after `settle`: a linear field in each group, or nothing but slaves that are disturbed (m/s)."""
+    """Velocities before and after `resolve_contact`: a linear field in each group, or only slaves that are disturbed (m/s)."""
 
     def __init__(self, simulation, disturb: float = 0.0):
         engine, s, g = simulation.engine, simulation.state, simulation.grid
@@ -55,13 +55,13 @@ class Settled:
                             s.u[group, j, i] += disturb * random.standard_normal()
         s.velocity0[...] = s.velocity
         self.before = s.velocity.copy()
-        contact_velocities.settle(
+        contact_velocities.resolve_contact(
             handle(parts=np.array([j0, j1]), dt=1e-9, friction=0.0, constrained=engine.edges.constrained, metrics=g.metrics,
             dz=g.dz, contact_columns=s.contact_columns, line=s.line, contact_node_count=s.contact_node_count,
             contact_nodes=s.contact_nodes, first_slot=s.first_slot, contact_normal=s.contact_normal,
             touch=np.zeros_like(s.touch), strength=strength, masters=number, where=where, weights=weights, sig_rr=s.sig_rr,
             sig_zz=s.sig_zz, sig_rz=s.sig_rz, mass=s.mass, u=s.u, v=s.v, places=s.places, transfer=s.transfer, **made))
-        contact_velocities.warm_contact(
+        contact_velocities.heat_contact_nodes(
             handle(parts=np.array([j0, j1]), contact_node_count=s.contact_node_count, contact_nodes=s.contact_nodes,
             first_slot=s.first_slot, strength=strength, masters=number, where=where, weights=weights, mass=s.mass, u0=s.u0,
             v0=s.v0, u=s.u, v=s.v, heat=s.heat, transfer=s.transfer, **made))

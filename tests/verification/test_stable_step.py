@@ -63,7 +63,7 @@ def energy_left(monkeypatch, name: str, linear: float, share: float) -> float:
     for component, fixed in ((state.u, np.s_[:, :, [i0, i1]]), (state.v, np.s_[:, [j0, j1]])):
         component[...] = np.where(state.mass > 0.0, NOISE * random.normal(size=component[:1].shape), 0.0)
         component[fixed] = 0.0
-    engine.given.handle.give(courant=1.0)
+    engine.given.handle.update(courant=1.0)
     chosen = time_step.chosen
     monkeypatch.setattr(time_step, "chosen", lambda cycle: (share / STABLE * chosen(cycle)[0], ""))
     left = []

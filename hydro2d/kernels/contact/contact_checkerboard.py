@@ -13,13 +13,13 @@ from hydro2d.physics.traction import smoothstep
 #: rows of `checkerboard`: weight of a vertex, and the checkerboards of the pressure and the deviators around it, Pa
 COUNTS, OF_P, OF_RR, OF_ZZ, OF_RZ = range(5)
 #: largest share of a checkerboard that fades in a step
-MOST = 0.5
+MOST_DAMPED = 0.5
 #: least fraction of a body in the eight neighbours of a full cell from which the cell counts as inside the body
 INSIDE = 0.02
 
 
 @point
-def fading(j, i, w):
+def damping_share(j, i, w):
     """Share of a checkerboard in cell (j, i) that fades in a step: the rate of the hourglass filter times dt."""
     return 16.0 * w.hg_coefficient[j, i] * w.dt / w.cell_mass[1, j, i]
 
@@ -87,7 +87,7 @@ def least_of(a, b, c, d, of_a, of_b, of_c, of_d):
 
 
 @point
-def stands_out(of, j, i, checkerboard):
+def cell_excess(of, j, i, checkerboard):
     """Excess of a cell over the cells around it (Pa): the least of the checkerboards at its vertices.
 
     0 where they are not of one sign, as in every field that the mesh resolves. Vertices count by their weights, and at least
@@ -106,7 +106,7 @@ def stands_out(of, j, i, checkerboard):
 
 
 @cell_rows
-def fade_deviators(j, w):
+def damp_deviators(j, w):
     """Reduces each cell's deviators by the share of their excess that fades, and finds the volume that does so to its pressure.
 
     The elastic energy lost remains as heat.
@@ -119,13 +119,13 @@ def fade_deviators(j, w):
         w.room[j, i] = 0.0
         if w.inside[j, i] == 0.0:
             continue
-        share = min(fading(j, i, w), MOST)
+        share = min(damping_share(j, i, w), MOST_DAMPED)
         for m in range(w.vof.shape[0]):
             if w.group[m] == 1 and w.vof[m, j, i] == 1.0:
-                w.room[j, i] = share * stands_out(OF_P, j, i, w.checkerboard) * w.volume[j, i] / w.km[m, j, i]
-                w.q[SRR, m, j, i] -= share * stands_out(OF_RR, j, i, w.checkerboard)
-                w.q[SZZ, m, j, i] -= share * stands_out(OF_ZZ, j, i, w.checkerboard)
-                w.q[SRZ, m, j, i] -= share * stands_out(OF_RZ, j, i, w.checkerboard)
+                w.room[j, i] = share * cell_excess(OF_P, j, i, w.checkerboard) * w.volume[j, i] / w.km[m, j, i]
+                w.q[SRR, m, j, i] -= share * cell_excess(OF_RR, j, i, w.checkerboard)
+                w.q[SZZ, m, j, i] -= share * cell_excess(OF_ZZ, j, i, w.checkerboard)
+                w.q[SRZ, m, j, i] -= share * cell_excess(OF_RZ, j, i, w.checkerboard)
 
 
 @point
@@ -141,7 +141,7 @@ def lower_face(m, j, i, vof, room):
 
 
 @cell_rows
-def fade_pressures(j, w):
+def damp_pressures(j, w):
     """Lets faces sweep volume from cells with an excess pressure to their neighbours.
 
     The two cells do work on each other at their mean pressure, so that their total energy is kept.

@@ -13,7 +13,7 @@ from math import sqrt
 
 from hydro2d.jit import cell_rows, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
-from hydro2d.physics.contact import GAP, end_apertures, known
+from hydro2d.physics.contact_faces import GAP, end_apertures, known
 from hydro2d.physics.interfaces import line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
 
@@ -29,7 +29,7 @@ LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, SOFT_AFTER, HAR
 BETWEEN = 0.25
 
 #: share of void in a cell from which its groups begin to have separate surfaces, and from which they have them in full
-APART, FAR_APART = 0.5, 0.75
+SEPARATION_START, SEPARATION_FULL = 0.5, 0.75
 
 #: largest distance, in vertices, from a node to the part of its body with which it moves
 REACH = 3
@@ -41,22 +41,22 @@ def find_contact_nodes(j, w):
 
     Reads    group_ranges[1] [n, j, 2], the columns near hard bodies; mass [b, j, i]; vof [m, j, i]; group [m]
     Writes   contact_node_count [j], contact_nodes [j, k] (columns, ascending); hard, soft [j, i]; zero in heat [b, j, i];
-             warmed [j, 2], the cells around vertices that can be masters of a contact node
+             heated_columns [j, 2], the cells around vertices that can be masters of a contact node
     """
     j0, j1 = outer_rows(w.parts)
-    found = 0
+    count = 0
     lo, hi = union(w.group_ranges[1, 0], j - REACH - 2, j + REACH + 2)
     for i in range(max(lo - REACH - 1, w.mesh_box[2]), min(hi + REACH + 2, w.mesh_box[3] + 1)):
         for g in range(2):
             w.heat[g, j, i] = 0.0
     for i in range(max(w.group_ranges[1, 1, j, 0], w.mesh_box[2]), min(w.group_ranges[1, 1, j, 1] + 1, w.mesh_box[3] + 1)):
         if w.mass[0, j, i] > 0.0 and w.mass[1, j, i] > 0.0:
-            w.contact_nodes[j, found] = i
-            found += 1
-    w.contact_node_count[j] = found
+            w.contact_nodes[j, count] = i
+            count += 1
+    w.contact_node_count[j] = count
     lo, hi = union(w.group_ranges[1, 0], j - REACH - 1, j + REACH + 2)
-    w.warmed[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
-    w.warmed[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
+    w.heated_columns[j, 0] = max(lo - REACH - 1, w.mesh_box[2])
+    w.heated_columns[j, 1] = min(hi + REACH + 1, w.mesh_box[3])
     if j < j1:
         lo, hi = union(w.group_ranges[1, 0], j - 2, j + 3)
         lo, hi = max(lo - 2, w.mesh_box[2]), min(hi + 2, w.mesh_box[3])
@@ -78,7 +78,7 @@ def steeper(one, other):
 
 
 @point
-def parted(void, whole, less):
+def separation_weight(void, whole, less):
     """Weight with which void lies between the groups, each of which then has its own surface.
 
     void is its share of the cell, whole the squared slope of all solids, less the smaller squared slope of the two groups.
@@ -86,7 +86,7 @@ def parted(void, whole, less):
     if less == 0.0:
         return 0.0
     opposed = smoothstep(void / GAP - 1.0) * smoothstep(2.0 - 2.0 * whole / (BETWEEN * less))
-    return max(opposed, smoothstep((void - APART) / (FAR_APART - APART)))
+    return max(opposed, smoothstep((void - SEPARATION_START) / (SEPARATION_FULL - SEPARATION_START)))
 
 
 @serial
@@ -146,9 +146,9 @@ def contact_lines(j, w):
         w.line[SHARE, j, i] = share
         by_soft, by_hard = steeper(steep_s, steep_h), steeper(steep_h, steep_s)
         open_r, open_z = hard_r + soft_r, hard_z + soft_z
-        apart = parted(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
-        w.line[SOFT_AFTER, j, i] = (1.0 - apart) * (1.0 - by_soft)
-        w.line[HARD_FIRST, j, i] = 1.0 - (1.0 - apart) * by_soft
+        separated = separation_weight(1.0 - total, open_r * open_r + open_z * open_z, min(steep_h, steep_s))
+        w.line[SOFT_AFTER, j, i] = (1.0 - separated) * (1.0 - by_soft)
+        w.line[HARD_FIRST, j, i] = 1.0 - (1.0 - separated) * by_soft
         w.line[LINE_R, j, i] = 0.0
         w.line[LINE_Z, j, i] = 0.0
         w.line[CONSTANT, j, i] = 0.0

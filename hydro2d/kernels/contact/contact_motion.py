@@ -10,8 +10,8 @@ from hydro2d.kernels.cut_cells import (
     INTERFACE,
     KIND,
     WHOLE,
+    contains_group,
     cut_pressure,
-    holds,
     normal_deviator,
     pull_of_ties,
     ties,
@@ -19,7 +19,7 @@ from hydro2d.kernels.cut_cells import (
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
-from hydro2d.physics.contact import meeting, volume_rate
+from hydro2d.physics.contact_faces import meeting, volume_rate
 from hydro2d.physics.corner import corner, corner_force
 from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure, stress_scale
@@ -31,7 +31,7 @@ SEED = 1e-11
 
 
 @point
-def come_apart(j, i, w):
+def is_separating(j, i, w):
     """Whether the groups separate along the normal at a vertex of cell (j, i)."""
     opens = 0.0
     for row in range(j, j + 2):
@@ -64,7 +64,7 @@ def contact_viscosity(j, w):
             rho = stiff_density(j, i, w.vof, w.q, w.km)
         elif w.skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, w.mesh_box, w.hard, w.soft):
             w.skin[KIND, j, i] = INTERFACE
-        elif w.solid[j, i] > 1.0 - SEED and w.p[j, i] <= 0.0 and meeting(j, i, w.mesh_box, w.hard, w.soft) and come_apart(
+        elif w.solid[j, i] > 1.0 - SEED and w.p[j, i] <= 0.0 and meeting(j, i, w.mesh_box, w.hard, w.soft) and is_separating(
                 j, i, w):
             for m in range(w.vof.shape[0]):
                 if w.vof[m, j, i] > 0.0:
@@ -186,7 +186,7 @@ def contact_node_forces(j, w):
             for row in range(j - 1, j + 1):
                 for column in range(i - 1, i + 1):
                     by_r, by_z = ties(row, column, w)
-                    if by_r + by_z > 0.0 and holds(g, row, column, w.group, w.vof):
+                    if by_r + by_z > 0.0 and contains_group(g, row, column, w.group, w.vof):
                         pull_r, pull_z = pull_of_ties(g, j, i, row, column, by_r, by_z, w)
                         tied_r += pull_r
                         tied_z += pull_z

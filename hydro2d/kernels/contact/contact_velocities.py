@@ -7,7 +7,7 @@ TOLERANCE, so the order of nodes does not matter (explanation/sliding, equation 
 
 from math import sqrt
 
-from hydro2d.jit import apart, point, serial
+from hydro2d.jit import not_inlined, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.kernels.contact.contact_geometry import REACH, SHARE
 from hydro2d.kernels.contact.extension import SPAN, TIED
@@ -18,8 +18,8 @@ from hydro2d.physics.stress import normal_pressure
 TOLERANCE, STEPS = 1e-11, 200
 #: number of rounds in which friction and the ties are solved in turn
 ROUNDS = 3
-#: rows of `rubbing`: friction impulse on the soft group from the hard one, and its size
-RUB_R, RUB_Z, RUBBED = range(3)
+#: rows of `friction_impulse`: friction impulse on the soft group from the hard one, and its size
+FRICTION_R, FRICTION_Z, FRICTION_SIZE = range(3)
 #: rows of `nodes`: slot, group, row and column of a slave
 SLOT, GROUP, ROW, COLUMN = range(4)
 #: columns of `impulses`, two for the components of each: impulse, residual, the ties' matrix times the search direction,
@@ -37,18 +37,18 @@ def master(n, g, j, i, x, where):
 
 
 @point
-def held(j, i, constrained):
+def is_constrained(j, i, constrained):
     """Whether the axis or a wall constrains a vertex along r, and along z."""
     return i == constrained[0] or i == constrained[1], j == constrained[2] or j == constrained[3]
 
 
 @point
-def give(g, j, i, push_r, push_z, w):
+def apply_impulse(g, j, i, push_r, push_z, w):
     """Applies an impulse to a vertex; the axis and walls take their component."""
-    held_r, held_z = held(j, i, w.constrained)
-    if not held_r:
+    constrained_r, constrained_z = is_constrained(j, i, w.constrained)
+    if not constrained_r:
         w.u[g, j, i] += push_r / w.mass[g, j, i]
-    if held_z:
+    if constrained_z:
         w.transfer[4, j] += push_z
     else:
         w.v[g, j, i] += push_z / w.mass[g, j, i]
@@ -60,20 +60,20 @@ def masters_mobility(g, j, i, x, w):
     along_r, along_z = 0.0, 0.0
     for n in range(w.masters[x, g]):
         by, row, column = master(n, g, j, i, x, w.where)
-        held_r, held_z = held(row, column, w.constrained)
+        constrained_r, constrained_z = is_constrained(row, column, w.constrained)
         part = w.weights[x, g, n] * w.weights[x, g, n] / w.mass[by, row, column]
-        along_r += 0.0 if held_r else part
-        along_z += 0.0 if held_z else part
+        along_r += 0.0 if constrained_r else part
+        along_z += 0.0 if constrained_z else part
     return along_r, along_z
 
 
 @point
-def give_tie(g, j, i, x, push_r, push_z, w):
+def apply_tie_impulse(g, j, i, x, push_r, push_z, w):
     """Takes an impulse from a slave and gives it to its masters, by weight."""
-    give(g, j, i, -push_r, -push_z, w)
+    apply_impulse(g, j, i, -push_r, -push_z, w)
     for n in range(w.masters[x, g]):
         by, row, column = master(n, g, j, i, x, w.where)
-        give(by, row, column, w.weights[x, g, n] * push_r, w.weights[x, g, n] * push_z, w)
+        apply_impulse(by, row, column, w.weights[x, g, n] * push_r, w.weights[x, g, n] * push_z, w)
 
 
 @point
@@ -91,7 +91,7 @@ def number_entry(e, vertices, w):
     return vertices + 1 if new else vertices
 
 
-@apart
+@not_inlined
 def list_ties(w):
     """Number of tied slaves, all of them listed with their vertices: their own and those of their masters.
 
@@ -108,18 +108,18 @@ def list_ties(w):
             for g in range(2):
                 if w.strength[x, g] == 0.0:
                     continue
-                held_r, held_z = held(j, i, w.constrained)
+                constrained_r, constrained_z = is_constrained(j, i, w.constrained)
                 w.nodes[SLOT, tied], w.nodes[GROUP, tied], w.nodes[ROW, tied], w.nodes[COLUMN, tied] = x, g, j, i
                 w.starts[tied] = e
                 w.entries[0, e], w.entries[1, e], w.entries[2, e] = g, j, i
-                w.portions[e, 0], w.portions[e, 1] = 0.0 if held_r else 1.0, 0.0 if held_z else 1.0
+                w.portions[e, 0], w.portions[e, 1] = 0.0 if constrained_r else 1.0, 0.0 if constrained_z else 1.0
                 vertices = number_entry(e, vertices, w)
                 for n in range(w.masters[x, g]):
                     e += 1
                     w.entries[0, e], w.entries[1, e], w.entries[2, e] = master(n, g, j, i, x, w.where)
-                    still_r, still_z = held(w.entries[1, e], w.entries[2, e], w.constrained)
-                    w.portions[e, 0] = 0.0 if held_r or still_r else -w.weights[x, g, n]
-                    w.portions[e, 1] = 0.0 if held_z or still_z else -w.weights[x, g, n]
+                    master_constrained_r, master_constrained_z = is_constrained(w.entries[1, e], w.entries[2, e], w.constrained)
+                    w.portions[e, 0] = 0.0 if constrained_r or master_constrained_r else -w.weights[x, g, n]
+                    w.portions[e, 1] = 0.0 if constrained_z or master_constrained_z else -w.weights[x, g, n]
                     vertices = number_entry(e, vertices, w)
                 e += 1
                 tied += 1
@@ -132,14 +132,14 @@ def list_ties(w):
 @point
 def mismatch(t, u, v, w):
     """Velocity of the t-th slave minus that of its masters, along r and z; 0 where the axis or a wall constrains it."""
-    apart_r, apart_z = 0.0, 0.0
+    mismatch_r, mismatch_z = 0.0, 0.0
     for e in range(w.starts[t], w.starts[t + 1]):
-        apart_r += w.portions[e, 0] * u[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
-        apart_z += w.portions[e, 1] * v[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
-    return apart_r, apart_z
+        mismatch_r += w.portions[e, 0] * u[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
+        mismatch_z += w.portions[e, 1] * v[w.entries[0, e], w.entries[1, e], w.entries[2, e]]
+    return mismatch_r, mismatch_z
 
 
-@apart
+@not_inlined
 def assemble(tied, w):
     """Matrix of the ties, N M^-1 N^T plus the compliance, row by row; two ties have an element where they share a vertex.
 
@@ -182,7 +182,7 @@ def assemble(tied, w):
     w.lines[tied] = end
 
 
-@apart
+@not_inlined
 def image_of_search(tied, w):
     """Product of the ties' matrix and the search direction; returns search . image, along r and z.
 
@@ -201,12 +201,13 @@ def image_of_search(tied, w):
     return along_r, along_z
 
 
-@apart
-def meet_ties(tied, w):
+@not_inlined
+def solve_ties(tied, w):
     """Brings all slaves to the velocities of their masters together, by conjugate gradients that start from zero.
 
     Reads    the arrays that list_ties and assemble wrote
-    Updates  u, v [b, j, i]; taken [c, x, b], impulses that slaves have given away;  scratch impulses [t, 8], search [t, c]
+    Updates  u, v [b, j, i]; passed_impulse [c, x, b], which slaves have given away
+    Scratch  impulses [t, 8], search [t, c]
     """
     old_r, old_z = 0.0, 0.0
     for t in range(tied):
@@ -233,23 +234,23 @@ def meet_ties(tied, w):
             tie[RESIDUAL + 1] -= step_z * tie[IMAGE + 1]
             new_r += tie[DIAGONAL] * tie[RESIDUAL] * tie[RESIDUAL]
             new_z += tie[DIAGONAL + 1] * tie[RESIDUAL + 1] * tie[RESIDUAL + 1]
-        again_r = new_r / old_r if old_r > enough_r else 0.0
-        again_z = new_z / old_z if old_z > enough_z else 0.0
+        beta_r = new_r / old_r if old_r > enough_r else 0.0
+        beta_z = new_z / old_z if old_z > enough_z else 0.0
         for t in range(tied):
             tie, search = w.impulses[t], w.search[t]
-            search[0] = tie[DIAGONAL] * tie[RESIDUAL] + again_r * search[0]
-            search[1] = tie[DIAGONAL + 1] * tie[RESIDUAL + 1] + again_z * search[1]
+            search[0] = tie[DIAGONAL] * tie[RESIDUAL] + beta_r * search[0]
+            search[1] = tie[DIAGONAL + 1] * tie[RESIDUAL + 1] + beta_z * search[1]
         old_r, old_z = new_r, new_z
     for t in range(tied):
         x, g, j, i = w.nodes[SLOT, t], w.nodes[GROUP, t], w.nodes[ROW, t], w.nodes[COLUMN, t]
         push_r, push_z = w.impulses[t, IMPULSE], w.impulses[t, IMPULSE + 1]
-        give_tie(g, j, i, x, push_r, push_z, w)
-        w.taken[0, x, g] += push_r
-        w.taken[1, x, g] += push_z
+        apply_tie_impulse(g, j, i, x, push_r, push_z, w)
+        w.passed_impulse[0, x, g] += push_r
+        w.passed_impulse[1, x, g] += push_z
 
 
 @point
-def pressed(j, i, n_r, n_z, w):
+def normal_force(j, i, n_r, n_z, w):
     """Normal force (N, never negative) on the interface at vertex (j, i): its area there times the mean normal pressure."""
     area_r, area_z, pressure, cells = 0.0, 0.0, 0.0, 0.0
     for row in range(j - 1, j + 1):
@@ -277,25 +278,25 @@ def mobility(g, j, i, x, w):
     if w.strength[x, g] == 0.0:
         return 1.0 / m
     along_r, along_z = masters_mobility(g, j, i, x, w)
-    ease = max(along_r, along_z)
-    return w.strength[x, g] * ease / (1.0 + m * ease) + (1.0 - w.strength[x, g]) / m
+    master_mobility = max(along_r, along_z)
+    return w.strength[x, g] * master_mobility / (1.0 + m * master_mobility) + (1.0 - w.strength[x, g]) / m
 
 
-@apart
-def rub_on(g, j, i, x, push_r, push_z, w):
+@not_inlined
+def apply_friction_impulse(g, j, i, x, push_r, push_z, w):
     """Applies an impulse to a vertex; a slave passes on to its masters the part that keeps it moving with them."""
-    give(g, j, i, push_r, push_z, w)
+    apply_impulse(g, j, i, push_r, push_z, w)
     if w.strength[x, g] > 0.0:
         m = w.mass[g, j, i]
         along_r, along_z = masters_mobility(g, j, i, x, w)
         pass_r, pass_z = w.strength[x, g] * push_r / (1.0 + m * along_r), w.strength[x, g] * push_z / (1.0 + m * along_z)
-        give_tie(g, j, i, x, pass_r, pass_z, w)
-        w.taken[0, x, g] += pass_r
-        w.taken[1, x, g] += pass_z
+        apply_tie_impulse(g, j, i, x, pass_r, pass_z, w)
+        w.passed_impulse[0, x, g] += pass_r
+        w.passed_impulse[1, x, g] += pass_z
 
 
-@apart
-def rub(j, i, x, w):
+@not_inlined
+def apply_friction(j, i, x, w):
     """Friction between the two groups at a contact node at which they touch.
 
     It acts along the tangent to the normal by which they close least, and is at most `friction` times the normal force.
@@ -313,38 +314,39 @@ def rub(j, i, x, w):
         return
     reduced = 1.0 / (mobility(0, j, i, x, w)
                      + mobility(1, j, i, x, w))
-    force = pressed(j, i, n_r, n_z, w)
-    drag = min(reduced * slip, max(w.friction * force * w.dt - w.rubbing[RUBBED, x], 0.0))
+    force = normal_force(j, i, n_r, n_z, w)
+    drag = min(reduced * slip, max(w.friction * force * w.dt - w.friction_impulse[FRICTION_SIZE, x], 0.0))
     drag_r, drag_z = drag * along_r / slip, drag * along_z / slip
-    w.rubbing[RUBBED, x] += drag
-    w.rubbing[RUB_R, x] += drag_r
-    w.rubbing[RUB_Z, x] += drag_z
-    rub_on(0, j, i, x, drag_r, drag_z, w)
-    rub_on(1, j, i, x, -drag_r, -drag_z, w)
+    w.friction_impulse[FRICTION_SIZE, x] += drag
+    w.friction_impulse[FRICTION_R, x] += drag_r
+    w.friction_impulse[FRICTION_Z, x] += drag_z
+    apply_friction_impulse(0, j, i, x, drag_r, drag_z, w)
+    apply_friction_impulse(1, j, i, x, -drag_r, -drag_z, w)
 
 
-@apart
-def warm_up(g, j, i, x, made, w):
+@not_inlined
+def deposit_heat(g, j, i, x, heat, w):
     """Gives heat (J) to a vertex and, if it is a slave, to its masters, by their masses times the sizes of the weights."""
     total = w.mass[g, j, i]
     for n in range(w.masters[x, g]):
         by, row, column = master(n, g, j, i, x, w.where)
         total += abs(w.weights[x, g, n]) * w.mass[by, row, column]
-    w.heat[g, j, i] += made / total
+    w.heat[g, j, i] += heat / total
     for n in range(w.masters[x, g]):
         by, row, column = master(n, g, j, i, x, w.where)
-        w.heat[by, row, column] += made * abs(w.weights[x, g, n]) / total
+        w.heat[by, row, column] += heat * abs(w.weights[x, g, n]) / total
 
 
 @serial
-def settle(w):
+def resolve_contact(w):
     """Velocities of both groups at contact nodes, after ties and friction act on the velocities from the forces alone.
 
-    Slave nodes move with masters of their group, and groups that touch rub. Both act by impulses that keep the momentum.
+    Slave nodes move with masters of their group, and friction acts between groups that touch. Both are impulses that keep the
+    momentum.
 
     Reads    the arrays that find_extensions wrote; mass [b, j, i]; contact_normal [3, 2, j, i], touch; line, sig_.. [j, i]
     Updates  u, v [b, j, i]; adds to transfer[4, j]
-    Writes   taken [c, x, b], impulses that slaves have given away; rubbing [3, x]; the arrays of list_ties
+    Writes   passed_impulse [c, x, b], which slaves have given away; friction_impulse [3, x]; the arrays of list_ties
     Scratch  the arrays of assemble; impulses [t, 8], search [t, c]
     """
     # Step 1: no impulse has been passed on yet
@@ -352,31 +354,31 @@ def settle(w):
     for x in range(w.first_slot[j1 + 1]):
         for c in range(2):
             for g in range(2):
-                w.taken[c, x, g] = 0.0
+                w.passed_impulse[c, x, g] = 0.0
         for c in range(3):
-            w.rubbing[c, x] = 0.0
+            w.friction_impulse[c, x] = 0.0
     # Step 2: impulses that tie slaves to their masters
     tied = list_ties(w)
     assemble(tied, w)
-    meet_ties(tied, w)
+    solve_ties(tied, w)
     # Step 3: friction at the nodes that touch, and the ties once more, in turn
     for _ in range(ROUNDS if w.friction > 0.0 else 0):
         for j in range(j0, j1 + 1):
             for k in range(w.contact_node_count[j]):
                 if w.touch[j, w.contact_nodes[j, k]] > 0.0:
-                    rub(j, w.contact_nodes[j, k], w.first_slot[j] + k, w)
-        meet_ties(tied, w)
+                    apply_friction(j, w.contact_nodes[j, k], w.first_slot[j] + k, w)
+        solve_ties(tied, w)
 
 
 @serial
-def warm_contact(w):
+def heat_contact_nodes(w):
     """Heat of the impulses at contact nodes.
 
     An impulse J between two velocities makes the heat J . (w0 + w1)/2, w their difference at either end of the step: the
     difference between the work of the cells and the kinetic energy (explanation/sliding, contact). The velocities at the end
     are those after everything has acted, dashpots of an edge on which masters lie included.
 
-    Reads    the arrays that find_extensions and settle wrote; mass, u0, v0, u, v [b, j, i]
+    Reads    the arrays that find_extensions and resolve_contact wrote; mass, u0, v0, u, v [b, j, i]
     Updates  heat [b, j, i], J per kg of the group's mass at a vertex
     Writes   transfer[:4, j]: axial momentum that the soft group gains from the hard one, heat of the ties to the other group,
              of friction, and of under-filled nodes
@@ -390,20 +392,21 @@ def warm_contact(w):
             i, x = w.contact_nodes[j, k], w.first_slot[j] + k
             w_r = 0.5 * ((w.u0[1, j, i] - w.u0[0, j, i]) + (w.u[1, j, i] - w.u[0, j, i]))
             w_z = 0.5 * ((w.v0[1, j, i] - w.v0[0, j, i]) + (w.v[1, j, i] - w.v[0, j, i]))
-            made = w.rubbing[RUB_R, x] * w_r + w.rubbing[RUB_Z, x] * w_z
-            if made != 0.0:
-                warm_up(0, j, i, x, made, w)
-            w.transfer[0, j] += w.rubbing[RUB_Z, x]
-            w.transfer[2, j] += made
+            heat = w.friction_impulse[FRICTION_R, x] * w_r + w.friction_impulse[FRICTION_Z, x] * w_z
+            if heat != 0.0:
+                deposit_heat(0, j, i, x, heat, w)
+            w.transfer[0, j] += w.friction_impulse[FRICTION_Z, x]
+            w.transfer[2, j] += heat
             for g in range(2):
                 if w.strength[x, g] == 0.0:
                     continue
                 before_r, before_z = mismatch(t, w.u0, w.v0, w)
                 after_r, after_z = mismatch(t, w.u, w.v, w)
                 t += 1
-                made = 0.5 * (w.taken[0, x, g] * (before_r + after_r) + w.taken[1, x, g] * (before_z + after_z))
-                warm_up(g, j, i, x, made, w)
+                heat = 0.5 * (w.passed_impulse[0, x, g] * (before_r + after_r)
+                              + w.passed_impulse[1, x, g] * (before_z + after_z))
+                deposit_heat(g, j, i, x, heat, w)
                 tied = w.weights[x, g, w.masters[x, g] - 1] if w.where[x, g, w.masters[x, g] - 1] == TIED else 0.0
-                w.transfer[0, j] += tied * (w.taken[1, x, g] if g == 1 else -w.taken[1, x, g])
-                w.transfer[1, j] += tied * made
-                w.transfer[3, j] += (1.0 - tied) * made
+                w.transfer[0, j] += tied * (w.passed_impulse[1, x, g] if g == 1 else -w.passed_impulse[1, x, g])
+                w.transfer[1, j] += tied * heat
+                w.transfer[3, j] += (1.0 - tied) * heat

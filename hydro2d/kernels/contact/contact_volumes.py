@@ -5,19 +5,19 @@ Both groups sweep the faces, each by its aperture (kernels/contact_geometry); a 
 
 from math import sqrt
 
-from hydro2d.jit import apart, cell_rows, kernel, point, vertex_rows
+from hydro2d.jit import cell_rows, kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
 from hydro2d.kernels.contact.contact_geometry import HARD_FIRST, HARD_R, HARD_Z, SOFT_AFTER, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
-from hydro2d.physics.contact import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.physics.contact_faces import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.traction import smoothstep
 
 #: share of other bodies and void, and of void alone, in a cell at which the rules of `contact_shares` apply in full
-OTHERS = 0.01
+BLEND_RANGE = 0.01
 
 
 @vertex_rows
@@ -61,8 +61,8 @@ def surface_volume(j, i, row, column, w):
     here, there = w.ph[j, i] + w.qr[j, i], w.ph[row, column] + w.qr[row, column]
     moved = 0.0
     if here_meets and there_meets:
-        give = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-        moved = EVENING * give * (here - there)
+        compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
+        moved = EVENING * compliance * (here - there)
     opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
         smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
     if opened == 0.0:
@@ -107,30 +107,30 @@ def even_out(j, w):
 
 
 @cell_rows
-def warm_evened(j, w):
+def heat_evened_cells(j, w):
     """Heats the bodies by the work lost as p_c evens out: half to either cell, shared by mass.
 
     Updates  q (e) [k, m, j, i]
     """
     for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
         here = w.ph[j, i] + w.qr[j, i]
-        made = 0.0
+        heat = 0.0
         if w.even_r[j, i] != 0.0:
-            made += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
+            heat += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
         if w.even_r[j, i + 1] != 0.0:
-            made += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
+            heat += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
         if w.even_z[j, i] != 0.0:
-            made += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
+            heat += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
         if w.even_z[j + 1, i] != 0.0:
-            made += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
-        if made == 0.0:
+            heat += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
+        if heat == 0.0:
             continue
         mass = 0.0
         for m in range(w.vof.shape[0]):
             mass += w.vof[m, j, i] * w.q[RHO, m, j, i] * w.volume[j, i] if w.vof[m, j, i] > 0.0 else 0.0
         for m in range(w.vof.shape[0]):
             if w.vof[m, j, i] > 0.0:
-                w.q[E, m, j, i] += 0.5 * made / mass
+                w.q[E, m, j, i] += 0.5 * heat / mass
 
 
 @cell_rows
@@ -161,9 +161,9 @@ def contact_shares(part, w):
 
     The volume before a sweep depends on the motion of both groups, but neither group is stretched by the other's motion: a line
     scaled with that volume would move and turn without its body. Next to void the bodies fill no more than the cell. Both rules
-    come in over the first OTHERS, of anything but the largest body and of void.
+    are blended in over the first BLEND_RANGE of anything but the largest body and of void.
 
-    Reads    volume, pre [j, i], vof [m, j, i]
+    Reads    volume, pre_sweep_volume [j, i], vof [m, j, i]
     Writes   own_share [m, j, i], the fractions; size [j, i] (m^3), the volume that they are of
     """
     j0, j1 = outer_rows(w.parts)
@@ -176,15 +176,15 @@ def contact_shares(part, w):
                 largest = max(largest, w.vof[m, j, i])
             scale = 1.0
             if w.mesh_box[0] <= j < w.mesh_box[1] and w.mesh_box[2] <= i < w.mesh_box[3] and 0.0 < total and largest < 1.0:
-                scale += smoothstep((1.0 - largest) / OTHERS) * (w.pre[j, i] / w.volume[j, i] - 1.0)
-                scale -= smoothstep((1.0 - total) / OTHERS) * max(scale - 1.0 / total, 0.0)
+                scale += smoothstep((1.0 - largest) / BLEND_RANGE) * (w.pre_sweep_volume[j, i] / w.volume[j, i] - 1.0)
+                scale -= smoothstep((1.0 - total) / BLEND_RANGE) * max(scale - 1.0 / total, 0.0)
             for m in range(w.vof.shape[0]):
                 w.own_share[m, j, i] = w.vof[m, j, i] * scale
-            w.size[j, i] = w.pre[j, i] / scale
+            w.size[j, i] = w.pre_sweep_volume[j, i] / scale
 
 
-@apart
-def take(g, more, j, i, w):
+@not_inlined
+def add_group_flux(g, more, j, i, w):
     """Adds `more` to the volume of group g through face (j, i); returns the volume that the group cannot supply.
 
     Flow in the opposite direction is reduced first, for every body by the same share. Then the body with the largest share of
@@ -216,8 +216,9 @@ def contact_fluxes(part, w):
     In a cell the group with the flatter surface comes first among the nested interfaces; where void separates the groups, each
     group comes first for itself, by the weights of `contact_lines`. The bodies together may flow less or more than the volume
     that the face sweeps. Void, which flows with the face, makes up a deficit as far as the donor cell has any. The soft bodies
-    take the remainder as far as they can supply it, then the hard ones (`take`). Where the donor cell has a gap, a full cell
-    that receives volume is filled by its own body as long as the donor has any: no void enters a body from its surface.
+    take the remainder as far as they can supply it, then the hard ones (`add_group_flux`). Where the donor cell has a gap, a
+    full cell that receives volume is filled by its own body as long as the donor has any: no void enters a body from its
+    surface.
 
     Reads    face [j, i], own [b, j, i], the arrays that contact_shares wrote, vof [m, j, i], group [m], line [10, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -274,7 +275,7 @@ def contact_fluxes(part, w):
             gap = smoothstep(void / GAP - 0.5)
             if gap > 0.0 and (rest > 0.0) == up:
                 for m in range(w.group.shape[0]):
-                    full = smoothstep(1.0 - (1.0 - w.vof[m, to_row, to_column]) / OTHERS)
+                    full = smoothstep(1.0 - (1.0 - w.vof[m, to_row, to_column]) / BLEND_RANGE)
                     if full > 0.0:
                         swept = w.own[w.group[m], j, i] if up else -w.own[w.group[m], j, i]
                         most = min(swept, w.own_share[m, row, column] * w.size[row, column]) - abs(w.flux_volume[m, j, i])
@@ -285,15 +286,15 @@ def contact_fluxes(part, w):
             room = min(void * w.size[row, column], abs(w.face[j, i])) if (rest > 0.0) == up else 0.0
             beyond = max(abs(rest) - room, 0.0)
             if beyond > 0.0:
-                left = take(0, beyond if rest > 0.0 else -beyond, j, i, w)
-                take(1, left, j, i, w)
+                left = add_group_flux(0, beyond if rest > 0.0 else -beyond, j, i, w)
+                add_group_flux(1, left, j, i, w)
 
 
 @cell_rows
 def limit_fluxes(j, w):
     """Limits the fluxes so that no cell gives more of a body through both of its faces than it has.
 
-    Reads    pre [j, i], vof [m, j, i]
+    Reads    pre_sweep_volume [j, i], vof [m, j, i]
     Updates  flux_volume [m, j, i] of the faces around contact-interface cells
     """
     dj, di = w.dj, w.di
@@ -302,7 +303,7 @@ def limit_fluxes(j, w):
     for i in range(max(lo - di, w.mesh_box[2]), min(hi + di, w.mesh_box[3])):
         for m in range(w.vof.shape[0]):
             low, high = max(-w.flux_volume[m, j, i], 0.0), max(w.flux_volume[m, j + dj, i + di], 0.0)
-            there = w.vof[m, j, i] * w.pre[j, i]
+            there = w.vof[m, j, i] * w.pre_sweep_volume[j, i]
             if low + high > there and w.vof[m, j, i] > 0.0:
                 keep = there / (low + high)
                 if low > 0.0:

@@ -7,10 +7,10 @@ fades in as the share falls from SURE to UNDERFILLED, and the weight of a cell f
 
 from math import sqrt
 
-from hydro2d.jit import apart, kernel, point, vertex_rows
+from hydro2d.jit import kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact.contact_geometry import REACH
-from hydro2d.physics.contact import dual_share
+from hydro2d.physics.contact_faces import dual_share
 from hydro2d.physics.traction import smoothstep
 
 #: filled share of its dual cell up to which a node of a group is under-filled, and from which it is not
@@ -45,13 +45,13 @@ def sureness(share):
 @point
 def in_debris(g, j, i, w):
     """Whether failed material of the group other than g fills a cell around vertex (j, i) by half or more."""
-    found = False
+    failed = False
     for m in range(w.group.shape[0]):
         if w.group[m] != g:
             for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
                 for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
-                    found = found or (w.vof[m, row, column] >= 0.5 and w.dmg[m, row, column] >= 1.0)
-    return found
+                    failed = failed or (w.vof[m, row, column] >= 0.5 and w.dmg[m, row, column] >= 1.0)
+    return failed
 
 
 @kernel
@@ -74,7 +74,7 @@ def find_filled(part, w):
                 w.filled[g, j, i] = filled_share(g, j, i, w)
 
 
-@apart
+@not_inlined
 def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
     """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4 times its `sureness`.
 
@@ -93,7 +93,7 @@ def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
     return sureness(part) * sureness(least) * (along * along) * (along * along)
 
 
-@apart
+@not_inlined
 def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
     """Weights of the cells around the slave (j, i), its offsets from their middles, in cells, and the sums of the squares of
     their vertices' weights.
@@ -114,7 +114,7 @@ def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
             n += 1
 
 
-@apart
+@not_inlined
 def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
     """Adds, with the total weight `factor`, the linear fields of cells inward whose vertex weights have a sum of squares above
     least_squares and up to most_squares; returns the share of `factor` that is used.
@@ -144,7 +144,7 @@ def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
     return smoothstep(whole / ENOUGH)
 
 
-@apart
+@not_inlined
 def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
     """Adds, with the total weight `factor`, the velocities of single vertices inward; returns the share of `factor` used.
 
@@ -212,14 +212,14 @@ def find_extensions(j, w):
             if left > 0.0:
                 used = extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
                 w.weights[x, g, TIED] = left * (1.0 - used)
-            found = 0
+            count = 0
             for n in range(MASTERS + 1):
                 weight = w.weights[x, g, n]
                 if weight != 0.0:
-                    w.where[x, g, found] = n
-                    w.weights[x, g, found] = weight
-                    found += 1
-            w.masters[x, g] = found
+                    w.where[x, g, count] = n
+                    w.weights[x, g, count] = weight
+                    count += 1
+            w.masters[x, g] = count
         slack = SLACK * tied_weight(x, 0, w) * tied_weight(x, 1, w)
         for g in range(2):
             w.strength[x, g] *= 1.0 - slack

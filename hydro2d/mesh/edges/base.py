@@ -59,7 +59,7 @@ class Edge:
         return None
 
     @classmethod
-    def holds(cls) -> bool:
+    def constrains(cls) -> bool:
         """Whether the normal velocity of its vertices is given."""
         return cls.constrain is not Edge.constrain
 

@@ -30,4 +30,4 @@ def made(edge: str, boundaries: Mapping[str, Any]) -> Edge:
 def halved(geometry: str, r_start: float, r_min: str) -> bool:
     """Whether a mesh is one half of a symmetric whole: it is cylindrical, or it starts at r = 0 with a plane of symmetry."""
     kind = BY_NAME.get(r_min)
-    return geometry == "cylindrical" or (r_start == 0.0 and kind is not None and kind.ghost() == IMAGES and kind.holds())
+    return geometry == "cylindrical" or (r_start == 0.0 and kind is not None and kind.ghost() == IMAGES and kind.constrains())

@@ -14,9 +14,9 @@ from hydro2d.base.terminal import shown
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_text
 from hydro2d.results.figures import BODY_COLOURS
-from hydro2d.results.viewer.contents import contents
-from hydro2d.results.viewer.fields import CLIPS, ViewError
+from hydro2d.results.viewer.field_arrays import CLIPS, ViewError
 from hydro2d.results.viewer.packing import BITS, DEFAULT_BITS
+from hydro2d.results.viewer.page_contents import contents
 
 PAGE = "view.html"
 #: the parts of the program, in order

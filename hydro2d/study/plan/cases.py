@@ -16,7 +16,7 @@ from hydro2d.base.errors import DeckError, unknown
 from hydro2d.deck import deck as decks
 from hydro2d.deck import key_messages
 from hydro2d.files import toml
-from hydro2d.files.lines import Sources
+from hydro2d.files.key_lines import Sources
 from hydro2d.running.progress import counted
 from hydro2d.running.run import deck_hash
 from hydro2d.study.plan import members, ranges, velocities

@@ -12,7 +12,7 @@ from hydro2d.base import units
 from hydro2d.base.errors import DeckError, Error, in_words, unknown
 from hydro2d.base.keys import PositiveLength, PositiveSpeed, Section, Speed
 from hydro2d.files import toml
-from hydro2d.files.lines import Sources, spelled
+from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain, read_text
 from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.outcomes.registry import BY_NAME, KINDS

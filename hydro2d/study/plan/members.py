@@ -64,7 +64,7 @@ def _free(deck: decks.Deck, what: str, edges: tuple[str, ...]) -> None:
     """Raises DeckError if an edge of the mesh is a boundary that must not move against the bodies."""
     for edge in edges:
         kind = getattr(deck.boundaries, edge)
-        if BY_NAME[kind].holds():
+        if BY_NAME[kind].constrains():
             raise DeckError(f'{what}: the edge {edge} = "{kind}" must not move against the bodies; {OTHER}')
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import cell, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.whole import read_text, write_text

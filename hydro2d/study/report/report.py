@@ -14,7 +14,7 @@ from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.results.viewer import page as viewer
-from hydro2d.results.viewer.fields import ViewError
+from hydro2d.results.viewer.field_arrays import ViewError
 from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.study.ensemble import ensembles
 from hydro2d.study.ensemble.contents import Contents, collect

@@ -11,7 +11,7 @@ from pathlib import Path
 from hydro2d import jit
 from hydro2d.base.errors import DeckError
 from hydro2d.base.interrupt import Interrupt
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck as decks
 from hydro2d.files import checksums
 from hydro2d.files.locks import LockError, LostPlaceError, holder

@@ -15,7 +15,7 @@ from hydro2d.base.errors import DeckError
 from hydro2d.base.keys import Section
 from hydro2d.base.version import __version__
 from hydro2d.files import toml
-from hydro2d.files.lines import Sources
+from hydro2d.files.key_lines import Sources
 from hydro2d.study.plan.definition import StudyError, explained
 
 #: address at which a sweep on this machine listens

@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 
 from hydro2d.base.interrupt import Interrupt, signals, status
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.locks import locked
@@ -199,7 +199,7 @@ class _Sweep:
                 self.compiling = True
                 key = kernels(decks.loads(self.texts[todo[0].name]))
                 if not compilation.is_compiled(key):
-                    self.board.compiling = partial(compilation.told_of, key)
+                    self.board.compiling = partial(compilation.progress_of, key)
                     self.board.line("kernels not compiled by earlier runs are compiled first")
             for case in todo:
                 self._give(case)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from hydro2d.base.method import METHOD
+from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck as decks
 from hydro2d.files import toml
 from hydro2d.study.outcomes.registry import BY_NAME

@@ -16,8 +16,8 @@ from hydro2d.cli.main import call
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import history, vtk
 from hydro2d.results import figures
-from hydro2d.results.viewer import contents, packing
-from hydro2d.results.viewer.fields import CLIPS, Ranges, ViewError
+from hydro2d.results.viewer import packing, page_contents
+from hydro2d.results.viewer.field_arrays import CLIPS, Ranges, ViewError
 from tests.results import made_run
 
 
@@ -127,7 +127,7 @@ def test_the_history_and_the_stations_are_kept(shot):
 
 
 def test_a_long_history_is_thinned_and_says_so(shot, monkeypatch):
-    monkeypatch.setattr(contents, "ROWS", 30)
+    monkeypatch.setattr(page_contents, "ROWS", 30)
     page = Page(shot.view().html)
     assert page.runs[0]["history"]["step"] == 3
     np.testing.assert_array_equal(page.column(0, "time")[[0, 1, -1]], shot.history["time"][[0, 3, -1]])

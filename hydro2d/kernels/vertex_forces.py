@@ -3,9 +3,9 @@
 from math import sqrt
 
 from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
-from hydro2d.kernels.boundaries import left_by_edges
+from hydro2d.kernels.boundaries import velocity_at_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, union
-from hydro2d.kernels.cut_cells import KIND, WHOLE, cut_pressure, holds, pull_of_ties, skin_deviator, ties
+from hydro2d.kernels.cut_cells import KIND, WHOLE, contains_group, cut_pressure, pull_of_ties, skin_deviator, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
@@ -15,7 +15,7 @@ from hydro2d.physics.momentum import corner_sum
 from hydro2d.physics.stress import stress_scale
 
 #: speeds below this carry no signal and are set to zero, so that the active region has an edge (explanation/speed)
-SILENCE = 1e-20
+SMALLEST_SPEED = 1e-20
 
 
 @point
@@ -162,8 +162,8 @@ def limit_speed(j, w):
             if not alone and other[i] > 0.0:
                 continue
             shrink = w.speed_limit / sqrt(square)
-            end_u = left_by_edges(i, 0, shrink * un[i], w)
-            end_v = left_by_edges(j, 2, shrink * vn[i], w)
+            end_u = velocity_at_edges(i, 0, shrink * un[i], w)
+            end_v = velocity_at_edges(j, 2, shrink * vn[i], w)
             lost_p += m * vn[i] * (1.0 - shrink)
             lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
             count += 1.0
@@ -204,8 +204,8 @@ def accelerate_row(b, j, w):
         scale = keep * w.dt / max(m_j[i], TINY)
         radial = keep * u_j[i] + scale * force_r
         axial = keep * v_j[i] + scale * force_z
-        un[i] = radial if abs(radial) > SILENCE else 0.0
-        vn[i] = axial if abs(axial) > SILENCE else 0.0
+        un[i] = radial if abs(radial) > SMALLEST_SPEED else 0.0
+        vn[i] = axial if abs(axial) > SMALLEST_SPEED else 0.0
 
 
 @rowwise
@@ -220,7 +220,7 @@ def tie_row(b, j, w):
         for k in range(w.mixed_count[row]):
             i = w.mixed[row, k]
             by_r, by_z = ties(row, i, w)
-            if by_r + by_z == 0.0 or not holds(b, row, i, w.group, w.vof):
+            if by_r + by_z == 0.0 or not contains_group(b, row, i, w.group, w.vof):
                 continue
             for at in range(i, i + 2):
                 if lo <= at < lo + n and w.mass[b, j, at] > 0.0:

@@ -15,7 +15,7 @@ class Ties(NamedTuple):
     """Data of contact for every contact node, in slots: the nodes of row j have those from first_slot[j] on.
 
     How firmly nodes are tied, to how many masters, to which and with what weights (`find_extensions`); then the data for
-    `settle` to solve for the impulses of the ties. Nothing in the arrays outlasts a step.
+    `resolve_contact` to solve for the impulses of the ties. Nothing in the arrays outlasts a step.
     """
 
     strength: np.ndarray
@@ -34,8 +34,8 @@ class Ties(NamedTuple):
     matrix: np.ndarray
     impulses: np.ndarray
     search: np.ndarray
-    taken: np.ndarray
-    rubbing: np.ndarray
+    passed_impulse: np.ndarray
+    friction_impulse: np.ndarray
 
 
 #: ties that can share a vertex with one: both groups' in the square in which the squares of their masters overlap
@@ -63,8 +63,8 @@ def slots(number: int = 0) -> Ties:
         matrix=np.zeros((elements, 2)),
         impulses=np.zeros((ties, 8)),
         search=np.zeros((ties, 2)),
-        taken=np.zeros((2, number, 2)),
-        rubbing=np.zeros((3, number)),
+        passed_impulse=np.zeros((2, number, 2)),
+        friction_impulse=np.zeros((3, number)),
     )
 
 

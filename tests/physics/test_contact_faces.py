@@ -5,18 +5,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d.physics import contact
+from hydro2d.physics import contact_faces
 from tests.physics.cells import COLUMNS, GEOMETRIES, ROWS, polygon_volume, rate_of_volume, small
 
-end_apertures = contact.end_apertures.py_func
-known = contact.known.py_func
-dual_share = contact.dual_share.py_func
-meeting = contact.meeting.py_func
-blend = contact.blend.py_func
-face_flow_r = contact.face_flow_r.py_func
-face_flow_z = contact.face_flow_z.py_func
-volume_rate = contact.volume_rate.py_func
-largest_of = contact.largest_of.py_func
+end_apertures = contact_faces.end_apertures.py_func
+known = contact_faces.known.py_func
+dual_share = contact_faces.dual_share.py_func
+meeting = contact_faces.meeting.py_func
+blend = contact_faces.blend.py_func
+face_flow_r = contact_faces.face_flow_r.py_func
+face_flow_z = contact_faces.face_flow_z.py_func
+volume_rate = contact_faces.volume_rate.py_func
+largest_of = contact_faces.largest_of.py_func
 
 HARD, SOFT, BOTH = 1, 0, -1
 LEVEL = st.integers(-1000, 1000).map(lambda number: number / 1000)

@@ -5,7 +5,7 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.mesh import quantities
-from hydro2d.output import derived, snapshot
+from hydro2d.output import derived_quantities, snapshot
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures, scales
 from hydro2d.running import check
@@ -198,7 +198,7 @@ def test_fields_of_a_contact(contact):
     state, grid = contact.state, contact.grid
     set_velocities(contact, (5.0, 100.0), (7.0, 900.0))
     state.contact_pressure[CUT[0] + grid.g, CUT[1] + grid.g] = 2e9
-    fields = derived.evaluate(contact, ["standard"])
+    fields = derived_quantities.evaluate(contact, ["standard"])
     velocity, hard, soft = (fields[f"Velocity{of} [m/s]"] for of in ("", " of Hard Bodies", " of Soft Bodies"))
     assert velocity.shape == hard.shape == soft.shape == (16, 8, 3)
     assert [hard[cell].tolist() for cell in (PURE, CUT, PLATE, VOID)] == [[7, 900, 0], [7, 900, 0], [0, 0, 0], [0, 0, 0]]
@@ -220,9 +220,9 @@ def test_fields_of_a_contact_are_written_only_there(contact):
     assert len(titles) == 4
     single = one_velocity()
     for keys in (["standard"], ["all"]):
-        assert titles <= derived.evaluate(contact, keys).keys()
-        assert derived.evaluate(contact, keys).keys() - derived.evaluate(single, keys).keys() == titles
-    assert not titles & derived.evaluate(single, ["contact_pressure"]).keys()
+        assert titles <= derived_quantities.evaluate(contact, keys).keys()
+        assert derived_quantities.evaluate(contact, keys).keys() - derived_quantities.evaluate(single, keys).keys() == titles
+    assert not titles & derived_quantities.evaluate(single, ["contact_pressure"]).keys()
     assert Dump.of(contact).bodies == ["rod", "plate", "backing"]
 
 

@@ -5,10 +5,10 @@ import pytest
 
 from eos import p_alpha
 from hydro2d.deck import deck
-from hydro2d.kernels import memory
+from hydro2d.kernels import eos_memory
 from hydro2d.materials.rows import EOS, MEMORY
 from hydro2d.mesh.fields import DMG, EP, INTERNAL, SRR, SZZ, carried
-from hydro2d.output import derived
+from hydro2d.output import derived_quantities
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.cells import handle
 from tests.kernels.test_lagrangian import BLOCK
@@ -79,15 +79,15 @@ def test_a_model_receives_the_changes_of_a_step(monkeypatch):
 
     s = (sim := simulation()).state
     e = sim.engine
-    monkeypatch.setitem(memory.update_memory.source.__globals__, "update", update)
+    monkeypatch.setitem(eos_memory.update_memory.source.__globals__, "update", update)
     j, i = 4, 3
     names = handle(**{**e.given.handle.values, "parts": np.array([j, j + 1]), "time": 3e-6, "dt": 1e-8})
     s.body_range[0, j] = i, i + 1
     s.rho[0, j, i], s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 2000.0, 1e8, -2e8
-    memory.remember.source(0, names)
+    eos_memory.remember.source(0, names)
     s.rho[0, j, i], s.e[0, j, i], s.q[EP, 0, j, i], s.q[DMG, 0, j, i] = 2100.0, 7e3, 0.02, 0.3
     s.q[SRR, 0, j, i], s.q[SZZ, 0, j, i] = 0.5e8, -1e8
-    memory.update_memory.source(0, names)
+    eos_memory.update_memory.source(0, names)
     stress = np.sqrt(3.0 * (1.0 - 2.0 + 4.0)) * 1e8
     expected = (2000.0, 2100.0, 7e3, 0.02, 0.5 * stress * 0.02, 0.0, 0.3, 0.0, 3e-6, 1e-8)
     assert received[0] == pytest.approx(expected, rel=1e-12)
@@ -152,7 +152,7 @@ def test_pores_travel_with_the_body():
 
 
 def test_it_is_written_for_the_body_that_has_it():
-    written = derived.evaluate(simulation(TWO), ("distention", "back_stress_rr"))
+    written = derived_quantities.evaluate(simulation(TWO), ("distention", "back_stress_rr"))
     assert written["Distention of block"].max() == 1.35
     assert "Distention of upper" not in written
     assert "Back Stress rr of upper [Pa]" in written

@@ -5,11 +5,11 @@ from hydro2d.kernels.column_ranges import columns, outer_rows, union
 from hydro2d.mesh.grid import VOL_R
 
 #: stresses (Pa), energies (J/kg) and strains below this are set to zero; a travelling mesh would carry them on, ever smaller
-FADED = 1e-30
+FLUSHED_BELOW = 1e-30
 
 
 @vertex_rows
-def leave(j, w):
+def subtract_mesh_motion(j, w):
     """F_z - d A for the faces j0 to j1 along z: the volume swept relative to a mesh that advances by d in the step.
 
     A is the axial area of the column (explanation/following-mesh, equation 1).
@@ -25,8 +25,8 @@ def leave(j, w):
 
 
 @vertex_rows
-def leave_contact(j, w):
-    """F_z - d A for the volume that each group of a contact sweeps at the faces around contact-interface cells (`leave`).
+def subtract_mesh_motion_of_groups(j, w):
+    """`subtract_mesh_motion` for the volume that each group of a contact sweeps at the faces around contact-interface cells.
 
     Reads    contact_columns [j, 2]
     Updates  own_z [b, j, i]
@@ -39,7 +39,7 @@ def leave_contact(j, w):
 
 
 @cell_rows
-def silence(j, w):
+def flush_tiny_values(j, w):
     """Sets tiny values to zero: numbers too small to be normal cost the processor a hundred times as much.
 
     In a travelling mesh every step mixes a share of the neighbours' stress into a cell, also ahead of all waves. The tail of
@@ -54,4 +54,4 @@ def silence(j, w):
             k = w.carried[m, place]
             row = w.q[k, m, j]
             for x in range(n):
-                row[lo + x] = row[lo + x] if abs(row[lo + x]) > FADED else 0.0
+                row[lo + x] = row[lo + x] if abs(row[lo + x]) > FLUSHED_BELOW else 0.0

@@ -6,7 +6,7 @@ import pytest
 
 from hydro2d.output.history import Columns
 from hydro2d.running.progress import result
-from hydro2d.running.residual import CHANGE, OVER, VELOCITY, change
+from hydro2d.running.residual_velocity import CHANGE, OVER, VELOCITY, change
 from hydro2d.running.run import run
 from tests.rules import source
 

@@ -5,8 +5,8 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.output.outlines import Filling
-from hydro2d.results import figures, lines
-from hydro2d.results.lines import Line
+from hydro2d.results import figures, line_figures
+from hydro2d.results.line_figures import Line
 from hydro2d.results.reading import Results
 from hydro2d.results.scales import FigureError, Scale
 from tests.results import made_run
@@ -19,7 +19,7 @@ def run(tmp_path_factory):
 
 def test_a_line_along_z_has_each_cell_once(run):
     dump = run.dump()
-    *_, along, values = lines.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
+    *_, along, values = line_figures.curve(run, dump, "pressure", Line(1e-3, -1.0, 1e-3, 1.0))
     inside = (along > dump.z_edges[0]) & (along < dump.z_edges[-1])
     np.testing.assert_allclose(along[inside], 0.5 * (dump.z_edges[1:] + dump.z_edges[:-1]))
     column = int(np.searchsorted(dump.r_edges, 1e-3, "right")) - 1
@@ -30,7 +30,7 @@ def test_a_line_along_z_has_each_cell_once(run):
 def test_a_line_across_has_the_cells_that_it_crosses(run):
     dump = run.dump()
     line = Line(0.0, -5e-3, 4e-3, 5e-3)
-    *_, along, curve = lines.curve(run, dump, "velocity:z", line)
+    *_, along, curve = line_figures.curve(run, dump, "velocity:z", line)
     assert line.label == "distance"
     assert 0.0 < along[0] < along[-1] < np.hypot(4e-3, 10e-3)
     values = figures.chosen(dump, "velocity:z").values
@@ -41,33 +41,33 @@ def test_a_line_across_has_the_cells_that_it_crosses(run):
 
 
 def test_line_outs_have_a_curve_for_each_time(run):
-    figure = lines.line_outs([run], "pressure", times=(0.0, 40e-6))
+    figure = line_figures.line_outs([run], "pressure", times=(0.0, 40e-6))
     (axes,) = figure.axes
     assert [line.get_label() for line in axes.lines] == ["0.00 µs", "40.00 µs"]
     assert axes.get_xlabel() == "z [mm]"
     assert axes.get_yscale() == "linear"
-    assert lines.line_outs([run], "temperature", scale=Scale(log=True)).axes[0].get_yscale() == "log"
+    assert line_figures.line_outs([run], "temperature", scale=Scale(log=True)).axes[0].get_yscale() == "log"
 
 
 def test_a_diagram_of_place_and_time_follows_the_nose(run):
     """The nose is at 1 km/s times the time, so the slope of its outline is that velocity."""
-    along, times, values, bodies, label = lines._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
-    assert values.shape == (4, lines.POINTS) == bodies[0].shape
+    along, times, values, bodies, label = line_figures._panel(run, "pressure", Line(1e-3, -1e-3, 1e-3, 60e-3))
+    assert values.shape == (4, line_figures.POINTS) == bodies[0].shape
     assert label == "Pressure [GPa]"
     noses = [along[np.nonzero(row >= 0.5)[0][-1]] if (row >= 0.5).any() else 0.0 for row in bodies[0]]
     np.testing.assert_allclose(noses, 1e3 * times, atol=2.5e-3)  # a cell there is 3 mm
-    figure = lines.space_time([run], "pressure")
+    figure = line_figures.space_time([run], "pressure")
     assert len(figure.axes) == 2
 
 
 def test_requests_that_cannot_be_drawn_are_reported(run, tmp_path):
     with pytest.raises(FigureError, match="misses the mesh"):
-        lines.curve(run, run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
+        line_figures.curve(run, run.dump(), "pressure", Line(1.0, 0.0, 1.0, 1.0))
     single = Results(made_run.write(tmp_path / "one", dumps=1))
     with pytest.raises(FigureError, match="has 1 dumps; a diagram of place and time needs at least two"):
-        lines.space_time([single], "pressure")
+        line_figures.space_time([single], "pressure")
     with pytest.raises(FigureError, match="no values of pressure lie on the line"):
-        lines.space_time([run], "pressure", Line(1.0, 0.0, 1.0, 1.0))
+        line_figures.space_time([run], "pressure", Line(1.0, 0.0, 1.0, 1.0))
 
 
 def test_scales_clip_and_are_logarithmic():
@@ -131,13 +131,13 @@ def test_debris_are_drawn(run, monkeypatch):
               "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
               "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
     monkeypatch.setattr(Results, "debris", {"plate": debris})
-    speed, angle, fragments = lines.debris([run]).axes
+    speed, angle, fragments = line_figures.debris([run]).axes
     assert [patch.get_data().values.sum() for patch in speed.patches] == [pytest.approx(5.0), pytest.approx(3.0)]
     assert angle.get_xlim() == (0.0, 45.0)
     assert fragments.lines[0].get_xydata().tolist() == [[5.0, 1.0], [2.0, 2.0], [1.0, 3.0]]
     monkeypatch.setattr(Results, "debris", {"plate": {**debris, "body": np.array([])}})
     with pytest.raises(FigureError, match="nothing flies behind a target"):
-        lines.debris([run])
+        line_figures.debris([run])
 
 
 def test_the_command_draws_debris_and_refuses_options_of_other_kinds(run, tmp_path, capsys):

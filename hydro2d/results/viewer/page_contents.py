@@ -13,7 +13,7 @@ from hydro2d.output import history, station_arrays
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump, read_grid
 from hydro2d.results.viewer import packing
-from hydro2d.results.viewer.fields import Ranges, Stored, ViewError, arrays, asked, short, unit_of
+from hydro2d.results.viewer.field_arrays import Ranges, Stored, ViewError, arrays, asked, short, unit_of
 from hydro2d.running.run import HISTORY
 
 #: fields that every page has, to show the bodies
@@ -27,7 +27,7 @@ ROUNDING = 1e-9
 def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     """The table of a run (results.Results) and its packed numbers in base64.
 
-    words : fields, as `fields.asked` takes them
+    words : fields, as `field_arrays.asked` takes them
     bits : bits of a value, one of packing.BITS
 
     Raises ViewError, FieldError, VtkError, HistoryError.

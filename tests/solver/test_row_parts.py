@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hydro2d import jit
-from hydro2d.solver.parts import EMPTY, FEWEST, FULL, MIXED, RECUT, Parts, cut
+from hydro2d.solver.row_parts import EMPTY, FEWEST, FULL, MIXED, RECUT, Parts, cut
 
 
 def shares(costs: np.ndarray, bounds: np.ndarray) -> np.ndarray:

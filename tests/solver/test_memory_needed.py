@@ -11,7 +11,7 @@ from hydro2d.mesh.fields import Field
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State, bytes_needed
 from hydro2d.running import check
-from hydro2d.solver import memory
+from hydro2d.solver import memory_needed
 from hydro2d.solver.simulation import Simulation
 from tests.solver.test_sanity import TEXT
 
@@ -39,12 +39,12 @@ def test_a_mesh_beyond_the_machine(begin):
 
 def test_a_mesh_that_fills_most_of_the_memory_is_none_of_its_business(monkeypatch):
     small = deck.loads(TEXT)
-    pages = memory.needed(small) // os.sysconf("SC_PAGE_SIZE")
+    pages = memory_needed.needed(small) // os.sysconf("SC_PAGE_SIZE")
     monkeypatch.setattr(os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 2 * pages}[name])
-    memory.refuse_too_large(small)
+    memory_needed.refuse_too_large(small)
     monkeypatch.setattr(os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": pages}[name])
     with pytest.raises(DeckError):
-        memory.refuse_too_large(small)
+        memory_needed.refuse_too_large(small)
 
 
 @pytest.mark.parametrize("segment", ['{to="20 mm", size="1e-15 m"}', '{to="20 mm", first="1e-15 m", ratio=1.0}'])

@@ -93,8 +93,8 @@ def volume_rate(j, i, g, metrics, h, aperture_r, aperture_z, u, v):
 @point
 def largest_of(g, j, i, group, vof):
     """Body of group g that fills the most of cell (j, i), -1 if none does."""
-    found, most = -1, 0.0
+    largest, most = -1, 0.0
     for m in range(vof.shape[0]):
         if group[m] == g and vof[m, j, i] > most:
-            found, most = m, vof[m, j, i]
-    return found
+            largest, most = m, vof[m, j, i]
+    return largest

@@ -50,9 +50,9 @@ class Cells:
 
     @functools.cached_property
     def _thermal(self) -> tuple[np.ndarray, np.ndarray]:
-        from hydro2d.materials import thermal
+        from hydro2d.materials import pressure_temperature
 
-        return thermal.of(self._sim)
+        return pressure_temperature.of(self._sim)
 
     @property
     def p(self) -> np.ndarray:
