@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.base.terminal import duration
+from hydro2d.base.terminal import duration, moment, number
+from hydro2d.mesh.measured import passed
 from hydro2d.mesh.regime import REGIMES
-from hydro2d.running import ending
-from hydro2d.running.progress import moment, number, passed
-from hydro2d.running.run import HISTORY
+from hydro2d.output import ending
+from hydro2d.output.directory import HISTORY
 
 
 def lines(run, status: str, message: str, progress: dict) -> list[str]:
