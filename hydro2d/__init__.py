@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
+    from hydro2d.output.directory import RunError
     from hydro2d.results.figures import new_figure, save_figure
     from hydro2d.results.reading import Results, ResultsError
-    from hydro2d.running.run import RunError
     from hydro2d.solver.callbacks import every
     from hydro2d.solver.simulation import Simulation
     from hydro2d.study.ensemble.chance import wilson
@@ -58,7 +58,7 @@ _PLACES = {
     "register": "hydro2d.materials.outside",
     "Error": "hydro2d.base.errors",
     "DeckError": "hydro2d.base.errors",
-    "RunError": "hydro2d.running.run",
+    "RunError": "hydro2d.output.directory",
     "UnphysicalState": "hydro2d.base.errors",
     "ResultsError": "hydro2d.results.reading",
     "StudyError": "hydro2d.study.plan.definition",

@@ -15,10 +15,10 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
 from hydro2d.files.whole import plain, write_text
+from hydro2d.output.directory import deck_hash
 from hydro2d.penetration import lambert_jonas
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
-from hydro2d.running.run import deck_hash
 from hydro2d.running.team import at_most
 from hydro2d.study.ensemble import contents
 from hydro2d.study.plan import cases

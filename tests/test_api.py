@@ -143,7 +143,50 @@ def test_a_mistake_in_a_dict_names_its_key():
         hydro2d.Deck.from_dict(tables, name="shot")
 
 
+def test_edges_and_bodies_of_a_deck(deck):
+    sim = hydro2d.Simulation(deck)
+    for edges, own in zip(deck.edges(), (sim.grid.r_edges, sim.grid.z_edges), strict=True):
+        np.testing.assert_array_equal(edges, own)
+    assert deck.body_named("plate") is deck.body[1]
+    with pytest.raises(KeyError):
+        deck.body_named("sabot")
+
+
+# ---------------------------------------------------------------------------------------------------- models and kept rows
+
+SHOT = "problems/cth_nose_shape/hemi_5083_1296.toml"
+
+
+def test_an_analytic_model_for_a_deck():
+    deck = hydro2d.Deck.from_file(SHOT)
+    depths = [hydro2d.penetration_model("tate", deck, inputs).rows([1296.0])[0]["depth"]
+              for inputs in (None, {"target.resistance": 2e9}, {"target.resistance": 4e9})]
+    assert 0.0 < depths[2] < depths[1] != depths[0] > 0.0
+    with pytest.raises(ValueError, match="tate"):
+        hydro2d.penetration_model("tat", deck)
+    with pytest.raises(hydro2d.DeckError, match="needs a rod on the axis and a target"):
+        hydro2d.penetration_model("tate", hydro2d.Deck.from_file("problems/verification/sod_z.toml"))
+
+
+def test_a_fit_needs_as_many_shots_as_constants():
+    speeds, left = [220.0, 250.0, 300.0], [40.0, 120.0, 190.0]
+    assert 200.0 < hydro2d.fit_residual_velocity(speeds, left, p=2.0).limit_velocity < 220.0
+    with pytest.raises(ValueError, match="3 constants"):
+        hydro2d.fit_residual_velocity(speeds[:2], left[:2])
+
+
+def test_kept_rows_of_nothing_are_refused(tmp_path):
+    with pytest.raises(hydro2d.StudyError, match="is not a study directory"):
+        hydro2d.kept_rows(tmp_path / "rows.csv")
+
+
 # ---------------------------------------------------------------------------------------------------- simulations
+
+
+def test_totals_at_the_start_are_those_of_the_audit(deck):
+    sim = hydro2d.Simulation(deck)
+    np.testing.assert_array_equal(sim.totals().mass, sim.audit.start.mass)
+    assert sim.totals().energy == sim.audit.start.energy > 0.0
 
 
 def test_run_to_a_time_and_on(deck):

@@ -15,7 +15,6 @@ from pathlib import Path
 from hydro2d.analytic import model_deck, models
 from hydro2d.analytic.model_materials import Given
 from hydro2d.analytic.model_text import columns, given_data, shown
-from hydro2d.deck import deck as decks
 from hydro2d.files.shipped import problems_folder
 from hydro2d.materials import library
 from hydro2d.mesh.regime import LEFT
@@ -146,7 +145,7 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
         run = reading.Results(directory)
         if "regime" not in run.summary:
             raise reading.ResultsError(f"{directory}: the run has not ended and has no regime")
-        shot = model_deck.shot(decks.load(run.directory / reading.DECK, trust=False))
+        shot = model_deck.shot(run.deck)
         regime = run.summary["regime"]
         counted = shot.nose == nose and regime != LEFT
         if counted:

@@ -56,6 +56,21 @@ def duration(seconds: float, tenths: bool = False) -> str:
     return f"{seconds} s"
 
 
+def moment(seconds: float) -> str:
+    """A time of the simulation in microseconds, or in a larger unit for longer times."""
+    for name, scale in (("s", 1.0), ("ms", 1e3)):
+        if seconds * scale >= 10:
+            return f"{seconds * scale:.3f} {name}"
+    return f"{seconds * 1e6:.3f} us"
+
+
+def number(value, scale: float, form: str, unit: str) -> str:
+    """A quantity in the reader's unit; "-" if there is no value."""
+    if value is None or value != value:
+        return "-"
+    return f"{value * scale:{form}} {unit}"
+
+
 def several(number: object, what: str) -> str:
     """'1 cell', '2 cells'."""
     return f"{number} {what}{'' if str(number) == '1' else 's'}"

@@ -84,8 +84,6 @@ def _table(rows: list[tuple[str, str]]) -> list[str]:
 
 def page(name: str) -> str:
     """The pages of everything with this name or common name. Raises DeckError with the nearest names if there is nothing."""
-    import eos
-    import strength
     from hydro2d.analytic import model_text
     from hydro2d.base.parameters import described
     from hydro2d.materials import library, outside
@@ -97,13 +95,7 @@ def page(name: str) -> str:
     pages += [str(described(each.module, each.kind.title)) for each in packaged]
     if library.parted(name)[0] in library.names():
         pages.append(library.describe(name))
-    for models, describe in (
-        (eos.MODELS, eos.describe),
-        (strength.STRENGTH_MODELS, strength.describe),
-        (strength.DAMAGE_MODELS, strength.describe_damage),
-    ):
-        if name in models:
-            pages.append(str(describe(name)))
+    pages += [str(described(kind.models[name], kind.title)) for kind in outside.KINDS.values() if name in kind.models]
     if name == melting.NAME:
         pages.append(str(described(melting, "melting line of a material")))
     if name in catalogue.MODELS:
@@ -115,8 +107,9 @@ def page(name: str) -> str:
     pages += [_key_page(key, keys[key], others) for key, others in groups.items()]
     if not pages:
         others = {other for part in outside.KINDS for other in outside.in_packages(part)}
-        known = {*others, *library.names(), *eos.MODELS, *strength.STRENGTH_MODELS, *strength.DAMAGE_MODELS,
-                 *catalogue.MODELS, *quantities.BY_KEY, *keys, *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
+        models = {model for kind in outside.KINDS.values() for model in kind.models}
+        known = {*others, *library.names(), *models, *catalogue.MODELS, *quantities.BY_KEY, *keys,
+                 *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
         raise DeckError(_unknown(name, {*known, *words.WORDS, *words.ALSO}))
     return "\n\n".join(text.rstrip() for text in pages)
 
@@ -143,14 +136,10 @@ def _same_last(keys: dict[str, dict], name: str) -> dict[str, list[str]]:
 
 def overview() -> str:
     """All names, by kind."""
-    import eos
-    import strength
     from hydro2d.materials import library, outside
     from hydro2d.penetration import catalogue
 
-    models = [(name, eos.describe(name).kind) for name in eos.MODELS]
-    models += [(name, strength.describe(name).kind) for name in strength.STRENGTH_MODELS]
-    models += [(name, strength.describe_damage(name).kind) for name in strength.DAMAGE_MODELS]
+    models = [(name, kind.title) for kind in outside.KINDS.values() for name in kind.models]
     models += [(name, f"{kind.title} from the package {entry.dist.name}")
                for part, kind in outside.KINDS.items() for name, entry in outside.in_packages(part).items()]
     keys = deck_keys()

@@ -66,9 +66,9 @@ def status(
 
 def _look(run: Path, quantity: list[str] | None, drawn: bool) -> tuple[tuple[list[str], list[str]], str]:
     """The lines and the charts of a run, and its state."""
+    from hydro2d.output.directory import HISTORY
     from hydro2d.results import standing, terminal_charts
     from hydro2d.results.reading import Results
-    from hydro2d.running.run import HISTORY
     from hydro2d.study.records import layout
 
     opened = Results(run)

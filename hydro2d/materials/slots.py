@@ -11,6 +11,7 @@ from hydro2d.base.errors import DeckError
 from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over, require_that_it_fails
 from hydro2d.materials.material import Material, Model, solid_model
 from hydro2d.mesh.fields import INTERNAL, Field
+from strength import SHEAR
 
 #: a body is a gas compared with the stiffest one if its bulk modulus at rest is below this share of that one's
 GAS_MODULUS = 0.01
@@ -70,6 +71,24 @@ class MaterialTable:
 
         return evaluate(self.eos_model[m], rho, e, self.virgin(m), self.eos_par[m])
 
+    def sound_speed_squared(self, m: int, rho: float, e: float, floor: float = 0.0) -> float:
+        """Square of the bulk sound speed of virgin material of body m, (m/s)^2, at least `floor`."""
+        from eos.dispatch import sound_speed_squared
+
+        p, dpdrho, dpde, _ = self.evaluate(m, rho, e)
+        return sound_speed_squared(rho, p, dpdrho, dpde, floor)
+
+    @property
+    def shear(self) -> np.ndarray:
+        """Shear modulus of every body at rest, Pa, float64[m]; 0 without strength."""
+        return self.strength_par[:, SHEAR]
+
+    def flow_stress(self, m: int, strain: float, rate: float, temperature: float, pressure: float) -> float:
+        """Flow stress of body m at its density at rest, Pa; 0 without strength. rate : 1/s;  temperature : K;  pressure : Pa"""
+        from strength.dispatch import flow_stress
+
+        return flow_stress(self.strength_model[m], strain, rate, temperature, pressure, self.rho0[m], self.strength_par[m])
+
     def limits(self, m: int, rho: float, internal: np.ndarray) -> str:
         """The range of the table of body m and its energies at a density, in words; empty if it has no table.
 
@@ -94,13 +113,7 @@ class MaterialTable:
 
     def sound_speeds(self, floor: float = 0.0) -> np.ndarray:
         """Bulk sound speed of every material at rest, m/s, float64[m]; floor : least square of it, (m/s)^2."""
-        from eos.dispatch import sound_speed_squared
-
-        squares = []
-        for m in range(len(self)):
-            p, dpdrho, dpde, _ = self.evaluate(m, self.rho0[m], self.e0[m])
-            squares.append(sound_speed_squared(self.rho0[m], p, dpdrho, dpde, floor))
-        return np.sqrt(squares)
+        return np.sqrt([self.sound_speed_squared(m, self.rho0[m], self.e0[m], floor) for m in range(len(self))])
 
     def gases(self) -> np.ndarray:
         """Which bodies are gases, compared with the others, bool[m]: bulk modulus at rest below GAS_MODULUS of the largest."""

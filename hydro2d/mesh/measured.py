@@ -172,3 +172,9 @@ class Debris(NamedTuple):
     fragments: np.ndarray
     kinds: np.ndarray
     totals: dict[str, float | int | None]
+
+
+def passed(summary: dict) -> list[str]:
+    """Names of the targets if the projectile has perforated all of them, else none."""
+    targets = summary.get("targets") or {}
+    return [] if any(target.get("exit_time_s") is None for target in targets.values()) else list(targets)

@@ -9,8 +9,8 @@ from hydro2d.files.strange import own, own_folder, within
 from hydro2d.files.whole import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history, vtk
+from hydro2d.output.directory import HISTORY
 from hydro2d.results.reading import Results, ResultsError
-from hydro2d.running.run import HISTORY
 
 
 def names(dump: vtk.Dump, keys) -> list[str]:

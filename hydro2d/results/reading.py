@@ -20,9 +20,9 @@ from hydro2d.files import checksums, toml
 from hydro2d.files.strange import within
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
+from hydro2d.output.directory import DECK, HISTORY, STUDY, check_own
 from hydro2d.results.summaries import summary_of
 from hydro2d.results.viewer.packing import DEFAULT_BITS
-from hydro2d.running.run import DECK, HISTORY, STUDY, check_own
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.base.terminal import duration
+from hydro2d.base.terminal import duration, moment, number
+from hydro2d.mesh.measured import passed
 from hydro2d.mesh.regime import REGIMES
-from hydro2d.running import ending
-from hydro2d.running.progress import moment, number, passed
-from hydro2d.running.run import HISTORY
+from hydro2d.output import ending
+from hydro2d.output.directory import HISTORY
 
 
 def lines(run, status: str, message: str, progress: dict) -> list[str]:
     """The state of a run (results.Results), a line for each item.
 
-    status, message, progress : of its directory, as in study.layout.Case
+    status, message, progress : of its directory, as in study.records.layout.Case
 
     Raises HistoryError, VtkError.
     """

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from hydro2d.base.errors import Error
 from hydro2d.files.whole import read_json
-from hydro2d.running.run import DECK, PROGRESS, SUMMARY, deck_hash
+from hydro2d.output.directory import DECK, PROGRESS, SUMMARY, deck_hash
 
 #: keys with words, lists of words, tables, and yes or no
 WORDS = ("deck", "title", "deck_sha256", "version", "method", "status", "stop_reason", "regime", "qualifier",

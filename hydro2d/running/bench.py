@@ -26,6 +26,7 @@ from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
 from hydro2d.jit.compilation import announced
 from hydro2d.kernels.triad import triad
+from hydro2d.output.directory import LOG
 from hydro2d.running import bench_compilation, provenance, reporting, run
 from hydro2d.solver.simulation import Simulation
 
@@ -227,7 +228,7 @@ class _Shot(run.Run):
 def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
     """The shot to rest, with all its outputs, in a temporary directory, measured from its second cycle."""
     before = bandwidth()
-    with tempfile.TemporaryDirectory() as folder, reporting.reporter(Path(folder) / run.LOG, quiet=True) as report:
+    with tempfile.TemporaryDirectory() as folder, reporting.reporter(Path(folder) / LOG, quiet=True) as report:
         shot = _Shot(decks.load(DECK, overrides), Path(folder), report)
         summary = shot.execute(Interrupt())
         seconds = time.perf_counter() - shot.began

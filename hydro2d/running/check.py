@@ -224,15 +224,10 @@ def _dump(grid, table, start, r_min: str) -> Dump:
 
 def _cycles(deck, grid, table, start) -> int:
     """Number of cycles to the end, at the time step that the fastest elastic wave allows in the smallest cell."""
-    from eos.dispatch import sound_speed_squared
-    from strength import SHEAR
-
     fastest = 0.0
     for m in range(len(table)):
         rho, e = (float(start[name][m].flat[np.argmax(start["vof"][m])]) for name in ("rho", "e"))
-        p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
-        wave = sound_speed_squared(rho, p, dpdrho, dpde, 0.0) + 4 * table.strength_par[m, SHEAR] / (3 * rho)
-        fastest = max(fastest, math.sqrt(wave))
+        fastest = max(fastest, math.sqrt(table.sound_speed_squared(m, rho, e) + 4 * table.shear[m] / (3 * rho)))
     smallest = min(np.diff(grid.r_edges).min(), np.diff(grid.z_edges).min())
     mesh_speed = decks.body(deck, deck.mesh.follow).velocity[1] if deck.mesh.follow else 0.0
     speed = float(np.max(np.hypot(start["u_cell"], start["v_cell"] - mesh_speed)))

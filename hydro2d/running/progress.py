@@ -16,11 +16,12 @@ from typing import NamedTuple, TypeVar
 
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
-from hydro2d.base.terminal import duration, one_line, say
-from hydro2d.mesh.measured import unit
+from hydro2d.base.terminal import duration, moment, number, one_line, say
+from hydro2d.mesh.measured import passed, unit
+from hydro2d.output import ending
+from hydro2d.output.ending import End
 from hydro2d.output.history import Columns
-from hydro2d.running import ending, residual_velocity
-from hydro2d.running.ending import End
+from hydro2d.running import residual_velocity
 
 T = TypeVar("T")
 
@@ -41,21 +42,6 @@ WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
 PACE_SECONDS = 60.0
 
 
-def moment(seconds: float) -> str:
-    """A time of the simulation in microseconds, or in a larger unit for longer times."""
-    for name, scale in (("s", 1.0), ("ms", 1e3)):
-        if seconds * scale >= 10:
-            return f"{seconds * scale:.3f} {name}"
-    return f"{seconds * 1e6:.3f} us"
-
-
-def number(value, scale: float, form: str, unit: str) -> str:
-    """A quantity in the reader's unit; "-" if there is no value."""
-    if value is None or value != value:
-        return "-"
-    return f"{value * scale:{form}} {unit}"
-
-
 def worst_mass(conservation: dict) -> float:
     """The largest relative change of mass of a body, with its sign."""
     return max(conservation["mass"].values(), key=abs, default=0.0)
@@ -67,10 +53,10 @@ def counted(items: Sequence[T], what: str, quiet: bool = False) -> Iterator[T]:
     For example "decks read: 512 of 3000"; nothing if ``quiet``.
     """
     last = clock.monotonic()
-    for number, item in enumerate(items):
+    for done, item in enumerate(items):
         if not quiet and clock.monotonic() - last >= LINE_SECONDS:
             last = clock.monotonic()
-            say(f"{what}: {number} of {len(items)}", file=sys.stderr, flush=True)
+            say(f"{what}: {done} of {len(items)}", file=sys.stderr, flush=True)
         yield item
 
 
@@ -418,12 +404,6 @@ def _moving(summary: dict) -> str:
     if projectile and projectile["tail_velocity_m_s"] is not None:
         said.append(f"tail of the {projectile['body']} {projectile['tail_velocity_m_s']:z.1f} m/s")
     return "; ".join(said)
-
-
-def passed(summary: dict) -> list[str]:
-    """Names of the targets if the projectile has perforated all of them, else none."""
-    targets = summary.get("targets") or {}
-    return [] if any(target.get("exit_time_s") is None for target in targets.values()) else list(targets)
 
 
 def _over_length(summary: dict) -> str:

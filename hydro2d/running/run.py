@@ -14,7 +14,6 @@ continues bitwise as if it had not been interrupted.
 
 from __future__ import annotations
 
-import hashlib
 import os
 import time as clock
 import tomllib
@@ -26,36 +25,42 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from hydro2d.base import interrupt as interrupts
-from hydro2d.base.errors import Error, UnphysicalState
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.version import __version__
 from hydro2d.deck.warnings import warnings
 from hydro2d.files.locks import locked, remove
-from hydro2d.files.strange import own
 from hydro2d.files.toml import model_tables
 from hydro2d.files.whole import write_json, write_text
 from hydro2d.output import snapshot
+from hydro2d.output.directory import (
+    DECK,
+    HISTORY,
+    LOCK,
+    LOG,
+    PROGRESS,
+    SUMMARY,
+    RunError,
+    check_free,
+    check_own,
+    clear,
+    deck_hash,
+)
 from hydro2d.output.history import History, HistoryError
-from hydro2d.output.series import Series, numbered
-from hydro2d.output.vtk import FOLDER, SERIES
+from hydro2d.output.series import Series
+from hydro2d.output.vtk import FOLDER
 from hydro2d.running import provenance, residual_velocity
 from hydro2d.running.outputs import Attempts, writing
 from hydro2d.running.progress import Clock
 from hydro2d.running.reporting import reporter
 from hydro2d.running.team import Team
-from hydro2d.solver.callbacks import Due
+from hydro2d.solver.due import Due
 from hydro2d.solver.recorder import ColumnError, check, row
 
 if TYPE_CHECKING:
     from hydro2d.jit.compilation import Compilation
 
-DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "log.txt", "run.lock"
-PROGRESS = "progress.json"
-OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
-
-#: file in the directory of a study, see study/records/layout.py
-STUDY = "study.json"
 #: cycles between copies of the last good state in memory
 GOOD_EVERY = 100
 #: seconds between writes of the history, and their largest share of the wall time
@@ -76,43 +81,6 @@ ROD_RESULTS = (
     "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
     "rod_residual_velocity_m_s", "rod_residual_mass_kg", "rod_residual_length_m", "exit_time_s",
 )  # fmt: skip
-
-
-class RunError(Error):
-    """A run that cannot start: the directory is in use, or a restart does not match; the message is for the user."""
-
-
-def check_free(directory: Path, *, restart: bool, overwrite: bool) -> None:
-    """Raises RunError if the options do not allow a run in this directory."""
-    if directory.exists() and not directory.is_dir():
-        raise RunError(f"{directory} is a file, not a directory")
-    if restart and overwrite:
-        raise RunError("restart continues a run and overwrite removes it; give one of them")
-    if restart and not directory.is_dir():
-        raise RunError(f"{directory}: there is no run to continue")
-    if overwrite and {name for name in (*OWN_FILES, LOCK) if (directory / name).exists()} == {DECK}:
-        raise RunError(f"{directory / DECK} does not belong to a run: its other files are missing; --overwrite "
-                       "would replace it")
-    if (directory / STUDY).is_file() and not (directory / SUMMARY).exists():
-        raise RunError(f"{directory} holds a study; give the run a directory of its own")
-    if not (restart or overwrite) and any((directory / name).exists() for name in OWN_FILES):
-        raise RunError(f"{directory} already holds a run; --restart continues it, --overwrite removes it")
-
-
-def check_own(directory: Path) -> None:
-    """Raises StrangeFile if a file of a run, or its folder of dumps, is a symbolic link, a pipe or a device."""
-    for name in (*OWN_FILES, LOCK, FOLDER):
-        own(directory / name)
-
-
-def clear(directory: Path) -> None:
-    """Removes the files of a run from a directory, and nothing else. Raises StrangeFile."""
-    check_own(directory)
-    for name in OWN_FILES:
-        remove(directory / name)
-    for kind in SERIES:
-        for _, file in numbered(directory, kind):
-            remove(file)
 
 
 #: sections of a deck that may differ when a run is continued
@@ -462,11 +430,6 @@ class Run:
             "conservation": sim.conservation(),
             "provenance": self.provenance,
         }
-
-
-def deck_hash(text: str) -> str:
-    """SHA-256 of a resolved deck: the same for the same case."""
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def models_from_outside(deck) -> list[dict]:

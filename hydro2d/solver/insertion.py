@@ -285,15 +285,12 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
 def _refuse_unstable(body, table, m: int) -> None:
     """Raises DeckError if the square of the speed of sound is negative at the start, since such material fails at once, or if
     its table has no such state."""
-    from eos.dispatch import sound_speed_squared
-
     rho, e = body_state(body, table, m)
-    p, dpdrho, dpde, _ = table.evaluate(m, rho, e)
+    p = table.evaluate(m, rho, e)[0]
     if math.isnan(p) and (limits := table.limits(m, rho, table.virgin(m))):
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: '
                         f"{limits}")
-    square = sound_speed_squared(rho, p, dpdrho, dpde, -math.inf)
-    if square < 0.0:
+    if table.sound_speed_squared(m, rho, e, -math.inf) < 0.0:
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg; at '
                         f"{p:.3g} Pa, its pressure there, {table.materials[m].name} has no speed of sound")
 

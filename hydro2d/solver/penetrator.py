@@ -455,13 +455,10 @@ def _share(now: float, first: float) -> float:
 
 def _ringing(sim, m: int) -> float:
     """Twice the velocity of an elastic wave that brings body m to its first yield stress, 2 Y/(rho c), m/s."""
-    from strength.dispatch import flow_stress
-
     t = sim.table
     speed = t.sound_speeds()[m]
-    if not t.strength_model[m] or not speed > 0.0:
+    if not speed > 0.0:
         return 0.0
     p, _, _, temperature = t.evaluate(m, t.rho0[m], t.e0[m])
-    stress = sim.engine.method.yield_factor[m] * flow_stress(t.strength_model[m], 0.0, 0.0, temperature, p, t.rho0[m],
-                                                             t.strength_par[m])
+    stress = sim.engine.method.yield_factor[m] * t.flow_stress(m, 0.0, 0.0, temperature, p)
     return float(2.0 * stress / (t.rho0[m] * speed))

@@ -18,7 +18,6 @@ from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import FREE
 from hydro2d.solver.audit import Totals
 from hydro2d.solver.insertion import body_state, body_velocity, slot_of
-from strength import SHEAR
 
 #: times the heat of the hottest state that a cell may show, for reflections, convergence and the dissipation of the method, and
 #: share of it by which a cell may be colder than at the start
@@ -112,7 +111,6 @@ def of(deck, table, state, start) -> Reach:
     lowest = np.array([min(coldest(one), one.e - given_away) for one, given_away in zip(materials, free, strict=True)])
     first, density = (np.array([getattr(one, name) for one in materials]) for name in ("e", "rho"))
     noise = AT_REST * 0.5 * speed**2 + OF_SOUND * table.sound_speeds() ** 2
-    shear = np.where(table.strength_model > 0, table.strength_par[:, SHEAR], 0.0)
     finest = min(state.grid.dr[state.grid.inside[1]].min(), state.grid.dz[state.grid.inside[0]].min())
     squeezed = _squeezed([compressed(one) for one in materials])
     return Reach(
@@ -120,9 +118,9 @@ def of(deck, table, state, start) -> Reach:
         cell_lowest=np.minimum(first, 0.0) - CELL_COLDER * (highest - first) - noise,
         cell_highest=np.maximum(first, 0.0) + np.maximum(CELL_HOTTER * (highest - first), speed**2) + noise,
         worked=np.array([strongest(table, m, pressure) for m in range(len(table))]) / density,
-        plastic=IDEAL_STRENGTH * shear / density,
+        plastic=IDEAL_STRENGTH * table.shear / density,
         friction_heating=deck.sliding.friction * pressure * speed / (finest * density),
-        shear=shear, chill=CHILL * (highest - lowest),
+        shear=table.shear, chill=CHILL * (highest - lowest),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
         speed=speed, pressure=pressure, stands=_stands(deck),
         squeezed=squeezed, work=mass @ squeezed, mass=max(float(mass.sum()), 1e-300))  # fmt: skip
@@ -130,13 +128,8 @@ def of(deck, table, state, start) -> Reach:
 
 def strongest(table, m: int, pressure: float) -> float:
     """Largest flow stress of body m at a pressure in Pa and room temperature, over strains to MOST_STRAIN, Pa."""
-    from strength.dispatch import flow_stress
-
-    model, par, rho = table.strength_model[m], table.strength_par[m], table.rho0[m]
-    if not model:
-        return 0.0
     strains = np.linspace(0.0, MOST_STRAIN, 101)
-    return max(flow_stress(model, strain, STRONGEST_RATE, ROOM, p, rho, par) for strain in strains for p in (0.0, pressure))
+    return max(table.flow_stress(m, strain, STRONGEST_RATE, ROOM, p) for strain in strains for p in (0.0, pressure))
 
 
 def _highest(deck, pressures: list[float]) -> float:

@@ -10,7 +10,7 @@ from hydro2d.mesh.measured import SHORT
 from hydro2d.mesh.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns
 from hydro2d.output.station_arrays import RESERVED
-from hydro2d.solver.callbacks import Due
+from hydro2d.solver.due import Due
 
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation

@@ -9,6 +9,7 @@ import pytest
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
 from hydro2d.materials import outside
+from hydro2d.output.directory import RunError
 from hydro2d.running import run
 from hydro2d.study.plan import cases
 from tests.materials.made_models import DECK, VOCE, python
@@ -116,7 +117,7 @@ def test_a_mistake_in_the_deck_says_where(folder, old, new, said):
 def test_a_restart_with_another_text_is_refused(folder):
     before = deck.load(folder / "shot.toml").to_toml()
     (folder / "my_model.py").write_text(VOCE.replace("-10.0 * ep", "-11.0 * ep"))
-    with pytest.raises(run.RunError, match="the deck differs from that of the run in materials, the code of the model voce"):
+    with pytest.raises(RunError, match="the deck differs from that of the run in materials, the code of the model voce"):
         run.check_same_deck(deck.load(folder / "shot.toml").to_toml(), before)
     run.check_same_deck(before.replace("my_model.py", "renamed.py"), before)
 

@@ -13,6 +13,7 @@ from hydro2d.cli.main import app
 from hydro2d.deck import deck
 from hydro2d.materials import library, sesame, tabulate
 from hydro2d.mesh.fields import DMG
+from hydro2d.output.directory import RunError
 from hydro2d.running import run
 from hydro2d.solver.simulation import Simulation
 
@@ -181,7 +182,7 @@ def test_a_deck_names_a_table_next_to_it_and_carries_its_text(folder, monkeypatc
 def test_a_restart_with_another_table_is_refused(folder):
     before = deck.load(folder / "shot.toml").to_toml()
     (folder / "al.301").write_text(sesame.write(aluminium(23)))
-    with pytest.raises(run.RunError, match="differs from that of the run in materials, the code of the model al, its table"):
+    with pytest.raises(RunError, match="differs from that of the run in materials, the code of the model al, its table"):
         run.check_same_deck(deck.load(folder / "shot.toml").to_toml(), before)
 
 

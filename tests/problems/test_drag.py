@@ -8,10 +8,9 @@ import pytest
 
 from hydro2d.analytic import model_deck
 from hydro2d.deck import deck
+from hydro2d.output import directory as run_directory
 from hydro2d.output.history import History
 from hydro2d.penetration import forrestal
-from hydro2d.results import reading
-from hydro2d.running import run
 from problems.sliding.drag import main, measure, windows
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
@@ -21,8 +20,8 @@ SPEED, RADIUS = 1086.0, 3.3784e-3
 def wrote(directory, time, speed, depth):
     """A run directory, not ended, with the shot's deck and a history."""
     directory.mkdir()
-    (directory / run.DECK).write_text(deck.load(DECK).to_toml(), encoding="utf-8")
-    history = History(directory / run.HISTORY)
+    (directory / run_directory.DECK).write_text(deck.load(DECK).to_toml(), encoding="utf-8")
+    history = History(directory / run_directory.HISTORY)
     for row in zip(time, speed, depth, strict=True):
         history.append(dict(zip(("time", "rod_mean_velocity_m_s", "penetration_depth_m"), map(float, row), strict=True)))
     history.write()
@@ -38,7 +37,7 @@ def steady(tmp_path):
 
 def test_constant_force(steady):
     measured = measure(steady)
-    mass = model_deck.read(steady / reading.DECK).values["rod.mass"].value
+    mass = model_deck.read(steady / run_directory.DECK).values["rod.mass"].value
     assert [row["time"] for row in measured["rows"]] == pytest.approx([5e-6, 15e-6, 25e-6, 35e-6])
     assert [row["speed"] for row in measured["rows"]] == pytest.approx([SPEED - 1.5e6 * t for t in (5e-6, 15e-6, 25e-6, 35e-6)])
     assert [row["force"] for row in measured["rows"]] == pytest.approx([mass * 1.5e6 / (math.pi * RADIUS**2)] * 4)

@@ -7,8 +7,8 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.files import whole
+from hydro2d.output import directory as run_directory
 from hydro2d.output import vtk
-from hydro2d.running import run
 from problems.validation import bar
 
 DECK = "problems/validation/copper_bar.toml"
@@ -28,7 +28,7 @@ def filled(length, foot, shank=3.2e-3, low=0.0):
 def wrote(directory, bars, text=None, fields=("Volume Fraction for bar", "Plastic Strain of bar")):
     """A run directory, not ended, with dumps of bars by time in s."""
     (directory / vtk.FOLDER).mkdir(parents=True)
-    whole.write_text(directory / run.DECK, text or deck.load(DECK).to_toml())
+    whole.write_text(directory / run_directory.DECK, text or deck.load(DECK).to_toml())
     entries = []
     for number, (time, (share, strain)) in enumerate(bars.items()):
         entries.append((time, f"{vtk.FOLDER}/dump_{number:06d}.vtr"))

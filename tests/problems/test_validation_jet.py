@@ -8,8 +8,8 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.files import whole
 from hydro2d.materials import library
+from hydro2d.output import directory as run_directory
 from hydro2d.output import vtk
-from hydro2d.running import run
 from problems.validation import jet
 
 DECK = "problems/validation/jet_w_5083_2.toml"
@@ -77,7 +77,7 @@ def steady(tmp_path):
     """A jet that penetrates at 1440 m/s, dumped every microsecond until 60 us."""
     directory = tmp_path / "steady"
     (directory / vtk.FOLDER).mkdir(parents=True)
-    whole.write_text(directory / run.DECK, deck.load(DECK).to_toml())
+    whole.write_text(directory / run_directory.DECK, deck.load(DECK).to_toml())
     entries = []
     for number in range(61):
         entries.append((number * 1e-6, f"{vtk.FOLDER}/dump_{number:06d}.vtr"))
@@ -111,6 +111,6 @@ def test_command(steady, tmp_path, capsys):
 
 
 def test_a_bar_is_no_jet(tmp_path, capsys):
-    whole.write_text(tmp_path / run.DECK, deck.load("problems/validation/copper_bar.toml").to_toml())
+    whole.write_text(tmp_path / run_directory.DECK, deck.load("problems/validation/copper_bar.toml").to_toml())
     assert jet.main([str(tmp_path)]) == 2
     assert "has no jet that flies towards +z" in capsys.readouterr().err

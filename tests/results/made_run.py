@@ -8,8 +8,8 @@ import numpy as np
 
 from hydro2d.files.whole import write_json, write_text
 from hydro2d.output import history, vtk
+from hydro2d.output.directory import DECK, HISTORY, SUMMARY
 from hydro2d.output.station_arrays import KEYS
-from hydro2d.running.run import DECK, HISTORY, SUMMARY
 
 BODIES = ("rod", "plate")
 #: names and sizes of scalar fields, SI

@@ -10,8 +10,8 @@ from hydro2d.cli import status
 from hydro2d.cli.main import call
 from hydro2d.files.locks import locked
 from hydro2d.files.whole import write_json
+from hydro2d.output import ending
 from hydro2d.results import standing, terminal_charts
-from hydro2d.running import ending
 from tests.results import made_run
 
 

@@ -7,6 +7,7 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.output import history
+from hydro2d.output.directory import HISTORY
 from hydro2d.running import columns, run
 from hydro2d.solver import audit
 from tests.decks import contact, entry, mesh, plate, rod, table
@@ -32,7 +33,7 @@ NAMES = {
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     directory = tmp_path_factory.mktemp("columns") / "run"
-    return run.run(decks.loads(DECK), directory, quiet=True), history.read(directory / run.HISTORY)
+    return run.run(decks.loads(DECK), directory, quiet=True), history.read(directory / HISTORY)
 
 
 def unlisted(names, listed) -> tuple[set[str], set[str]]:

@@ -14,8 +14,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from hydro2d.output import ending
 from hydro2d.output.history import Columns
-from hydro2d.running import ending, progress
+from hydro2d.running import progress
 from hydro2d.running.progress import PACE_SECONDS, Clock, result
 
 
@@ -103,7 +104,8 @@ def test_the_table_is_whole_on_a_narrow_terminal(tmp_path):
 ON_A_TERMINAL = """
 import io, sys, time
 from types import SimpleNamespace
-from hydro2d.running import ending, progress
+from hydro2d.output import ending
+from hydro2d.running import progress
 progress.TABLE_SECONDS = 0.0
 sim = SimpleNamespace(time=1.23e-5, cycle=1234567, dt=1.234e-9, dt_cause="rod at r = 1.3 mm: sound", projectile="rod",
                       diagnostics=lambda: {}, conservation=lambda: {"mass": {}, "axial_momentum": 0.0, "total_energy": 0.0})

@@ -16,7 +16,9 @@ from hydro2d.deck.sections import Sliding
 from hydro2d.files.locks import LockError
 from hydro2d.jit import compilation
 from hydro2d.output import history, snapshot, vtk
-from hydro2d.running.run import Due, RunError, exit_status, run
+from hydro2d.output.directory import RunError
+from hydro2d.running.run import exit_status, run
+from hydro2d.solver.due import Due
 from tests import fake
 from tests.locks import held
 

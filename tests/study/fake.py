@@ -12,8 +12,8 @@ from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck
 from hydro2d.files.whole import write_json
 from hydro2d.output import vtk
+from hydro2d.output.directory import deck_hash
 from hydro2d.output.history import History
-from hydro2d.running.run import deck_hash
 from hydro2d.study.plan import members
 
 BASE = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"

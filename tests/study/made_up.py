@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro2d.running.run import deck_hash
+from hydro2d.output.directory import deck_hash
 from hydro2d.study.plan import cases
 from hydro2d.study.run.case import Outcome
 from hydro2d.study.search import transition

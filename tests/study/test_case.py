@@ -17,7 +17,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.files.checksums import verified_text
 from hydro2d.jit import compilation
 from hydro2d.output import history, snapshot
-from hydro2d.running.run import deck_hash
+from hydro2d.output.directory import deck_hash
 from hydro2d.study.records import layout
 from hydro2d.study.run.case import kernels, run_case
 from tests.cli.test_main import DECK

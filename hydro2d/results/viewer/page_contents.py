@@ -10,11 +10,11 @@ import numpy as np
 from hydro2d.base.terminal import shown
 from hydro2d.mesh.regime import REGIMES
 from hydro2d.output import history, station_arrays
+from hydro2d.output.directory import HISTORY
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump, read_grid
 from hydro2d.results.viewer import packing
 from hydro2d.results.viewer.field_arrays import Ranges, Stored, ViewError, arrays, asked, short, unit_of
-from hydro2d.running.run import HISTORY
 
 #: fields that every page has, to show the bodies
 SHARES = ("volume_fraction", "material")

@@ -17,8 +17,8 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import key_messages
 from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources
+from hydro2d.output.directory import deck_hash
 from hydro2d.running.progress import counted
-from hydro2d.running.run import deck_hash
 from hydro2d.study.plan import members, ranges, velocities
 from hydro2d.study.plan.definition import DECK, Axis, Definition, Ensemble, Overrides, StudyError, of_tables, read
 from hydro2d.study.plan.scaling import AS_IT_IS, Size

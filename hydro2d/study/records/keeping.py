@@ -21,7 +21,7 @@ from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import cell, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.whole import read_text, write_text
-from hydro2d.running.run import DECK
+from hydro2d.output.directory import DECK
 from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.members import cells_across, projectile

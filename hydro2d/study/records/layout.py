@@ -27,9 +27,9 @@ from hydro2d.files.locks import holder
 from hydro2d.files.strange import own, own_folder, within
 from hydro2d.files.whole import write_json, write_text
 from hydro2d.output import snapshot
-from hydro2d.results.reading import STUDY
+from hydro2d.output.directory import DECK, STUDY, SUMMARY, deck_hash
+from hydro2d.output.directory import LOCK as RUN_LOCK
 from hydro2d.results.summaries import progress_of, summary_of, table_of
-from hydro2d.running import run
 from hydro2d.study.plan import velocities
 from hydro2d.study.plan.definition import StudyError
 
@@ -105,11 +105,11 @@ class Case:
     @functools.cached_property
     def deck(self) -> dict | None:
         """The resolved deck in SI units; None before the case has begun. Raises StudyError."""
-        text = _text(self.directory / run.DECK)
+        text = _text(self.directory / DECK)
         try:
             return tomllib.loads(text) if text else None
         except ValueError as error:
-            raise StudyError(f"{self.directory / run.DECK} cannot be read: {error}") from None
+            raise StudyError(f"{self.directory / DECK} cannot be read: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -276,20 +276,20 @@ def _combined(case: Case, place: Path, base: str) -> Case:
 
 def _runs(directory: Path) -> list[Case]:
     """The runs of a directory: itself, the cases of a study, or the directories in it."""
-    for name in (STUDY, run.DECK):
+    for name in (STUDY, DECK):
         own(directory / name)
     if (directory / STUDY).is_file():
         return list(read(directory).cases)
-    if (directory / run.DECK).is_file():
+    if (directory / DECK).is_file():
         return [_alone(directory)]
     if directory.is_file():
         raise StudyError(f"{directory} is a file, not a directory of a study or a run")
     if not directory.is_dir():
         near = nearest(directory.name, (path.name for path in directory.parent.glob("*/")))
         raise StudyError(f"{directory}: there is no such directory" + (f'; did you mean "{near}"?' if near else ""))
-    places = sorted(path.parent for name in (run.DECK, run.SUMMARY) for path in directory.glob(f"*/{name}"))
+    places = sorted(path.parent for name in (DECK, SUMMARY) for path in directory.glob(f"*/{name}"))
     if not places:
-        raise StudyError(f"{directory} holds no runs: it has no {STUDY}, no {run.DECK}, and no directory with one")
+        raise StudyError(f"{directory} holds no runs: it has no {STUDY}, no {DECK}, and no directory with one")
     return [_alone(place) for place in dict.fromkeys(places)]
 
 
@@ -346,13 +346,13 @@ def state(place: Path, deck_sha256: str | None) -> dict:
 def _read_state(place: Path, deck_sha256: str | None) -> dict:
     if place.is_file():
         return {"status": FAILED_STATUS, "message": f"{place} is a file, not a directory"}
-    failed, text = table_of(place / FAILED, StudyError), _text(place / run.DECK)
+    failed, text = table_of(place / FAILED, StudyError), _text(place / DECK)
     summary, odd = summary_of(place, text, StudyError)
     status = str(summary.get("status", INTERRUPTED))
-    process = holder(place / run.LOCK)
+    process = holder(place / RUN_LOCK)
     if process is not None:
         return {"status": RUNNING, "message": str(process), "progress": progress_of(place, StudyError)}
-    other = text and deck_sha256 is not None and run.deck_hash(text) != deck_sha256
+    other = text and deck_sha256 is not None and deck_hash(text) != deck_sha256
     if failed and (other or status not in ENDED):
         return {"status": FAILED_STATUS, "message": str(failed.get("reason", "no reason is given")), "summary": summary}
     if other:
@@ -363,10 +363,10 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
             faults = "; ".join(summary.get("faults") or ())
             why = f"not trustworthy: {faults}" if summary.get("trustworthy") is False else ""
         if odd:
-            why = "; ".join([*([why] if why else []), f"{run.SUMMARY} has values of the wrong kind in {', '.join(odd)}"])
+            why = "; ".join([*([why] if why else []), f"{SUMMARY} has values of the wrong kind in {', '.join(odd)}"])
         return {"status": status, "message": why, "summary": summary}
     if any((place / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS)):
         return {"status": INTERRUPTED, "message": "its process has ended; there is a restart file"}
     if text:
-        return {"status": WAITING, "message": f"there is no {run.SUMMARY}; its process ended before the first restart file"}
+        return {"status": WAITING, "message": f"there is no {SUMMARY}; its process ended before the first restart file"}
     return {"status": WAITING}

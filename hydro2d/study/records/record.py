@@ -19,7 +19,7 @@ from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
 from hydro2d.mesh.regime import LEFT, REGIMES
 from hydro2d.output import history, vtk
-from hydro2d.running.run import DECK, HISTORY, check_own
+from hydro2d.output.directory import DECK, HISTORY, check_own
 from hydro2d.solver import targets
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.records.differences import flatten

@@ -19,6 +19,7 @@ from hydro2d.files.strange import StrangeFile
 from hydro2d.jit import compilation
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import snapshot
+from hydro2d.output.directory import DECK, LOCK, PROGRESS, RunError, check_free, deck_hash
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compile_all, run
@@ -26,7 +27,7 @@ from hydro2d.solver.first_cycle import kernels
 from hydro2d.study.records.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
 
 #: exceptions that are reported in one line, without a traceback
-TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeFile, VtkError, run.RunError,
+TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeFile, VtkError, RunError,
         snapshot.SnapshotError)  # fmt: skip
 FULL = "No space left on device"
 #: seconds in which neither lock nor progress of a process on another machine change before it loses its lock; progress.json is
@@ -96,7 +97,7 @@ def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, int
 
 def _finished(directory: Path, deck_text: str) -> dict | None:
     """The summary of a finished run of this deck. A run that ended as unphysical counts, because it would do so again."""
-    sha256 = run.deck_hash(deck_text)
+    sha256 = deck_hash(deck_text)
     present = state(directory, sha256)
     ended = present["status"] in (DONE, UNPHYSICAL) and present["summary"].get("deck_sha256") == sha256
     return present["summary"] if ended and not is_older(present["summary"]) else None
@@ -109,7 +110,7 @@ def is_older(summary: dict) -> bool:
 
 def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> dict:
     if not directory.parent.is_dir():
-        raise run.RunError(f"{directory.parent} does not exist on {socket.gethostname()}; workers need the study's file system")
+        raise RunError(f"{directory.parent} does not exist on {socket.gethostname()}; workers need the study's file system")
     _wait_for_silence(directory, interrupt)
     deck = decks.loads(deck_text)
     restart = _can_continue(directory, deck_text, overwrite)
@@ -127,7 +128,7 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
     Removes the lock of a process on another machine that shows no progress while this one watches, because its worker is gone;
     clocks of other machines do not count. A process that still shows progress keeps its lock, and the run reports that.
     """
-    lock, began = directory / run.LOCK, time.monotonic()
+    lock, began = directory / LOCK, time.monotonic()
     heard, signs = began, _signs(directory)
     while not (interrupt and interrupt.reason):
         by = holder(lock)
@@ -143,19 +144,19 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
 
 def _signs(directory: Path) -> list[tuple[int, int]]:
     """Marks that change as long as the process that runs in a directory lives."""
-    stats = (file.stat() for name in (run.LOCK, run.PROGRESS) if (file := directory / name).exists())
+    stats = (file.stat() for name in (LOCK, PROGRESS) if (file := directory / name).exists())
     return [(each.st_ino, each.st_mtime_ns) for each in stats]
 
 
 def _can_continue(directory: Path, deck_text: str, overwrite: bool) -> bool:
     """Whether there is a restart file of this deck. Raises RunError if the directory holds a run of another deck."""
-    run.check_free(directory, restart=False, overwrite=True)
-    file = directory / run.DECK
+    check_free(directory, restart=False, overwrite=True)
+    file = directory / DECK
     if not file.is_file():
         return False
-    if checksums.verified_text(file, run.RunError) != deck_text:
+    if checksums.verified_text(file, RunError) != deck_text:
         if not overwrite:
-            raise run.RunError(f"{directory} holds a run of another deck; --overwrite removes it")
+            raise RunError(f"{directory} holds a run of another deck; --overwrite removes it")
         return False
     return any((directory / name).is_file() for name in (snapshot.NAME, snapshot.PREVIOUS))
 

@@ -10,9 +10,8 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
-from hydro2d.base.terminal import duration, one_line, say, several, shown, width
+from hydro2d.base.terminal import duration, number, one_line, say, several, shown, width
 from hydro2d.files.strange import opened
-from hydro2d.running.progress import number
 from hydro2d.study.records.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
 
 #: seconds between lines, and between refreshes of the table

@@ -25,7 +25,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.files.locks import locked
 from hydro2d.files.whole import write_json
 from hydro2d.jit import compilation
-from hydro2d.running.run import SUMMARY, clear
+from hydro2d.output.directory import SUMMARY, clear
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study.plan.cases import Plan
 from hydro2d.study.plan.definition import StudyError
