@@ -167,7 +167,7 @@ def results_page() -> str:
 
 
 #: decks of problems/shapes in the order of the gallery
-SHAPES = ("flat", "hemispherical", "ogive", "cone", "sphere", "polygon")
+SHAPES = ("flat", "flat_rounded", "hemispherical", "ogive", "cone", "sphere", "polygon")
 
 
 def shapes_page() -> str:

@@ -11,12 +11,8 @@ import numpy as np
 from hydro2d.analytic.model_materials import Given
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.deck import shapes
 from hydro2d.materials.material import Material
 from hydro2d.solver import insertion
-
-#: the models' names of noses, where those of decks differ
-NOSES = {"ogive": "ogival"}
 
 
 @dataclass(frozen=True)
@@ -41,47 +37,40 @@ def shot(deck: decks.Deck) -> Shot:
     if deck.penetration is None or deck.mesh.geometry != "cylindrical":
         raise DeckError(f"{deck.name}: needs a rod on the axis and a target, named in [penetration]")
     rod, target = (decks.body(deck, getattr(deck.penetration, key)) for key in ("rod", "target"))
-    if rod.shape != "rod":
+    if rod.nose_direction is None:
         raise DeckError(f'{deck.name}: the penetrator "{rod.name}" is a {rod.shape}; the models need a rod')
     if len(deck.penetration.targets) > 1:
         raise DeckError(f"{deck.name}: the rod penetrates {', '.join(deck.penetration.targets)}; the models allow one target")
     numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
     values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
     return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], decks.impact_velocity(deck),
-                NOSES.get(rod.nose, rod.nose), values)  # fmt: skip
+                rod.nose, values)  # fmt: skip
 
 
 def _rod(rod, material: Material) -> dict[str, float | str]:
     """Diameter, mass, length of the cylinder of that mass, and nose."""
-    R, nose = rod.rod_radius, rod.resolved_nose_length
+    R = rod.rod_radius
     volume = _volume(rod)
     density = rod.density if rod.density is not None else material.reference_density
     values = {
         "rod.diameter": 2.0 * R,
         "rod.mass": density * volume,
         "rod.length": volume / (math.pi * R**2),
-        "nose.shape": NOSES.get(rod.nose, rod.nose),
+        "nose.shape": rod.nose,
     }
     if rod.density is not None:
         values["rod.density"] = density
-    if rod.nose == "ogive":
-        values["nose.crh"] = (nose**2 + R**2) / (4.0 * R**2)
-    if rod.nose == "conical":
-        values["nose.half_angle"] = math.atan2(R, nose)
-    return values
+    return values | {f"nose.{key}": value for key, value in rod.shaped_nose.keys.items()}
 
 
 def _volume(rod) -> float:
     """Volume of the rod, m^3, from the share of the surrounding cylinder that it fills."""
-    outline = shapes.outline(rod, 0.0)
+    outline = rod.outline(0.0)
     edges = np.array(outline.extent("z"))
     share = insertion.fractions([outline], np.array([0.0, rod.rod_radius]), edges, cylindrical=True)
     return float(share[0, 0, 0]) * math.pi * rod.rod_radius**2 * (edges[1] - edges[0])
 
 
 def _target(target) -> dict[str, float]:
-    if target.shape == "plate":
-        return {"target.thickness": target.thickness}
-    if target.shape == "box":
-        return {"target.thickness": target.z[1] - target.z[0]}
-    return {}
+    thickness = target.thickness_in_models
+    return {} if thickness is None else {"target.thickness": thickness}

@@ -13,6 +13,7 @@ from annotated_types import GroupedMetadata
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from hydro2d.base import units
+from hydro2d.base.parameters import POSITIVE, Parameter
 
 #: characters of a name
 LONGEST_NAME = 200
@@ -124,6 +125,16 @@ Number = Annotated[float, Quantity("1")]
 PositiveNumber = Annotated[float, Quantity("1", _positive)]
 Fraction = Annotated[float, Quantity("1", _fraction)]
 NotNegative = Annotated[float, Quantity("1", _not_negative)]
+
+
+def type_of(declared: Parameter) -> Any:
+    """The type of a key that a kind of edge or nose declares: a number in its unit, positive if it must be."""
+    return Annotated[float, Quantity(declared.unit or "1", _positive if declared.sign == POSITIVE else None)]
+
+
+def optional(declared: Parameter, description: str, kind: Any = None) -> tuple[Any, Any]:
+    """Type and field of a declared key that a table may leave out, for `pydantic.create_model`; kind : in place of a number."""
+    return (kind or type_of(declared)) | None, Field(None, description=description, examples=[declared.example])
 
 
 def _pair(value, unit: str) -> tuple[float, float]:

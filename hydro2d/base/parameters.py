@@ -37,20 +37,23 @@ def check_sign(name: str, number: float, sign: str, error: type[ValueError] = Va
 
 @dataclass(frozen=True)
 class Parameter:
-    """One number of a material model.
+    """One number of a material model, or one key of an edge or a nose.
 
-    ``unit`` is in SI, and empty for a pure number. ``default`` is a float or ``REQUIRED``; only a parameter with an infinite
-    default may be infinite. ``sign`` is ``ANY``, ``POSITIVE`` or ``NON_NEGATIVE``. ``from_eos`` marks a property of the
-    material that its equation of state also has, under the same name.
+    ``unit`` is in SI, and empty for a pure number. ``default`` is a float, ``REQUIRED``, or None if it may be left out; only a
+    parameter with an infinite default may be infinite. ``sign`` is ``ANY``, ``POSITIVE`` or ``NON_NEGATIVE``. ``from_eos``
+    marks a property of the material that its equation of state also has, under the same name. ``example`` is a value as written
+    in a deck, for its reference page. ``over_time`` marks a table [[time, value], ...] in place of one value.
     """
 
     name: str
     unit: str
-    default: float | Required
+    default: float | Required | None
     description: str
     symbol: str = ""
     sign: str = NON_NEGATIVE
     from_eos: bool = False
+    example: Any = None
+    over_time: bool = False
 
     @property
     def required(self) -> bool:
@@ -131,8 +134,8 @@ class Description:
         return f"{head}\n\nValidity: {self.validity}\nSource: {self.source}\n\n{table}\n"
 
 
-def _shown(default: float | Required) -> str:
-    return repr(default) if isinstance(default, Required) else f"{default:g}"
+def _shown(default: float | Required | None) -> str:
+    return f"{default:g}" if isinstance(default, (int, float)) else repr(default)
 
 
 def described(module: ModuleType, kind: str) -> Description:

@@ -184,12 +184,12 @@ def transition(
     json
         Prints JSON.
     """
-    from hydro2d.analytic import model_deck, model_transition
-    from hydro2d.penetration.inputs import NOSE_SHAPE
+    from hydro2d.analytic import model_transition
+    from hydro2d.penetration.inputs import NOSE
 
     request, _ = _request(model_transition.with_transition(), rod, target, set_, deck, strain)
     shape = nose or request.settings.get("nose.shape") or getattr(request.geometry.get("nose.shape"), "value", "hemispherical")
-    shape = NOSE_SHAPE.check(model_deck.NOSES.get(shape, shape))
+    shape = NOSE[0].check(shape)
     comparison = model_transition.compare(request, shape, runs or ())
     _show(comparison.data() if json else "\n".join(comparison.lines()))
     return 0

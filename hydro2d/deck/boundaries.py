@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, create_model
 
-from hydro2d.base.keys import Section, Speed
+from hydro2d.base.keys import Section, optional
 from hydro2d.base.over_time import SpeedOverTime
 from hydro2d.mesh.edges.registry import KINDS, words
 
@@ -32,10 +32,9 @@ class _Edges(Section):
 
 def _edge_keys() -> dict[str, tuple[Any, Any]]:
     """Type and field of the keys that each kind of edge brings, for every edge that can be of that kind."""
-    types = {("m/s", False): Speed, ("m/s", True): SpeedOverTime}
     return {
-        f"{edge}_{key.name}": (types[key.unit, key.over_time] | None, Field(
-            None, description=f'{key.meaning} at {edge} = "{kind.name}"', examples=[key.example]))
+        f"{edge}_{key.name}": optional(
+            key, f'{key.description} at {edge} = "{kind.name}"', SpeedOverTime if key.over_time else None)
         for kind in KINDS for key in kind.keys for edge in kind.edges
     }  # fmt: skip
 

@@ -10,7 +10,6 @@ from hydro2d.base.errors import unknown
 from hydro2d.deck import derived
 from hydro2d.deck.mesh import SegmentError, axis_edges, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
-from hydro2d.deck.shapes import outline
 from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS
@@ -149,8 +148,7 @@ def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
         needed = {f"{edge}_{key.name}" for key in kind.keys} if kind else set()
         for key in sorted(needed):
             if table[key] is None:
-                what = "a piston" if kind.name == "piston" else "an edge with a velocity"
-                yield ("boundaries", edge), f"{what} needs {key}"
+                yield ("boundaries", edge), f"{kind.in_words} needs {key}"
         if needed and deck.sliding.method == "contact":
             yield ("boundaries", edge), "a contact allows no edge with a velocity: each body group would need its own"
         for other in KINDS:
@@ -188,15 +186,15 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
                 yield path, f'"{entry.name}" reaches beyond the end of the travelling mesh; a body there must be at rest'
         elif high <= z[0] or low >= z[-1]:
             yield path, _outside(entry.name, "z", low, high, z)
-        elif entry.shape == "rod" and (low < z[0] or high > z[-1]):
+        elif entry.must_be_whole and (low < z[0] or high > z[-1]):
             yield path, _outside(entry.name, "z", low, high, z, "is cut off by")
         inner, outer = extent(entry, deck, "r")
         if outer <= r[0] or inner >= r[-1]:
             yield path, _outside(entry.name, "r", inner, outer, r)
-        elif entry.shape == "rod" and (outer > r[-1] or r[0] > 0):
+        elif entry.must_be_whole and (outer > r[-1] or r[0] > 0):
             yield path, _outside(entry.name, "r", inner, outer, r, "is cut off by")
-        elif cylindrical and entry.shape in ("box", "polygon") and inner < 0:
-            yield (*path, "r" if entry.shape == "box" else "points"), f"r is negative at {inner:g} m"
+        elif cylindrical and entry.radial_key is not None and inner < 0:
+            yield (*path, entry.radial_key), f"r is negative at {inner:g} m"
     for number, tracer in enumerate(deck.tracer):
         if not (r[0] <= tracer.r <= r[-1] and z[0] <= tracer.z <= z[-1]):
             yield ("tracer", number), f'"{tracer.name}" at r = {tracer.r:g} m, z = {tracer.z:g} m lies outside the mesh'
@@ -239,8 +237,8 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
         if BY_NAME[kind].constrains() or BY_NAME[kind].traction() == PUSH:
-            what = {"wall": "a wall", "anvil": "an anvil"}.get(kind, "an edge with a velocity")
-            yield ("boundaries", key), f'a mesh that follows "{name}" must have open ends along z; {what} cannot travel with it'
+            yield ("boundaries", key), (f'a mesh that follows "{name}" must have open ends along z; {BY_NAME[kind].in_words} '
+                                        "cannot travel with it")  # fmt: skip
     ahead, behind = room(deck, z)
     radius = extent(body(deck, name), deck, "r")[1]
     if ahead < (radius if np.isfinite(radius) else 0.0):
@@ -262,7 +260,7 @@ def _outside(name: str, axis: str, low: float, high: float, mesh: np.ndarray, ho
 
 def extent(entry, deck: Deck, axis: str) -> tuple[float, float]:
     """Smallest and largest coordinate of a body along an axis."""
-    return outline(entry, deck.mesh.r_start).extent(axis)
+    return entry.outline(deck.mesh.r_start).extent(axis)
 
 
 def axial_length(deck: Deck, entry) -> float | None:
@@ -270,12 +268,11 @@ def axial_length(deck: Deck, entry) -> float | None:
 
     A body is not alone if another is joined to it, or if an earlier one overlaps it on the axis.
     """
-    ball = entry.shape == "sphere" and entry.centre[0] == 0.0 and entry.inner_radius is None
     joined = entry.join or any(other.join == entry.name for other in deck.body)
-    if not (ball or entry.shape == "rod") or joined or deck.mesh.r_start != 0.0:
+    if not entry.lies_on_axis or joined or deck.mesh.r_start != 0.0:
         return None
     (low, high), z = extent(entry, deck, "z"), axis_edges(deck, "z")
-    before = [chord for other in deck.body[: deck.body.index(entry)] for chord in outline(other, 0.0).chords("z", BESIDE_AXIS)]
+    before = [chord for other in deck.body[: deck.body.index(entry)] for chord in other.outline(0.0).chords("z", BESIDE_AXIS)]
     alone = all(min(end, high) - max(start, low) <= BESIDE_AXIS for start, end in before)
     return high - low if alone and z[0] <= low and high <= z[-1] else None
 
@@ -283,7 +280,7 @@ def axial_length(deck: Deck, entry) -> float | None:
 def heading(rod, target=None) -> int:
     """1 for a penetrator that flies towards +z, -1 for -z; relative to its target if one is given."""
     own = rod.velocity[1] - (target.velocity[1] if target is not None else 0.0)
-    return rod.direction if rod.shape == "rod" else (-1 if own < 0.0 else 1)
+    return rod.nose_direction or (-1 if own < 0.0 else 1)
 
 
 def faces(deck: Deck, rod: str, target: str) -> tuple[float, float]:

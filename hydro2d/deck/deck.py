@@ -289,11 +289,10 @@ def _with_defaults(deck: Deck) -> Deck:
         axis = deck.mesh.geometry == "cylindrical" and deck.mesh.r_start == 0
         data["boundaries"]["r_min"] = "axis" if axis else "wall"
     alone = [entry for entry in deck.body if entry.join is None]
-    rods = [entry for entry in alone if entry.shape == "rod"] or [
-        entry for entry in alone if entry.shape == "sphere" and entry.velocity[1] != 0.0]
-    plates = [entry for entry in alone if entry.shape in ("plate", "box")]
-    if deck.penetration is None and rods and plates:
-        data["penetration"] = {"rod": rods[0].name, "targets": _in_the_way(deck, rods[0], plates)}
+    plates = [entry for entry in alone if entry.is_target]
+    rod = max(alone, key=lambda entry: entry.projectile_rank, default=None)
+    if deck.penetration is None and rod is not None and rod.projectile_rank > 0 and plates:
+        data["penetration"] = {"rod": rod.name, "targets": _in_the_way(deck, rod, plates)}
     if shot := data["penetration"]:
         shot["targets"] = shot["targets"] or [shot["target"]]
         shot["target"] = shot["targets"][0]

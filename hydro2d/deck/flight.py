@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.deck.bodies import AnyBody
 from hydro2d.deck.checks import extent, travel
 from hydro2d.deck.mesh import body, cells_between
 from hydro2d.deck.sections import Deck
+from hydro2d.deck.shapes.registry import AnyBody
 
 AXES = ("r", "z")
 #: (radial, axial), m/s

@@ -43,7 +43,7 @@ def with_segments(deck: Deck) -> Deck:
     if mesh.reach is None:
         return deck
     entry = _measured(deck)
-    size = _width(entry, deck) / mesh.cells_across
+    size = entry.resolved_width(mesh.r_start) / mesh.cells_across
     moving = [entry, *(other for other in deck.body if other is not entry and _moves(other))]
     reach = _reach(entry, deck)
     outer = max((end for each in moving if math.isfinite(end := extent(each, deck, "r")[1])), default=0.0)
@@ -81,25 +81,15 @@ def _measured(deck: Deck):
     return next((entry for entry in deck.body if _moves(entry)), deck.body[0])
 
 
-def _width(entry, deck: Deck) -> float:
-    """The radius of a rod or a sphere; of another body the smaller of its width from the axis and its thickness, m."""
-    if entry.shape == "rod":
-        return entry.rod_radius
-    if entry.shape == "sphere":
-        return entry.radius
-    (inner, outer), (low, high) = extent(entry, deck, "r"), extent(entry, deck, "z")
-    return min(outer - max(inner, deck.mesh.r_start), high - low)
-
-
 def _reach(entry, deck: Deck) -> float:
     """The reach of the mesh, m."""
     count = radii(deck.mesh.reach)
     if count is None:
         return float(deck.mesh.reach)
-    inner, outer = extent(entry, deck, "r")
-    if not math.isfinite(outer):
+    radius = entry.reach_radius(deck.mesh.r_start)
+    if not math.isfinite(radius):
         raise ReachError(("mesh", "reach"), f'"{entry.name}" has no radius; give a length, such as "20 mm"')
-    return count * (0.5 * (outer - inner) if entry.shape == "sphere" else outer)
+    return count * radius
 
 
 def _count(length: float, size: float, key: str) -> int:

@@ -6,19 +6,21 @@ from typing import Any
 
 from hydro2d.base.errors import in_words, unknown
 from hydro2d.base.keys import Section
-from hydro2d.deck.bodies import SHAPES
 from hydro2d.deck.sections import Deck
+from hydro2d.deck.shapes import registry as shapes
 from hydro2d.files import toml
 from hydro2d.files.key_lines import entry_index, spelled
 from hydro2d.sources.registry import KINDS
 
 #: the key that selects the kind of a table that may be one of several, and the sections that its words stand for
-TAGS = {"shape": SHAPES, "kind": KINDS}
+TAGS = {"shape": shapes.KINDS, "kind": KINDS}
 #: these words
 _TAGGED = {word: section for sections in TAGS.values() for word, section in sections.items()}
 
 #: keys of decks of older versions, and their present names
 RENAMED = {"numerics.trace": "numerics.cutoff", "failure.loose": "failure.strength_cutoff"}
+#: noses of decks of older versions, and their present names
+RENAMED_NOSES = {"ogive": "ogival"}
 
 
 def causes(errors: list[dict]) -> list[dict]:
@@ -71,6 +73,10 @@ def renewed(data: dict) -> dict:
         (section, key), (place, name) = old.split("."), new.split(".")
         if isinstance(data.get(section), dict) and key in data[section]:
             data.setdefault(place, {})[name] = data[section].pop(key)
+    bodies = data.get("body")
+    for entry in bodies if isinstance(bodies, list) else ():
+        if isinstance(entry, dict) and entry.get("nose") in RENAMED_NOSES:
+            entry["nose"] = RENAMED_NOSES[entry["nose"]]
     return data
 
 

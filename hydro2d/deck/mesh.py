@@ -40,10 +40,7 @@ def body(deck: Deck, name: str):
 
 def body_radius(deck: Deck, name: str) -> float | None:
     """Radius of a rod, a sphere or a plate with an edge; None for other bodies."""
-    for body in deck.body:
-        if body.name == name:
-            return body.rod_radius if body.shape == "rod" else getattr(body, "radius", None)
-    return None
+    return next((entry.own_radius for entry in deck.body if entry.name == name), None)
 
 
 def axis_edges(deck: Deck, axis: str) -> np.ndarray:

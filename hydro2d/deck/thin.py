@@ -19,7 +19,7 @@ from hydro2d.deck.checks import extent, travel
 from hydro2d.deck.flight import AXES, Count, Flights
 from hydro2d.deck.mesh import axis_edges, body
 from hydro2d.deck.sections import Deck
-from hydro2d.deck.shapes import Outline, outline
+from hydro2d.deck.shapes.outlines import Outline
 
 #: a body needs at least this many cells across, and a gap this many
 CELLS_ACROSS, CELLS_OF_A_GAP = 4, 1
@@ -109,7 +109,7 @@ def _lines(flights: Flights, axis: str) -> Iterator[Line]:
     """Lines along an axis, three between every two levels of the other axis."""
     across = AXES[1 - AXES.index(axis)]
     window, (first, last) = _window(flights, axis), _window(flights, across)
-    shapes = [(entry.join or entry.name, outline(entry, flights.deck.mesh.r_start)) for entry in flights.deck.body]
+    shapes = [(entry.join or entry.name, entry.outline(flights.deck.mesh.r_start)) for entry in flights.deck.body]
     inside = {level for _, shape in shapes for level in _levels(shape, across) if first < level < last}
     for band, (low, high) in enumerate(pairwise(sorted({first, last, *inside}))):
         for place, share in PLACES.items():
@@ -143,9 +143,9 @@ def _thin_bodies(flights: Flights, lines: dict[str, list[Line]]) -> Iterator[str
         if entry.name not in points:
             continue
         thickest, said = _thickest(points[entry.name]), []
-        wall = entry.shape == "rod" and thickest.thin == "r" and thickest.piece.low > 0.0
+        wall = entry.is_slender and thickest.thin == "r" and thickest.piece.low > 0.0
         least = CELLS_ACROSS_WALL if wall else CELLS_ACROSS
-        for axis in AXES if wall or entry.shape != "rod" else ("z",):
+        for axis in AXES if wall or not entry.is_slender else ("z",):
             pieces = [piece for line in lines[axis] for piece in line.pieces if piece.name == entry.name]
             low, high = min(piece.low for piece in pieces), max(piece.high for piece in pieces)
             if axis == thickest.thin:

@@ -10,7 +10,7 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, extent, room
 from hydro2d.deck.mesh import axis_edges, body, misfits
 from hydro2d.deck.sections import Deck
-from hydro2d.deck.shapes import outline, shared_volume
+from hydro2d.deck.shapes.outlines import shared_volume
 from hydro2d.deck.thin import thin_things
 from hydro2d.materials.material import FRACTURE, Material
 from hydro2d.mesh.edges.registry import BY_NAME
@@ -33,8 +33,8 @@ def warnings(deck: Deck) -> list[str]:
 def _coarse_rods(deck: Deck) -> Iterator[str]:
     r = axis_edges(deck, "r")
     for entry in deck.body:
-        if entry.shape == "rod":
-            cells = entry.rod_radius / float(np.diff(r)[r[:-1] < entry.rod_radius].max())
+        if entry.is_slender:
+            cells = entry.own_radius / float(np.diff(r)[r[:-1] < entry.own_radius].max())
             if cells < CELLS_ACROSS_RADIUS - 1e-9:
                 yield (
                     f'body "{entry.name}": {cells:.1f} cells across the radius; below {CELLS_ACROSS_RADIUS} a rod is '
@@ -62,7 +62,7 @@ def _leaving(deck: Deck) -> Iterator[str]:
 def _overlaps(deck: Deck) -> Iterator[str]:
     """Bodies that partly overlap an earlier one, which takes the space. Wholly overlapping an earlier one is intended."""
     placed = [(entry, shape, shape.extent("r"), shape.extent("z"))
-              for entry, shape in ((entry, outline(entry, deck.mesh.r_start)) for entry in deck.body)]
+              for entry, shape in ((entry, entry.outline(deck.mesh.r_start)) for entry in deck.body)]
     r, z = ((float(edges[0]), float(edges[-1])) for edges in (axis_edges(deck, "r"), axis_edges(deck, "z")))
     planar = deck.mesh.geometry == "planar"
     for (other, first, *reach), (entry, second, *its) in combinations(placed, 2):

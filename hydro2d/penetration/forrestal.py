@@ -14,10 +14,12 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.noses.base import Shaped
+from hydro2d.noses.profile import Arc, Cone, Disc, Piece
 from hydro2d.penetration import inputs
 from hydro2d.penetration.cavity import CAVITY_VELOCITY, given_or_fitted
 from hydro2d.penetration.model import Example, Input, Model, Motion, Output, non_negative, positive
-from hydro2d.penetration.surface import SHAPES, checked_half_angle, nose_length, radius_of_ogive
+from hydro2d.penetration.surface import angles
 
 #: number of points of a motion under the force on the whole nose
 POINTS = 33
@@ -25,44 +27,47 @@ POINTS = 33
 
 @dataclass(frozen=True)
 class Nose:
-    """A nose with friction; ``crh`` counts for an ogive, ``half_angle`` (rad) for a cone. InputError for impossible values."""
+    """A nose of a certain shape, with friction. InputError for impossible values."""
 
-    shape: str
-    diameter: float
-    crh: float = 3.0
-    half_angle: float = 0.5
+    shaped: Shaped
     friction: float = 0.0
 
     def __post_init__(self) -> None:
-        nose_length(self.shape, self.diameter, self.crh, self.half_angle)
         non_negative(friction=self.friction)
 
     @property
+    def diameter(self) -> float:
+        return 2.0 * self.shaped.radius
+
+    @property
     def length(self) -> float:
-        return nose_length(self.shape, self.diameter, self.crh, self.half_angle)
+        return self.shaped.length
 
     def factors(self, immersed: float = math.inf) -> tuple[float, float]:
         """N1 and N2 of the part within ``immersed`` (m) of the tip; explanation/penetration/forrestal, equations 3 to 6."""
-        if immersed <= 0.0 and self.shape != "flat":
+        parts = [self._factors(piece, -max(immersed, 0.0)) for piece in self.shaped.pieces]
+        return sum(part[0] for part in parts), sum(part[1] for part in parts)
+
+    def _factors(self, piece: Piece, waterline: float) -> tuple[float, float]:
+        """N1 and N2 of the part of a piece with z above ``waterline`` (m)."""
+        if isinstance(piece, Disc):
+            share = (piece.r / self.shaped.radius) ** 2 if piece.z >= waterline else 0.0
+            return share, share
+        if waterline >= piece.end:
             return 0.0, 0.0
-        if self.shape == "flat":
-            return 1.0, 1.0
-        if self.shape == "conical":
-            return self._cone(immersed)
-        return self._arc(immersed)
+        return self._cone(piece, waterline) if isinstance(piece, Cone) else self._arc(piece, waterline)
 
-    def _cone(self, immersed: float) -> tuple[float, float]:
-        angle = checked_half_angle(self.half_angle)
-        covered = min(immersed / self.length, 1.0) ** 2 * (1.0 + self.friction / math.tan(angle))
-        return covered, covered * math.sin(angle) ** 2
+    def _cone(self, cone: Cone, waterline: float) -> tuple[float, float]:
+        height, width = cone.end - cone.start, cone.start_r - cone.end_r
+        outer = cone.end_r + width * min((cone.end - waterline) / height, 1.0)
+        covered = (outer**2 - cone.end_r**2) / self.shaped.radius**2 * (1.0 + self.friction * height / width)
+        return covered, covered * width**2 / (height**2 + width**2)
 
-    def _arc(self, immersed: float) -> tuple[float, float]:
-        half = 0.5 * self.diameter
-        radius = half if self.shape == "hemispherical" else radius_of_ogive(self.diameter, self.crh)
-        k, tip = (radius - half) / radius, math.acos((radius - half) / radius)
-        waterline = math.asin(min(max(self.length - immersed, 0.0) / radius, 1.0))
-        scale = 2.0 * (radius / half) ** 2
-        top, low = _integrals(tip, k, self.friction), _integrals(waterline, k, self.friction)
+    def _arc(self, arc: Arc, waterline: float) -> tuple[float, float]:
+        base, tip = angles(arc)
+        line = math.asin(min((waterline - arc.centre_z) / arc.radius, 1.0)) if waterline > arc.start else base
+        k, scale = -arc.centre_r / arc.radius, 2.0 * (arc.radius / self.shaped.radius) ** 2
+        top, low = _integrals(tip, k, self.friction), _integrals(line, k, self.friction)
         return tuple(scale * max(a - b, 0.0) for a, b in zip(top, low, strict=True))  # negative only by round-off, at the tip
 
 
@@ -142,18 +147,12 @@ def immersion(velocity: float, mass: float, nose: Nose, target: Target) -> np.nd
     return rows
 
 
-def of_inputs(
-    *, rod_diameter, nose_shape, nose_crh, nose_half_angle, friction, target_density, target_strength, cavity_a, cavity_b,
-    target_youngs_modulus, target_poisson_ratio, target_hardening_exponent, cavity_velocity,
-) -> tuple[Nose, Target]:  # fmt: skip
-    """Nose and target of a model's inputs, SI. InputError for impossible values."""
-    a, b = given_or_fitted(
-        cavity_a, cavity_b, target_density=target_density, target_strength=target_strength,
-        target_youngs_modulus=target_youngs_modulus, target_poisson_ratio=target_poisson_ratio,
-        target_hardening_exponent=target_hardening_exponent, cavity_velocity=cavity_velocity,
-    )  # fmt: skip
-    nose = Nose(nose_shape, rod_diameter, nose_crh, nose_half_angle, friction)
-    return nose, Target(a * target_strength, b * target_density)
+def of_inputs(*, friction, target_density, target_strength, cavity_a, cavity_b, **others) -> tuple[Nose, Target]:
+    """Nose and target of a model's inputs, SI; ``others`` are those of the nose and of the target. InputError."""
+    shaped = inputs.taken_nose(others)
+    del others["rod_diameter"]
+    a, b = given_or_fitted(cavity_a, cavity_b, target_density=target_density, target_strength=target_strength, **others)
+    return Nose(shaped, friction), Target(a * target_strength, b * target_density)
 
 
 def evaluate(velocity, *, rod_mass, nose_entry, **shot):
@@ -191,7 +190,7 @@ NOSE_ENTRY = Input(
 )  # fmt: skip
 #: inputs that the rigid models share: see ``of_inputs``
 SHOT = (
-    inputs.ROD_DIAMETER, inputs.NOSE_SHAPE.but(choices=SHAPES), inputs.NOSE_CRH, inputs.NOSE_HALF_ANGLE, inputs.FRICTION,
+    inputs.ROD_DIAMETER, *inputs.NOSE, inputs.FRICTION,
     inputs.TARGET_DENSITY, inputs.TARGET_STRENGTH, inputs.CAVITY_A, inputs.CAVITY_B,
     inputs.TARGET_YOUNGS_MODULUS.but(default=None), inputs.TARGET_POISSON_RATIO.but(default=None),
     inputs.TARGET_HARDENING_EXPONENT, CAVITY_VELOCITY,

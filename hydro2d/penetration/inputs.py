@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from hydro2d.base.parameters import ANY, FRACTION, NON_NEGATIVE
-from hydro2d.penetration.model import Input
+from typing import Any
+
+from hydro2d.base.parameters import ANY, FRACTION, NON_NEGATIVE, Required
+from hydro2d.noses.base import Shaped
+from hydro2d.noses.registry import BY_NAME, owners, shaped
+from hydro2d.penetration.model import Input, InputError, positive
 
 ROD_DENSITY = Input("rod.density", "kg/m^3", "density of the rod", "rho_p")
 ROD_STRENGTH = Input("rod.strength", "Pa", "flow stress of the rod, against rigid-body motion or erosion", "Y_p")
@@ -16,10 +20,12 @@ ROD_DIAMETER = Input("rod.diameter", "m", "diameter of the shank", "D")
 ROD_LENGTH = Input("rod.length", "m", "length of a cylinder of the rod's diameter and mass", "L")
 ROD_MASS = Input("rod.mass", "kg", "mass of the rod", "M")
 
-NOSE_SHAPE = Input("nose.shape", "", "shape of the nose", default="hemispherical",
-                   choices=("hemispherical", "ogival", "conical", "flat"))
-NOSE_CRH = Input("nose.crh", "1", "caliber-radius-head of an ogival nose", "psi", default=3.0)
-NOSE_HALF_ANGLE = Input("nose.half_angle", "rad", "half angle of a conical nose", "theta", default=0.5)
+#: the nose and the keys of every kind, of which a kind takes its own; one without a default must be given if its kind is chosen
+NOSE = (
+    Input("nose.shape", "", "shape of the nose", default="hemispherical", choices=tuple(BY_NAME)),
+    *(Input(f"nose.{key.name}", key.unit or "1", f"{' or '.join(names)} nose: {key.description}", key.symbol,
+            None if isinstance(key.default, Required) else key.default, key.sign) for key, names in owners().items()),
+)  # fmt: skip
 FRICTION = Input("friction", "1", "coefficient of sliding friction on the nose", "mu", default=0.0, sign=NON_NEGATIVE)
 
 TARGET_DENSITY = Input("target.density", "kg/m^3", "density of the target", "rho_t")
@@ -44,3 +50,23 @@ FROM_LIBRARY = (
     "density", "strength", "ultimate_strength", "hardening_exponent", "youngs_modulus", "poisson_ratio", "shear_modulus",
     "sound_speed", "hugoniot_slope",
 )
+
+
+def nose(name: str, diameter: float, **keys: float | None) -> Shaped:
+    """A nose on a shank of this diameter (m).
+
+    keys : of any kinds, of which this kind takes its own; None: not given. InputError for impossible values.
+    """
+    positive(diameter=diameter)
+    own = {key.name for key in BY_NAME[name].keys} if name in BY_NAME else set()
+    try:
+        return shaped(name, 0.5 * diameter, {key: value for key, value in keys.items() if key in own and value is not None})
+    except ValueError as problem:
+        raise InputError(f"nose: {problem}") from None
+
+
+def taken_nose(values: dict[str, Any]) -> Shaped:
+    """The nose of the inputs of a model by keyword; removes those of ``NOSE`` from them, and keeps rod_diameter."""
+    word, *keys = (each.keyword for each in NOSE)
+    given = {key.removeprefix("nose_"): values.pop(key) for key in keys}
+    return nose(values.pop(word), values["rod_diameter"], **given)

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydro2d.noses.base import Shaped
 from hydro2d.penetration.layers import Target
 from hydro2d.penetration.model import InputError, positive
-from hydro2d.penetration.surface import Surface, body_surface, nose_length, nose_surface
+from hydro2d.penetration.surface import Surface, body_surface, nose_surface
 
 #: largest gap of a closed surface: resultant of a uniform pressure over the largest section
 OPEN = 1e-9
@@ -77,19 +78,16 @@ def rigid(surface: Surface, mass: float) -> Body:
     )
 
 
-def projectile(shape: str, mass: float, diameter: float, length: float, crh: float = 3.0, half_angle: float = 0.5,
-               rings: int = 50, shank_rings: int = 50, sectors: int = 16) -> Body:
-    """A nose of ``shape`` on a shank; ``length`` (m) is that of a cylinder of the same diameter and volume.
+def projectile(nose: Shaped, mass: float, length: float, rings: int = 50, shank_rings: int = 50, sectors: int = 16) -> Body:
+    """A nose on its shank; ``length`` (m) is that of a cylinder of the same diameter and volume.
 
     InputError if the nose alone has more volume than that.
     """
     positive(length=length)
-    nose = nose_surface(shape, diameter, crh, half_angle, rings)
-    depth = nose_length(shape, diameter, crh, half_angle)
-    volume = float(np.sum((nose.z + depth) * nose.axial_area))
-    whole = length + depth - volume / (0.25 * math.pi * diameter**2)
-    surface = body_surface(shape, diameter, whole, crh, half_angle, rings, shank_rings, sectors=sectors)
-    return rigid(surface, mass)
+    tip = nose_surface(nose, rings)
+    volume = float(np.sum((tip.z + nose.length) * tip.axial_area))
+    whole = length + nose.length - volume / (math.pi * nose.radius**2)
+    return rigid(body_surface(nose, whole, rings, shank_rings, sectors=sectors), mass)
 
 
 def load(body: Body, target: Target, friction: float, touch: float, depth: float, inward: np.ndarray,

@@ -121,19 +121,19 @@ def penetrate(
 
 
 def evaluate(
-    velocity, *, rod_mass, rod_diameter, nose_shape, nose_crh, nose_half_angle, nose_entry, friction, surface_velocity,
-    target_density, target_strength, cavity_c, **cavity,
+    velocity, *, rod_mass, nose_entry, friction, surface_velocity, target_density, target_strength, cavity_c, **others,
 ):  # fmt: skip
     """A rigid rod from ``velocity`` to rest; keywords are those of ``MODEL.inputs``, in SI."""
-    a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **cavity)
+    nose = inputs.taken_nose(others)
+    del others["rod_diameter"]
+    a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **others)
     static = a * target_strength
     if cavity_c is None:
         pressure = Pressure(static, b * target_density)
     else:
         pressure = Pressure(static, cavity_c * target_density, b * math.sqrt(target_density * target_strength))
-    surface = nose_surface(nose_shape, rod_diameter, nose_crh, nose_half_angle, RINGS)
     flight = penetrate(
-        surface, rod_mass, velocity, pressure,
+        nose_surface(nose, RINGS), rod_mass, velocity, pressure,
         friction=friction, surface_velocity=surface_velocity, entry=nose_entry == "resisted",
     )  # fmt: skip
     peak = float(np.max(flight.history[:, 3]))

@@ -232,12 +232,14 @@ def _report(target, obliquity, start, regime, duration, deepest, motion, history
 
 
 def evaluate(
-    velocity, *, rod_mass, rod_diameter, rod_length, nose_shape, nose_crh, nose_half_angle, friction, target_density,
-    target_strength, target_thickness, pitch, yaw, spin, obliquity, **cavity,
+    velocity, *, rod_mass, rod_length, friction, target_density, target_strength, target_thickness, pitch, yaw, spin, obliquity,
+    **others,
 ):  # fmt: skip
     """A rod with the named nose into one plate, or a half space if no thickness is given; keywords as in ``MODEL.inputs``."""
-    a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **cavity)
-    body = projectile(nose_shape, rod_mass, rod_diameter, rod_length, nose_crh, nose_half_angle)
+    nose = inputs.taken_nose(others)
+    del others["rod_diameter"]
+    a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **others)
+    body = projectile(nose, rod_mass, rod_length)
     layer = Layer(math.inf if target_thickness is None else target_thickness, target_density, target_strength, a, b)
     shot = penetrate(body, [layer], velocity, pitch=pitch, yaw=yaw, spin=spin, obliquity=obliquity, friction=friction)
     return {output.name: getattr(shot, output.name) for output in MODEL.outputs}
@@ -256,7 +258,7 @@ MODEL = Model(
     validity="rods that do not deform; plane layers; a target that the rod's passage has not disturbed, no spall or petals",
     inputs=(
         inputs.ROD_MASS, inputs.ROD_DIAMETER, inputs.ROD_LENGTH,
-        inputs.NOSE_SHAPE, inputs.NOSE_CRH, inputs.NOSE_HALF_ANGLE,
+        *inputs.NOSE,
         inputs.FRICTION.but(description="coefficient of sliding friction on nose and shank"),
         inputs.TARGET_DENSITY, inputs.TARGET_STRENGTH, inputs.CAVITY_A, inputs.CAVITY_B,
         inputs.TARGET_YOUNGS_MODULUS.but(default=None), inputs.TARGET_POISSON_RATIO.but(default=None),

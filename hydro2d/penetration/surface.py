@@ -1,12 +1,13 @@
 """The surface of an axisymmetric projectile as rings, or as facets of rings: nose, shank and tail.
 
 Body frame: the tip of the nose is the origin and z runs along the axis in the direction of flight, so that the body lies at
-z <= 0 and the normals of the nose have a positive z component. A round nose is an arc of radius S about a point in the plane
-of its base, at a distance b behind the tip:
+z <= 0 and the normals of the nose have a positive z component. A nose consists of arcs, cones and discs (``hydro2d.noses``). An
+arc of radius S about the point (c, b) is
 
-    r = a - S + S cos(theta),   z = -b + S sin(theta),   normal (r, z) = (cos(theta), sin(theta))
+    r = c + S cos(theta),   z = b + S sin(theta),   normal (r, z) = (cos(theta), sin(theta))
 
-with S = a for a hemisphere and S = 2 a psi for an ogive of caliber-radius-head psi; the other noses are a cone and a disc.
+with c = a - S for a nose that is tangent to a shank of radius a: S = a for a hemisphere, S = 2 a psi for an ogive of
+caliber-radius-head psi.
 
 Each ring has its exact area and the exact projection of that area along the axis, pi (r_outer^2 - r_inner^2). Their ratio is
 the axial component of the surface's normal at one point of the ring (mean value theorem); the ring's normal and position are
@@ -21,9 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydro2d.noses.base import Shaped
+from hydro2d.noses.profile import Arc, Cone, Disc, Piece
 from hydro2d.penetration.model import InputError, positive
-
-SHAPES = ("hemispherical", "ogival", "conical", "flat")
 
 
 @dataclass(frozen=True)
@@ -57,100 +58,78 @@ class Surface:
         return self.area * self.normal_z
 
 
-def radius_of_ogive(diameter: float, crh: float) -> float:
-    """S = psi D, the radius of the arc of a tangent ogive; a hemisphere is psi = 1/2, and blunter arcs do not exist."""
-    positive(diameter=diameter)
-    if not crh >= 0.5:
-        raise InputError(f"nose.crh = {crh:g}: a tangent ogive has at least 0.5, which is the hemisphere")
-    return crh * diameter
+def nose_surface(nose: Shaped, rings: int = 100, sectors: int = 1) -> Surface:
+    """The nose alone, in at least this many rings."""
+    return _facets(_nose(nose, _count("rings", rings)), _count("sectors", sectors))
 
 
-def nose_length(shape: str, diameter: float, crh: float = 3.0, half_angle: float = 0.5) -> float:
-    """Length of the nose, m: a; a sqrt(4 psi - 1); a / tan(half angle); 0."""
-    positive(diameter=diameter)
-    a = 0.5 * diameter
-    if shape == "hemispherical":
-        return a
-    if shape == "ogival":
-        radius_of_ogive(diameter, crh)
-        return a * math.sqrt(4.0 * crh - 1.0)
-    if shape == "conical":
-        return a / math.tan(checked_half_angle(half_angle))
-    if shape == "flat":
-        return 0.0
-    raise InputError(f"nose.shape = {shape!r}: choose one of {', '.join(SHAPES)}")
-
-
-def checked_half_angle(half_angle: float) -> float:
-    if not 0.0 < half_angle < 0.5 * math.pi:
-        raise InputError(f"nose.half_angle = {half_angle:g}: must lie between 0 and pi/2 rad")
-    return half_angle
-
-
-def nose_surface(
-    shape: str, diameter: float, crh: float = 3.0, half_angle: float = 0.5, rings: int = 100, sectors: int = 1
-) -> Surface:
-    """The nose alone; see the module for the shapes. InputError for an unknown shape or an impossible number."""
-    return _facets(_nose(shape, diameter, crh, half_angle, _count("rings", rings)), _count("sectors", sectors))
-
-
-def body_surface(
-    shape: str,
-    diameter: float,
-    length: float,
-    crh: float = 3.0,
-    half_angle: float = 0.5,
-    rings: int = 100,
-    shank_rings: int = 100,
-    tail_rings: int = 20,
-    sectors: int = 32,
-) -> Surface:
+def body_surface(nose: Shaped, length: float, rings: int = 100, shank_rings: int = 100, tail_rings: int = 20,
+                 sectors: int = 32) -> Surface:  # fmt: skip
     """Nose, cylindrical shank and flat tail; ``length`` (m) is that of the whole body, nose included."""
-    positive(diameter=diameter, length=length)
-    base = nose_length(shape, diameter, crh, half_angle)
-    if length < base:
-        raise InputError(f"rod.length = {length:g}: shorter than its nose, {base:g} m")
+    positive(length=length)
+    if length < nose.length:
+        raise InputError(f"rod.length = {length:g}: shorter than its nose, {nose.length:g} m")
     parts = [
-        _nose(shape, diameter, crh, half_angle, _count("rings", rings)),
-        _shank(0.5 * diameter, -base, -length, _count("shank_rings", shank_rings)),
-        _disc(0.5 * diameter, -length, -1.0, _count("tail_rings", tail_rings))[:, ::-1],
+        _nose(nose, _count("rings", rings)),
+        _shank(nose.radius, -nose.length, -length, _count("shank_rings", shank_rings)),
+        _disc(Disc(nose.radius, -length), _count("tail_rings", tail_rings), -1.0)[:, ::-1],
     ]
     return _facets(np.concatenate(parts, axis=1), _count("sectors", sectors))
 
 
-def _nose(shape: str, diameter: float, crh: float, half_angle: float, rings: int) -> np.ndarray:
-    base, a = nose_length(shape, diameter, crh, half_angle), 0.5 * diameter
-    if shape == "flat":
-        return _disc(a, 0.0, 1.0, rings)
-    if shape == "conical":
-        return _cone(a, half_angle, rings)
-    return _arc(a, a if shape == "hemispherical" else radius_of_ogive(diameter, crh), base, rings)
+def _nose(nose: Shaped, rings: int) -> np.ndarray:
+    """The rings of a nose from the tip aft, shared by its pieces in proportion to their lengths along the meridian."""
+    lengths = [_length(piece) for piece in nose.pieces]
+    shares = [math.ceil(rings * length / sum(lengths)) for length in lengths]
+    return np.concatenate([_rings(*each) for each in zip(nose.pieces[::-1], shares[::-1], strict=True)], axis=1)
+
+
+def angles(arc: Arc) -> tuple[float, float]:
+    """Angles theta at the base of an arc and at its end nearest to the tip, rad."""
+    return tuple(math.asin(min(max((z - arc.centre_z) / arc.radius, -1.0), 1.0)) for z in (arc.start, arc.end))
+
+
+def _length(piece: Piece) -> float:
+    """Length of a piece along the meridian, m."""
+    if isinstance(piece, Arc):
+        low, high = angles(piece)
+        return piece.radius * (high - low)
+    return piece.r if isinstance(piece, Disc) else math.hypot(piece.end - piece.start, piece.end_r - piece.start_r)
 
 
 # Rings are rows z, r, normal_z, normal_r, area of one array.
 
 
-def _arc(a: float, radius: float, base: float, rings: int) -> np.ndarray:
-    """An arc of ``radius`` S: area = 2 pi S [(a - S) dtheta + S d(sin theta)], projection = pi d(r^2)."""
-    theta = np.linspace(math.acos((radius - a) / radius), 0.0, rings + 1)
-    r = a - radius + radius * np.cos(theta)
-    r[0] = 0.0
-    area = 2.0 * math.pi * radius * ((a - radius) * -np.diff(theta) - radius * np.diff(np.sin(theta)))
+def _rings(piece: Piece, rings: int) -> np.ndarray:
+    if isinstance(piece, Arc):
+        return _arc(piece, rings)
+    return _cone(piece, rings) if isinstance(piece, Cone) else _disc(piece, rings, 1.0)
+
+
+def _arc(arc: Arc, rings: int) -> np.ndarray:
+    """An arc of radius S about (c, b): area = 2 pi S (c dtheta + S d(sin theta)), projection = pi d(r^2)."""
+    low, high = angles(arc)
+    S = arc.radius
+    theta = np.linspace(high, low, rings + 1)
+    r = np.maximum(arc.centre_r + S * np.cos(theta), 0.0)
+    area = 2.0 * math.pi * S * (arc.centre_r * -np.diff(theta) - S * np.diff(np.sin(theta)))
     normal_z = np.pi * np.diff(r**2) / area
     normal_r = np.sqrt((1.0 - normal_z) * (1.0 + normal_z))
-    return np.stack([radius * normal_z - base, a - radius + radius * normal_r, normal_z, normal_r, area])
+    return np.stack([arc.centre_z + S * normal_z, arc.centre_r + S * normal_r, normal_z, normal_r, area])
 
 
-def _cone(a: float, half_angle: float, rings: int) -> np.ndarray:
-    r, middle = _edges_and_centroids(a, rings)
-    sine, cosine = math.sin(half_angle), math.cos(half_angle)
-    area = math.pi * np.diff(r**2) / sine
-    return np.stack([-middle / math.tan(half_angle), middle, np.full(rings, sine), np.full(rings, cosine), area])
+def _cone(cone: Cone, rings: int) -> np.ndarray:
+    r, middle = _edges_and_centroids(cone.end_r, cone.start_r, rings)
+    height, width = cone.end - cone.start, cone.start_r - cone.end_r
+    slant = math.hypot(height, width)
+    area = math.pi * np.diff(r**2) * slant / width
+    z = cone.end - (middle - cone.end_r) * height / width
+    return np.stack([z, middle, np.full(rings, width / slant), np.full(rings, height / slant), area])
 
 
-def _disc(a: float, z: float, normal: float, rings: int) -> np.ndarray:
-    r, middle = _edges_and_centroids(a, rings)
-    return np.stack([np.full(rings, z), middle, np.full(rings, normal), np.zeros(rings), math.pi * np.diff(r**2)])
+def _disc(disc: Disc, rings: int, normal: float) -> np.ndarray:
+    r, middle = _edges_and_centroids(0.0, disc.r, rings)
+    return np.stack([np.full(rings, disc.z), middle, np.full(rings, normal), np.zeros(rings), math.pi * np.diff(r**2)])
 
 
 def _shank(a: float, start: float, end: float, rings: int) -> np.ndarray:
@@ -159,9 +138,9 @@ def _shank(a: float, start: float, end: float, rings: int) -> np.ndarray:
     return np.stack([0.5 * (z[1:] + z[:-1]), np.full(rings, a), np.zeros(rings), np.ones(rings), area])
 
 
-def _edges_and_centroids(a: float, rings: int) -> tuple[np.ndarray, np.ndarray]:
+def _edges_and_centroids(inner: float, outer: float, rings: int) -> tuple[np.ndarray, np.ndarray]:
     """Equal steps in r, and the mean radius by area of each ring."""
-    r = np.linspace(0.0, a, rings + 1)
+    r = np.linspace(inner, outer, rings + 1)
     return r, 2.0 / 3.0 * np.diff(r**3) / np.diff(r**2)
 
 

@@ -31,8 +31,6 @@ IN_CONTACT = 450.0
 START = 2.5
 #: number of cells at which threads share half of the work of a cycle (explanation/speed, Measured)
 HALF_SHARED = 150e3
-#: names of the extent of a body along z
-WORDS = {"rod": "length", "plate": "thickness", "sphere": "diameter"}
 #: a body cut off by the mesh by less than this fraction counts as whole
 ROUNDING = 1e-9
 #: a deck that needs more cycles is treated as a mistake
@@ -169,12 +167,12 @@ class Check:
         parts = []
         for axis, edges in (("r", self.grid.r_edges), ("z", self.grid.z_edges)):
             low, high = decks.extent(entry, self.deck, axis)
-            what = WORDS.get(entry.shape, "height")
+            what = entry.extent_word
             if axis == "r":
                 what = "radius" if low <= 0.0 and self.grid.cylindrical else "width"
             low = max(low, 0.0) if axis == "r" and self.grid.cylindrical else low
             inside = min(high, edges[-1]) - max(low, edges[0])
-            if what == "radius" and entry.shape in ("plate", "box") and inside < high - low:
+            if what == "radius" and entry.is_target and inside < high - low:
                 continue  # it extends beyond the edge of the mesh
             cut = f", of which {inside * 1e3:.4g} mm lie in the mesh" if inside < (1.0 - ROUNDING) * (high - low) else ""
             size = f" of {(high - low) * 1e3:.4g} mm" if math.isfinite(high - low) else ""

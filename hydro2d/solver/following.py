@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.deck.shapes import outline
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import Grid
@@ -55,7 +54,7 @@ class UndisturbedSpace:
     def __init__(self, deck, table, grid: Grid):
         self.deck, self.table, self.grid = deck, table, grid
         slots = insertion.slot_of(deck, table)
-        outlines = [outline(body, deck.mesh.r_start) for body in deck.body]
+        outlines = [body.outline(deck.mesh.r_start) for body in deck.body]
         slabs = [slab for entry in outlines for slab in entry.slabs]
         self._levels = np.array(sorted({z for slab in slabs for z in (slab.low, slab.high)}))
         self._curved = [(slab.low, slab.high) for slab in slabs if not (slab.inner.constant and slab.outer.constant)]

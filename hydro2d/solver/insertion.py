@@ -16,7 +16,7 @@ from itertools import islice
 import numpy as np
 
 from hydro2d.base.errors import DeckError
-from hydro2d.deck.shapes import Outline, Slab, outline
+from hydro2d.deck.shapes.outlines import Outline, Slab
 
 #: equation of state of material that has a pressure at any density
 GAS = "ideal-gas"
@@ -178,7 +178,7 @@ def _snapped(vof: np.ndarray) -> np.ndarray:
 
 
 def _body_shares(deck, grid) -> tuple[np.ndarray, np.ndarray]:
-    outlines = [outline(body, deck.mesh.r_start) for body in deck.body]
+    outlines = [body.outline(deck.mesh.r_start) for body in deck.body]
     return shares_and_moments(outlines, grid.r_edges, grid.z_edges, grid.cylindrical)
 
 

@@ -86,7 +86,7 @@ class Penetrator:
         slots = decks.slots(deck)
         self.m = slots.index(body.join or body.name)
         self._targets = targets
-        self.radius = getattr(body, "rod_radius", None) or self._largest_radius(slice(None))
+        self.radius = (body.own_radius if body.is_slender else None) or self._largest_radius(slice(None))
         self._around = 2 * np.pi if sim.grid.cylindrical else 1.0
         self.direction = direction
         grid = sim.grid

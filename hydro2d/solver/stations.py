@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.deck.shapes import outline
 from hydro2d.mesh.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
 from hydro2d.solver import tracers
 from hydro2d.solver.surfaces import Follower
@@ -82,6 +81,6 @@ class Stations:
 def _group(sim, deck, r: float, z: float) -> int:
     """Body group of the body of the deck that is at (r, z) at the start; NO_GROUP if there is none."""
     for body in deck.body:
-        if any(low <= z <= high for low, high in outline(body, deck.mesh.r_start).chords("z", r)):
+        if any(low <= z <= high for low, high in body.outline(deck.mesh.r_start).chords("z", r)):
             return int(sim.state.group[sim.table.names.index(body.join or body.name)])
     return NO_GROUP

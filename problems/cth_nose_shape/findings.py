@@ -83,12 +83,16 @@ def scores(found: Runs) -> list[str]:
 
 
 def difference(one: Sequence[Result], other: Sequence[Result]) -> tuple[float, float | None]:
-    """By how much the mean depth of some runs exceeds that of others, per cent, and its standard error by their scatter."""
-    means = [fmean(run.reach for run in runs) for runs in (one, other)]
-    error = None
-    if min(len(one), len(other)) > 1:
-        error = 100.0 / means[1] * math.sqrt(sum(stdev([run.reach for run in runs]) ** 2 / len(runs) for runs in (one, other)))
-    return 100.0 * (means[0] / means[1] - 1.0), error
+    """By how much the mean depth of some runs exceeds that of others, per cent, and its standard error.
+
+    Members of the same number lie in the same place on the mesh, so that they are compared in pairs; members of one side are
+    left out.
+    """
+    depths = [{run.member: run.reach for run in runs} for runs in (one, other)]
+    members = sorted(set.intersection(*map(set, depths)))
+    more, mean = [depths[0][n] - depths[1][n] for n in members], fmean(depths[1][n] for n in members)
+    error = 100.0 / mean * stdev(more) / math.sqrt(len(more)) if len(more) > 1 else None
+    return 100.0 * fmean(more) / mean, error
 
 
 def compared(found: Runs, nose: str, axis: str) -> list[str]:

@@ -23,11 +23,12 @@ from hydro2d.analytic import model_transition
 from hydro2d.base.errors import DeckError
 from hydro2d.base.terminal import several
 from hydro2d.mesh.regime import LEAST_KEPT
+from hydro2d.study.outcomes.length import KEPT, USED_UP
 from hydro2d.study.plan.velocities import speed
 from hydro2d.study.records import keeping, layout
 from hydro2d.study.records.layout import StudyError
 from hydro2d.study.search import bisection
-from hydro2d.study.search.regimes import DEPTHS, KEPT, NOT_DEEPER, USED_UP, by_depth
+from hydro2d.study.search.regimes import DEPTHS, NOT_DEEPER, by_depth
 
 #: the label of a shot: nose, alloy and velocity; without a nose it means a hemispherical one
 SHOT = re.compile(r"(?:(hemi|ogive)[- ])?(5083|7039)[- ](\d+)")

@@ -25,7 +25,7 @@ def toy(*extra: Input, values=None) -> Model:
     return Model(
         name="toy", title="a toy", source="none", validity="none", main="depth",
         inputs=(inputs.ROD_DENSITY, inputs.ROD_STRENGTH, inputs.ROD_DIAMETER, inputs.ROD_LENGTH, inputs.ROD_MASS,
-                inputs.NOSE_SHAPE, *extra),
+                inputs.NOSE[0], *extra),
         outputs=(Output("depth", "m", "depth"), Output("regime", "", "word")),
         example=Example("W_alloy", "Al5083", 1000.0, (500.0, 1500.0),
                         values or {"rod.diameter": 0.01, "rod.length": 0.1, "nose.shape": "ogival"}),
@@ -145,16 +145,18 @@ def test_a_deck_gives_the_geometry():
 
 
 @pytest.mark.parametrize(
-    ("nose", "key", "value"), [("ogive", "nose.crh", 2.5), ("conical", "nose.half_angle", 0.4)]
+    ("nose", "key", "value"), [
+        ("ogival", "nose.crh", 2.5), ("flat-rounded", "nose.edge_radius", 0.001), ("conical", "nose.half_angle", 0.4)]
 )  # fmt: skip
 def test_a_nose_of_a_deck(nose, key, value):
     from hydro2d.deck import deck
 
-    given = f"crh={value}" if nose == "ogive" else f"half_angle={value} rad"
+    unit = {"nose.crh": "", "nose.half_angle": " rad", "nose.edge_radius": " m"}[key]
+    given = f"{key.removeprefix('nose.')}={value}{unit}"
     loaded = deck.load(HEMI, [f"body.rod.nose={nose}", f"body.rod.{given}"])
     inputs = model_deck.shot(loaded).values
     assert inputs[key].value == pytest.approx(value, rel=1e-12)
-    assert inputs["nose.shape"].value == ("ogival" if nose == "ogive" else nose)
+    assert inputs["nose.shape"].value == nose
 
 
 def test_settings_are_checked():
@@ -344,7 +346,7 @@ def test_runs_make_a_bracket(tmp_path):
     runs = [run_directory(tmp_path / str(v), v, word) for v, word in ((900, "rigid"), (1000, "rigid"), (1250, "deforming"),
                                                                        (1300, "eroding"))]  # fmt: skip
     runs.append(run_directory(tmp_path / "out", 800, "left the mesh"))
-    runs.append(run_directory(tmp_path / "ogive", 1800, "rigid", ("body.rod.nose=ogive", "body.rod.crh=2.5")))
+    runs.append(run_directory(tmp_path / "ogive", 1800, "rigid", ("body.rod.nose=ogival", "body.rod.crh=2.5")))
     bracket, lines = model_transition.of_runs(runs, "hemispherical")
     assert (bracket.low, bracket.high) == (1000.0, 1250.0)
     assert [line[-1] != "" for line in lines] == [False, False, False, False, True, True]

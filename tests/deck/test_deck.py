@@ -84,7 +84,7 @@ def test_a_deck_does_not_change():
     [
         ('thickness = "30 mm"', 'thicknes = "30 mm"', 23, ['unknown key "thicknes"', 'did you mean "thickness"?']),
         ("[sliding]", "[sliiding]", 24, ['unknown key "sliiding"', 'did you mean "sliding"?', "numerics"]),
-        ('nose = "hemispherical"', 'nose = "hemisferical"', 13, ['did you mean "hemispherical"?', "ogive"]),
+        ('nose = "hemispherical"', 'nose = "hemisferical"', 13, ['did you mean "hemispherical"?', "ogival"]),
         ('shape = "plate"', 'shape = "plat"', 21, ["body[1].shape", 'did you mean "plate"?']),
         ('shape = "plate"\n', "", 18, ["body[1].shape: is missing", "polygon"]),
         ('material = "Al5083"', 'material = "Al5038"', 20, ['unknown material "Al5038"', 'did you mean "Al5083"?']),
@@ -221,14 +221,17 @@ def test_the_hard_bodies_of_a_contact_come_first_in_mixed_cells():
 @pytest.mark.parametrize(
     ("nose", "fragment"),
     [
-        ('nose = "ogive"', "give exactly one of crh, nose_length; given: none"),
-        ('nose = "ogive"\ncrh = 3\nnose_length = "9 mm"', "given: crh, nose_length"),
-        ('nose = "ogive"\ncrh = 0.4', "at least 0.5"),
-        ('nose = "ogive"\nnose_length = "3 mm"', "must be at least the radius"),
-        ('nose = "ogive"\nhalf_angle = "23 deg"', "an ogive has no half_angle"),
+        ('nose = "ogival"', "an ogival nose needs crh or nose_length"),
+        ('nose = "ogival"\ncrh = 3\nnose_length = "9 mm"', "give crh or nose_length, not both"),
+        ('nose = "ogival"\ncrh = 0.4', "at least 0.5"),
+        ('nose = "ogival"\nnose_length = "3 mm"', "is at least the radius"),
+        ('nose = "ogival"\nhalf_angle = "23 deg"', "an ogival nose has no half_angle; give crh or nose_length"),
         ('nose = "conical"\nhalf_angle = 30', 'half_angle: 30 has no unit; write "30 deg"'),
-        ('nose = "conical"\ncrh = 3', "a cone has no crh"),
+        ('nose = "conical"\ncrh = 3', "a conical nose has no crh; give half_angle or nose_length"),
         ('nose = "flat"\ncrh = 3', "a flat nose has no crh"),
+        ('nose = "flat-rounded"', "a flat-rounded nose needs edge_radius"),
+        ('nose = "flat-rounded"\nedge_radius = "5 mm"', "must lie between 0 and the radius"),
+        ('nose = "flat-rounded"\nnose_length = "1 mm"', "a flat-rounded nose has no nose_length; give edge_radius"),
     ],
 )
 def test_impossible_noses(nose, fragment):

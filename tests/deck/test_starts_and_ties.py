@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.deck.shapes import box, shared_volume, sphere
+from hydro2d.deck.shapes.outlines import rectangle, shared_volume
+from hydro2d.deck.shapes.sphere import sphere_outline
 from hydro2d.deck.warnings import warnings
 from hydro2d.materials import library
 from hydro2d.running import check
@@ -109,7 +110,7 @@ def test_overlaps_are_reported_with_their_volume(first, second, said):
 
 def test_the_volume_that_two_bodies_share():
     """A ball and a box that cuts off its upper half; planar, a disc."""
-    ball, upper = sphere(0.0, 0.0, 2.0), box((0.0, 5.0), (0.0, 5.0))
+    ball, upper = sphere_outline(0.0, 0.0, 2.0), rectangle((0.0, 5.0), (0.0, 5.0))
     volume = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), False)
     assert volume == pytest.approx((2 / 3 * math.pi * 8.0, 4 / 3 * math.pi * 8.0), rel=1e-4)
     volume = shared_volume(ball, upper, (0.0, 5.0), (-5.0, 5.0), True)

@@ -10,9 +10,10 @@ from hydro2d.penetration import chen_li, forrestal
 from hydro2d.penetration.chen_li import Numbers, numbers, transition_velocity
 from hydro2d.penetration.forrestal import Nose, Target
 from hydro2d.penetration.model import InputError
+from tests.penetration.noses import SHAPES, a_nose
 
 SHOT = dict(
-    rod_diameter=7.11e-3, nose_shape="hemispherical", nose_crh=3.0, nose_half_angle=0.5, friction=0.0,
+    rod_diameter=7.11e-3, nose_shape="hemispherical", nose_crh=3.0, nose_half_angle=0.5, nose_edge_radius=None, friction=0.0,
     target_density=2710.0, target_strength=276e6, cavity_a=4.407, cavity_b=1.133, target_youngs_modulus=None,
     target_poisson_ratio=None, target_hardening_exponent=0.0, cavity_velocity=1200.0,
 )  # fmt: skip
@@ -31,11 +32,11 @@ def test_depth_with_chen_and_lis_coefficients(velocity, depth):
 
 @settings(max_examples=40, deadline=None)
 @given(
-    st.sampled_from(("hemispherical", "ogival", "conical", "flat")), st.floats(1.0, 2000.0), st.floats(0.001, 1.0),
+    st.sampled_from(SHAPES), st.floats(1.0, 2000.0), st.floats(0.001, 1.0),
     st.floats(0.0, 0.2),
 )  # fmt: skip
 def test_one_curve_is_forrestals_depth(shape, velocity, mass, friction):
-    nose, target = Nose(shape, 0.02, friction=friction), Target(1.2e9, 3000.0)
+    nose, target = Nose(a_nose(shape, 0.02), friction), Target(1.2e9, 3000.0)
     assert numbers(velocity, mass, nose, target).depth * 0.02 == pytest.approx(
         forrestal.deep(velocity, mass, nose, target)[0], rel=1e-11
     )
@@ -50,22 +51,22 @@ def test_depth_rises_with_impact_towards_the_static_limit(impact, geometry):
 
 
 def test_the_pressure_at_the_transition_is_the_strength():
-    nose, target = Nose("ogival", 0.01, 3.0, friction=0.02), Target(1.2e9, 3000.0)
+    nose, target = Nose(a_nose("ogival", 0.01, 3.0), 0.02), Target(1.2e9, 3000.0)
     limit = transition_velocity(2.5e9, nose, target)
     assert forrestal.force(limit, nose, target) / (0.25 * math.pi * 0.01**2) == pytest.approx(2.5e9, rel=1e-13)
 
 
 def test_a_sharp_nose_stays_rigid_longer():
     target = Target(1.2e9, 3000.0)
-    limits = [transition_velocity(2.5e9, Nose(*nose), target) for nose in (
+    limits = [transition_velocity(2.5e9, Nose(a_nose(*each)), target) for each in (
         ("flat", 0.01), ("hemispherical", 0.01), ("ogival", 0.01, 2.5), ("ogival", 0.01, 6.0))]  # fmt: skip
     assert limits == sorted(limits)
     assert limits[0] < limits[1] < limits[2] < limits[3]
 
 
 def test_a_soft_rod_is_never_rigid_and_one_without_inertia_always():
-    assert transition_velocity(1.0e9, Nose("flat", 0.01), Target(1.2e9, 3000.0)) == 0.0
-    assert transition_velocity(1.3e9, Nose("flat", 0.01), Target(1.2e9, 0.0)) is None
+    assert transition_velocity(1.0e9, Nose(a_nose("flat", 0.01)), Target(1.2e9, 3000.0)) == 0.0
+    assert transition_velocity(1.3e9, Nose(a_nose("flat", 0.01)), Target(1.2e9, 0.0)) is None
     assert chen_li.evaluate(100.0, rod_mass=0.02, rod_strength=0.5e9, **SHOT)["regime"] == "semi-hydrodynamic"
 
 

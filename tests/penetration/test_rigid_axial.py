@@ -12,13 +12,15 @@ from hydro2d.penetration.forrestal import Target, deep, entering
 from hydro2d.penetration.model import InputError
 from hydro2d.penetration.rigid_axial import Pressure, Rings, penetrate
 from hydro2d.penetration.surface import Surface, nose_surface
+from tests.penetration.noses import SHAPES, a_nose
 
 MASS, DIAMETER, STRENGTH, DENSITY = 0.023, 7.11e-3, 276e6, 2710.0
 PRINTED = Pressure(5.0394 * STRENGTH, 0.9830 * DENSITY)
 THREE = Pressure(5.0394 * STRENGTH, 0.9402 * DENSITY, 0.9830 * math.sqrt(DENSITY * STRENGTH))
-BALL = nose_surface("hemispherical", DIAMETER, rings=100)
+BALL = nose_surface(a_nose("hemispherical", DIAMETER), rings=100)
 SHOT = dict(
-    rod_mass=MASS, rod_diameter=DIAMETER, nose_shape="hemispherical", nose_crh=3.0, nose_half_angle=0.5, friction=0.0,
+    rod_mass=MASS, rod_diameter=DIAMETER, nose_shape="hemispherical", nose_crh=3.0, nose_half_angle=0.5, nose_edge_radius=None,
+    friction=0.0,
     target_density=DENSITY, target_strength=STRENGTH, cavity_a=5.0394, cavity_b=0.9830, cavity_c=None,
     target_youngs_modulus=None, target_poisson_ratio=None, target_hardening_exponent=0.0, cavity_velocity=1200.0,
     surface_velocity="normal", nose_entry="resisted",
@@ -69,7 +71,7 @@ def orders(errors):
 
 def test_first_order_in_time():
     """Against the closed form for the same rings: N2 as given by the rings."""
-    rings = nose_surface("hemispherical", DIAMETER, rings=20)
+    rings = nose_surface(a_nose("hemispherical", DIAMETER), rings=20)
     whole = math.pi * DIAMETER**2 / 4.0
     n2 = np.sum(rings.normal_z**3 * rings.area) / whole
     ratio = PRINTED.dynamic * n2 * 781.0**2 / PRINTED.static
@@ -81,10 +83,10 @@ def test_first_order_in_time():
 
 def test_second_order_in_the_rings():
     """Depth with a small time step, its own error removed by extrapolation."""
-    exact = deep(781.0, MASS, forrestal.Nose("hemispherical", DIAMETER), Target(PRINTED.static, PRINTED.dynamic))[0]
+    exact = deep(781.0, MASS, forrestal.Nose(a_nose("hemispherical", DIAMETER)), Target(PRINTED.static, PRINTED.dynamic))[0]
     errors = []
     for count in (3, 6, 12):
-        rings = nose_surface("hemispherical", DIAMETER, rings=count)
+        rings = nose_surface(a_nose("hemispherical", DIAMETER), rings=count)
         coarse, fine = (penetrate(rings, MASS, 781.0, PRINTED, entry=False, time_step=dt).depth for dt in (4e-7, 2e-7))
         errors.append(abs(2.0 * fine - coarse - exact))
     assert all(1.9 < order < 2.1 for order in orders(errors))
@@ -92,8 +94,9 @@ def test_second_order_in_the_rings():
 
 @pytest.mark.parametrize("shape", ["hemispherical", "ogival", "conical", "flat"])
 def test_the_closed_form_with_entry_and_friction(shape):
-    nose = forrestal.Nose(shape, DIAMETER, 3.0, 0.4, 0.05)
-    flight = penetrate(nose_surface(shape, DIAMETER, 3.0, 0.4, 200), MASS, 781.0, PRINTED, friction=0.05, time_step=5e-8)
+    shaped = a_nose(shape, DIAMETER, 3.0, 0.4)
+    nose = forrestal.Nose(shaped, 0.05)
+    flight = penetrate(nose_surface(shaped, 200), MASS, 781.0, PRINTED, friction=0.05, time_step=5e-8)
     depth, duration = entering(781.0, MASS, nose, Target(PRINTED.static, PRINTED.dynamic))
     assert flight.depth == pytest.approx(depth, rel=2e-4)
     assert flight.duration == pytest.approx(duration, rel=2e-4)
@@ -101,12 +104,12 @@ def test_the_closed_form_with_entry_and_friction(shape):
 
 @settings(max_examples=20, deadline=None)
 @given(
-    st.sampled_from(("hemispherical", "ogival", "conical", "flat")), st.floats(100.0, 1500.0), st.floats(0.01, 0.1),
+    st.sampled_from(SHAPES), st.floats(100.0, 1500.0), st.floats(0.01, 0.1),
     st.floats(0.0, 0.2), st.sampled_from(("normal", "axial")), st.booleans(),
 )  # fmt: skip
 def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, velocity, mass, friction, surface_velocity, entry):
     """To round-off by the steps' own sum; and by quadrature of the recorded force over the recorded depth."""
-    rings = nose_surface(shape, DIAMETER, rings=30)
+    rings = nose_surface(a_nose(shape, DIAMETER), rings=30)
     flight = penetrate(
         rings, mass, velocity, PRINTED, friction=friction, surface_velocity=surface_velocity, entry=entry,
         time_step=0.01 * DIAMETER / velocity,
@@ -121,7 +124,7 @@ def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, velocity, mass, 
 @settings(max_examples=10, deadline=None)
 @given(st.floats(200.0, 1200.0), st.floats(0.0, 0.1))
 def test_depth_rises_with_velocity_and_falls_with_friction(velocity, friction):
-    rings = nose_surface("ogival", DIAMETER, rings=30)
+    rings = nose_surface(a_nose("ogival", DIAMETER), rings=30)
     depth = penetrate(rings, MASS, velocity, PRINTED, friction=friction).depth
     assert depth < penetrate(rings, MASS, 1.05 * velocity, PRINTED, friction=friction).depth
     assert depth > penetrate(rings, MASS, velocity, PRINTED, friction=friction + 0.05).depth
@@ -129,17 +132,17 @@ def test_depth_rises_with_velocity_and_falls_with_friction(velocity, friction):
 
 
 def test_nothing_pushes_before_the_rod_is_in_and_all_of_it_when_it_is():
-    nose = Rings(nose_surface("hemispherical", DIAMETER, rings=50))
+    nose = Rings(nose_surface(a_nose("hemispherical", DIAMETER), rings=50))
     assert nose.force(PRINTED, 700.0, depth=0.0) == 0.0
     whole = nose.force(PRINTED, 700.0)
     assert nose.force(PRINTED, 700.0, depth=DIAMETER) == whole
-    closed = forrestal.force(700.0, forrestal.Nose("hemispherical", DIAMETER), Target(PRINTED.static, PRINTED.dynamic))
+    closed = forrestal.force(700.0, forrestal.Nose(a_nose("hemispherical", DIAMETER)), Target(PRINTED.static, PRINTED.dynamic))
     assert whole == pytest.approx(closed, rel=2e-4)
 
 
 def test_a_static_pressure_on_a_flat_nose_is_exact():
     """Constant force: M V^2/2F, for any step."""
-    rings = nose_surface("flat", DIAMETER, rings=3)
+    rings = nose_surface(a_nose("flat", DIAMETER), rings=3)
     exact = 0.5 * MASS * 500.0**2 / (1e9 * math.pi * DIAMETER**2 / 4.0)
     for dt in (1e-6, 3e-7):
         assert penetrate(rings, MASS, 500.0, Pressure(1e9, 0.0), time_step=dt).depth == pytest.approx(exact, rel=1e-12)
@@ -148,7 +151,8 @@ def test_a_static_pressure_on_a_flat_nose_is_exact():
 @pytest.mark.parametrize("velocity", [1.0, 20.0, 3000.0])
 def test_slow_and_fast_rods(velocity):
     depth = penetrate(BALL, MASS, velocity, PRINTED).depth
-    exact = entering(velocity, MASS, forrestal.Nose("hemispherical", DIAMETER), Target(PRINTED.static, PRINTED.dynamic))[0]
+    nose, target = forrestal.Nose(a_nose("hemispherical", DIAMETER)), Target(PRINTED.static, PRINTED.dynamic)
+    exact = entering(velocity, MASS, nose, target)[0]
     assert depth == pytest.approx(exact, rel=0.01)
 
 
@@ -169,7 +173,7 @@ def test_a_rod_at_rest_is_refused():
 
 def test_sums_are_those_of_the_rings():
     """The force by the running sums equals equation 3, ring by ring, for all three terms, half immersed, in any order."""
-    rings = nose_surface("ogival", DIAMETER, rings=40)
+    rings = nose_surface(a_nose("ogival", DIAMETER), rings=40)
     turned = Surface(*(getattr(rings, field)[::-1] for field in ("z", "r", "azimuth", "normal_z", "normal_r", "area")))
     v = 700.0 * rings.normal_z
     pressure = THREE.static + THREE.linear * v + THREE.dynamic * v**2

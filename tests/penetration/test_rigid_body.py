@@ -13,6 +13,7 @@ from hydro2d.penetration.model import InputError
 from hydro2d.penetration.projectile import load, projectile, rigid
 from hydro2d.penetration.rigid_body import MODEL, drift, kick, kinetic_energy, launch, penetrate
 from hydro2d.penetration.surface import body_surface, nose_surface
+from tests.penetration.noses import a_nose
 
 # Forrestal & Piekutowski (2000): 7.11 mm steel rods with a spherical nose, 23 g, 74.7 mm long, into 6061-T6511
 DIAMETER, MASS, LENGTH = 7.11e-3, 0.023, 74.7e-3 - 7.11e-3 / 6.0
@@ -27,19 +28,19 @@ def plate(thickness: float) -> Layer:
 @pytest.fixture(scope="module")
 def rod():
     """Coarse: these tests do not depend on the number of facets unless they say so."""
-    return projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=12)
+    return projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, rings=24, shank_rings=24, sectors=12)
 
 
 @pytest.fixture(scope="module")
 def ogive():
-    return projectile("ogival", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=12)
+    return projectile(a_nose("ogival", DIAMETER), MASS, LENGTH, rings=24, shank_rings=24, sectors=12)
 
 
 # --- the body
 
 
 def test_mass_properties_of_a_cylinder():
-    body = rigid(body_surface("flat", 0.02, 0.1, rings=200, shank_rings=10, tail_rings=200, sectors=4), 2.0)
+    body = rigid(body_surface(a_nose("flat", 0.02), 0.1, rings=200, shank_rings=10, tail_rings=200, sectors=4), 2.0)
     assert body.moments[0] == pytest.approx(2.0 * 0.01**2 / 2.0, rel=2e-5)
     assert body.moments[1] == pytest.approx(2.0 * (0.01**2 / 4.0 + 0.1**2 / 12.0), rel=1e-6)
     assert body.tip == pytest.approx(0.05, rel=1e-12)
@@ -55,18 +56,18 @@ def test_mass_properties_of_a_rod_with_a_spherical_nose():
     across = cylinder * (a**2 / 4 + shank**2 / 12 + (places[0] - centre) ** 2)
     across += ball * (83.0 / 320.0 * a**2 + (places[1] - centre) ** 2)
     along = cylinder * a**2 / 2 + ball * 2.0 / 5.0 * a**2
-    body = projectile("hemispherical", 1.0, 2 * a, volume / (math.pi * a**2), rings=200)
+    body = projectile(a_nose("hemispherical", 2 * a), 1.0, volume / (math.pi * a**2), rings=200)
     assert body.tip == pytest.approx(a - centre, rel=1e-5)
     assert body.moments == pytest.approx((along / volume, across / volume), rel=1e-3)  # second order in the rings
 
 
 def test_an_open_surface_is_no_body():
     with pytest.raises(InputError, match="not closed"):
-        rigid(nose_surface("hemispherical", 0.01, sectors=4), 1.0)
+        rigid(nose_surface(a_nose("hemispherical", 0.01), sectors=4), 1.0)
     with pytest.raises(InputError, match="even number"):
-        rigid(body_surface("flat", 0.01, 0.1, sectors=3), 1.0)
+        rigid(body_surface(a_nose("flat", 0.01), 0.1, sectors=3), 1.0)
     with pytest.raises(InputError, match="shorter than its nose|positive"):
-        projectile("ogival", 1.0, 0.01, 0.001)
+        projectile(a_nose("ogival", 0.01), 1.0, 0.001)
 
 
 # --- free motion
@@ -128,7 +129,7 @@ def test_forced_rotation_follows_eulers_equations(rod):
 
 def test_load_along_the_axis_is_the_closed_form(ogive):
     """Deep in, a hemisphere: pi a^2 (A Y + B rho V^2/2). Nothing across to the last bit, no torque to round-off."""
-    body = projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=200, shank_rings=10, sectors=8)
+    body = projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, rings=200, shank_rings=10, sectors=8)
     target, ahead, v = stack([HALF_SPACE]), np.array([0.0, 0.0, 1.0]), 821.0
     force, torque = load(body, target, 0.0, 1.0, 1.0, ahead, v * ahead, np.zeros(3))
     exact = math.pi * (DIAMETER / 2) ** 2 * (A * STRENGTH + 0.5 * B * DENSITY * v**2)
@@ -183,7 +184,7 @@ def test_only_facets_inside_a_layer_feel_it(rod):
 ])  # fmt: skip
 def test_depths_of_a_spherical_nose(velocity, depth):
     """mm, by quadrature of M v dv/dz over the entry of the nose and in closed form from there on."""
-    body = projectile("hemispherical", MASS, DIAMETER, LENGTH, shank_rings=2, sectors=4)
+    body = projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, shank_rings=2, sectors=4)
     shot = penetrate(body, [HALF_SPACE], velocity, time_step=1.5e-7)
     assert shot.regime == "embedded"
     assert 1e3 * shot.depth == pytest.approx(depth, rel=2e-4)
@@ -193,8 +194,8 @@ def test_depths_of_a_spherical_nose(velocity, depth):
 @pytest.mark.parametrize("nose", ["hemispherical", "ogival", "conical", "flat"])
 def test_along_the_axis_it_is_the_one_dimensional_model(nose, friction):
     """Rings, step, order of operations and stop are the same: depth and time agree to round-off."""
-    body = projectile(nose, MASS, DIAMETER, LENGTH, rings=40, shank_rings=4, sectors=6)
-    surface, pressure = nose_surface(nose, DIAMETER, rings=40), rigid_axial.Pressure(A * STRENGTH, B * DENSITY)
+    body = projectile(a_nose(nose, DIAMETER), MASS, LENGTH, rings=40, shank_rings=4, sectors=6)
+    surface, pressure = nose_surface(a_nose(nose, DIAMETER), rings=40), rigid_axial.Pressure(A * STRENGTH, B * DENSITY)
     axial = rigid_axial.penetrate(surface, MASS, 821.0, pressure, friction=friction, time_step=3e-7)
     shot = penetrate(body, [HALF_SPACE], 821.0, friction=friction, time_step=3e-7)
     assert shot.depth == pytest.approx(axial.depth, rel=1e-12)
@@ -236,7 +237,7 @@ def test_no_pitch_stays_on_the_axis(rod):
 
 def test_oblique_to_its_axis_but_not_to_its_flight_stays_on_the_axis_to_round_off():
     """Obliquity in the fixed frame only: deep in a layer, the positions of the faces do not matter."""
-    body = projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=12)
+    body = projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, rings=24, shank_rings=24, sectors=12)
     target = stack([HALF_SPACE])
     motion = launch(body, 800.0, 0.0, 0.0, 0.0, 0.7)
     motion = rigid_body.Motion(motion.position + [0, 0, 1.0], motion.velocity, motion.momentum, motion.attitude)
@@ -261,7 +262,7 @@ def test_energy_never_grows(rod, angles, friction):
 
 def test_depth_does_not_depend_on_the_azimuth_of_pitch():
     """Exact for turns by whole sectors, by symmetry; in between the facets differ, at second order."""
-    body = projectile("hemispherical", MASS, DIAMETER, LENGTH, rings=24, shank_rings=24, sectors=16)
+    body = projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, rings=24, shank_rings=24, sectors=16)
     total = math.radians(4.0)
     depths, drifts = [], []
     for azimuth in (0.0, 0.5 * math.pi, math.pi, 0.4):

@@ -18,7 +18,9 @@ import eos
 import hydro2d
 import strength
 from hydro2d.base import units
-from hydro2d.deck import bodies, deck, mesh_sections, sections
+from hydro2d.deck import deck, mesh_sections, sections
+from hydro2d.deck.shapes import body
+from hydro2d.deck.shapes import registry as shapes
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities
 from hydro2d.mesh.edges import registry as edge_kinds
@@ -239,8 +241,8 @@ SECTIONS = {
     "`[numerics]`": sections.Numerics, "`[sliding]`": sections.Sliding, "`[failure]`": sections.Failure,
     "`[stop]`": sections.Stop, "`[output]`": sections.Output, "`[[tracer]]`": sections.Tracer, "`[[gauge]]`": sections.Gauge,
     "`[experiment]`": sections.Experiment, "`[penetration]`": sections.Penetration,
-    "Segment: a table of `mesh.r` and `mesh.z`": mesh_sections.Segment, "Flow: a table of `body.flow`": bodies.Flow,
-    **{f'`[[body]]` with `shape = "{shape}"`': kind for shape, kind in bodies.SHAPES.items()},
+    "Segment: a table of `mesh.r` and `mesh.z`": mesh_sections.Segment, "Flow: a table of `body.flow`": body.Flow,
+    **{f'`[[body]]` with `shape = "{shape}"`': kind for shape, kind in shapes.KINDS.items()},
 }  # fmt: skip
 
 

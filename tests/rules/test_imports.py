@@ -14,6 +14,7 @@ LAYERS = (
     ("hydro2d.base",),
     ("hydro2d.files",),
     ("hydro2d.jit",),
+    ("hydro2d.noses",),
     ("hydro2d.mesh", "eos", "strength", "hydro2d.penetration", "hydro2d.problems"),
     ("hydro2d.sources", "hydro2d.materials"),
     ("hydro2d.physics", "hydro2d.deck"),
@@ -23,6 +24,7 @@ LAYERS = (
     ("hydro2d.running",),
     ("hydro2d.results",),
     ("hydro2d.analytic",),
+    ("hydro2d.study.outcomes",),
     ("hydro2d.study.plan",),
     ("hydro2d.study.records",),
     ("hydro2d.study.run",),
@@ -41,7 +43,8 @@ NARROW = {
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
                         "hydro2d.materials.rows", "eos", "strength"),
-    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.base.units", "hydro2d.base.parameters", "hydro2d.base.errors"),
+    "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.noses", "hydro2d.base.units", "hydro2d.base.parameters",
+                            "hydro2d.base.errors"),
 }
 
 

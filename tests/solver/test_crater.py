@@ -8,7 +8,7 @@ import pytest
 
 from hydro2d.cli.main import call
 from hydro2d.deck import deck
-from hydro2d.deck.shapes import polygon
+from hydro2d.deck.shapes.polygon import polygon_outline
 from hydro2d.output import history
 from hydro2d.results import figures
 from hydro2d.results.reading import Results, ResultsError
@@ -39,7 +39,7 @@ def carve(sim, *corners, lip=0.0):
     """Fills the mesh with a target that has a hole with these corners (radius, depth), from the axis out at the bottom; m."""
     sign, far = sim.penetrator.direction, 24e-3
     points = [(0.0, far), *corners, (corners[-1][0] + lip, -lip), (11.9e-3, -lip), (11.9e-3, far)]
-    outlines = [polygon([(r, sign * depth) for r, depth in points])]
+    outlines = [polygon_outline([(r, sign * depth) for r, depth in points])]
     fraction = sim.grid.interior(sim.state.vof)
     fraction[0] = 0.0
     fraction[1] = fractions(outlines, sim.grid.r_edges, sim.grid.z_edges, sim.grid.cylindrical)[0]
@@ -123,7 +123,7 @@ def dish(sim, bend, *hole):
     sign = sim.penetrator.direction
     fraction = sim.grid.interior(sim.state.vof)
     fraction[0] = 0.0
-    fraction[1] = fractions([polygon([(x, sign * z) for x, z in corners])], sim.grid.r_edges, sim.grid.z_edges,
+    fraction[1] = fractions([polygon_outline([(x, sign * z) for x, z in corners])], sim.grid.r_edges, sim.grid.z_edges,
                             sim.grid.cylindrical)[0]
 
 

@@ -8,9 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hydro2d.deck import deck, shapes
+from hydro2d.deck import deck
+from hydro2d.deck.shapes.outlines import rectangle
+from hydro2d.deck.shapes.polygon import polygon_outline
+from hydro2d.deck.shapes.rod import rod_outline
+from hydro2d.deck.shapes.sphere import sphere_outline
 from hydro2d.materials import library
 from hydro2d.mesh.grid import Grid
+from hydro2d.noses.registry import shaped
 from hydro2d.running.check import check
 from hydro2d.solver import insertion
 from hydro2d.solver.simulation import Simulation
@@ -32,7 +37,9 @@ def volume(outlines, r=R_EDGES, z=Z_EDGES, cylindrical=True):
 
 
 def rod_shape(nose, nose_length, direction=1, radius=0.0041, length=0.02, tip=0.0061):
-    return shapes.rod(radius, length, tip, direction, nose, nose_length)
+    given = {"nose_length": nose_length} if nose in ("ogival", "conical") else {}
+    given |= {"edge_radius": nose_length} if nose == "flat-rounded" else {}
+    return rod_outline(shaped(nose, radius, given), length, tip, direction)
 
 
 def ogive_volume(radius, length):
@@ -53,8 +60,11 @@ SHANK = math.pi * R**2
     [
         ("flat", 0.0, SHANK * L),
         ("hemispherical", R, SHANK * (L - R) + 2 / 3 * math.pi * R**3),
-        ("ogive", 3 * R, SHANK * (L - 3 * R) + ogive_volume(R, 3 * R)),
+        ("ogival", 3 * R, SHANK * (L - 3 * R) + ogive_volume(R, 3 * R)),
         ("conical", 2 * R, SHANK * (L - 2 * R) + SHANK * 2 * R / 3),
+        # Pappus: a quarter disc of radius R/4 has its centroid at 4/(3 pi) of it from the corner
+        ("flat-rounded", R / 4, SHANK * (L - R / 4) + math.pi * (0.75 * R) ** 2 * R / 4
+         + 2 * math.pi * (0.75 * R + R / (3 * math.pi)) * math.pi * (R / 4) ** 2 / 4),
     ],
 )
 def test_rods(nose, nose_length, expected, direction):
@@ -63,20 +73,20 @@ def test_rods(nose, nose_length, expected, direction):
 
 
 def test_an_ogive_of_the_length_of_its_radius_is_a_hemisphere():
-    assert rod_shape("ogive", R) == rod_shape("hemispherical", R)
+    assert rod_shape("ogival", R) == rod_shape("hemispherical", R)
 
 
 @pytest.mark.parametrize(
     ("outline", "expected"),
     [
-        (shapes.sphere(0.0, 0.001, 0.0083), 4 / 3 * math.pi * 0.0083**3),
-        (shapes.sphere(0.0, 0.001, 0.0083, 0.0051), 4 / 3 * math.pi * (0.0083**3 - 0.0051**3)),
-        (shapes.sphere(0.0091, 0.001, 0.003), 2 * math.pi**2 * 0.0091 * 0.003**2),
-        (shapes.sphere(0.0091, 0.001, 0.003, 0.002), 2 * math.pi**2 * 0.0091 * (0.003**2 - 0.002**2)),
-        (shapes.box((0.0013, 0.0057), (-0.0023, 0.0101)), math.pi * (0.0057**2 - 0.0013**2) * 0.0124),
-        (shapes.polygon([(0.0, 0.0), (0.009, 0.0), (0.0, 0.012)]), math.pi * 0.009**2 * 0.012 / 3),
+        (sphere_outline(0.0, 0.001, 0.0083), 4 / 3 * math.pi * 0.0083**3),
+        (sphere_outline(0.0, 0.001, 0.0083, 0.0051), 4 / 3 * math.pi * (0.0083**3 - 0.0051**3)),
+        (sphere_outline(0.0091, 0.001, 0.003), 2 * math.pi**2 * 0.0091 * 0.003**2),
+        (sphere_outline(0.0091, 0.001, 0.003, 0.002), 2 * math.pi**2 * 0.0091 * (0.003**2 - 0.002**2)),
+        (rectangle((0.0013, 0.0057), (-0.0023, 0.0101)), math.pi * (0.0057**2 - 0.0013**2) * 0.0124),
+        (polygon_outline([(0.0, 0.0), (0.009, 0.0), (0.0, 0.012)]), math.pi * 0.009**2 * 0.012 / 3),
         (
-            shapes.polygon([(0.002, -0.004), (0.01, 0.001), (0.006, 0.002), (0.008, 0.009), (0.003, 0.004)]),
+            polygon_outline([(0.002, -0.004), (0.01, 0.001), (0.006, 0.002), (0.008, 0.009), (0.003, 0.004)]),
             None,
         ),
     ],
@@ -92,7 +102,7 @@ def test_other_shapes(outline, expected):
 
 
 def test_planar_shapes():
-    circle = shapes.sphere(0.0011, 0.0007, 0.0093)
+    circle = sphere_outline(0.0011, 0.0007, 0.0093)
     assert volume([circle], r=FLAT_EDGES, cylindrical=False)[0] == pytest.approx(math.pi * 0.0093**2, rel=1e-13)
     flat_rod = rod_shape("hemispherical", R)
     area = 2 * R * (L - R) + math.pi * R**2 / 2
@@ -103,8 +113,8 @@ def test_the_rod_of_the_study():
     """62.94 g at 18160 kg/m^3 with a hemisphere, 63.02 g with an ogive of 2.5 calibers on 101.346 mm."""
     d = deck.load("problems/cth_nose_shape/hemi_5083_1086.toml")
     r, z = deck.edges(d)
-    hemi = shapes.rod(0.0033784, 0.09779, 0.0, 1, "hemispherical", 0.0033784)
-    ogive = shapes.rod(0.0033784, 0.101346, 0.0, 1, "ogive", 3 * 0.0033784)
+    hemi = rod_shape("hemispherical", 0.0033784, radius=0.0033784, length=0.09779, tip=0.0)
+    ogive = rod_shape("ogival", 3 * 0.0033784, radius=0.0033784, length=0.101346, tip=0.0)
     assert 18160 * volume([hemi], r, z)[0] == pytest.approx(0.06294, abs=5e-6)
     assert 18160 * volume([ogive], r, z)[0] == pytest.approx(0.06302, abs=5e-6)
 
@@ -121,12 +131,12 @@ def test_full_and_empty_cells_are_exact():
 def test_faces_on_the_mesh_cut_no_cells():
     """A body whose surface lies on faces, up to the round-off of the decimals in the deck, makes no mixed cell."""
     r, z = 0.0005 * np.arange(21), -0.02 + 0.0005 * np.arange(81)
-    vof = insertion.fractions([shapes.box((0.0015, 0.0045), (-0.0125, 0.0105))], r, z, True)
+    vof = insertion.fractions([rectangle((0.0015, 0.0045), (-0.0125, 0.0105))], r, z, True)
     assert set(np.unique(vof)) == {0.0, 1.0}
 
 
 def test_earlier_bodies_have_the_place():
-    ball, plate = shapes.sphere(0.0, 0.002, 0.0072), shapes.box((0.0, math.inf), (0.0, 0.015))
+    ball, plate = sphere_outline(0.0, 0.002, 0.0072), rectangle((0.0, math.inf), (0.0, 0.015))
     alone, below = volume([ball, plate]), volume([plate, ball])
     edge = R_EDGES[-1]
     full = 4 / 3 * math.pi * 0.0072**3
@@ -139,14 +149,14 @@ def test_earlier_bodies_have_the_place():
 def test_curves_that_cross_inside_cells_are_shared_exactly():
     """Two overlapping balls: the lens belongs to the first."""
     a, b, d = 0.006, 0.005, 0.004
-    first, second = shapes.sphere(0.0, 0.0, a), shapes.sphere(0.0, d, b)
+    first, second = sphere_outline(0.0, 0.0, a), sphere_outline(0.0, d, b)
     lens = math.pi * (a + b - d) ** 2 * (d**2 + 2 * d * (a + b) - 3 * (a - b) ** 2) / (12 * d)
     volumes = volume([first, second])
     assert volumes == pytest.approx([4 / 3 * math.pi * a**3, 4 / 3 * math.pi * b**3 - lens], rel=1e-12)
 
 
 def test_bodies_are_cut_by_the_mesh():
-    ball = shapes.sphere(0.0, Z_EDGES[-1], 0.006)
+    ball = sphere_outline(0.0, Z_EDGES[-1], 0.006)
     assert volume([ball])[0] == pytest.approx(2 / 3 * math.pi * 0.006**3, rel=1e-13)
 
 
@@ -158,15 +168,15 @@ def test_the_volume_of_a_ball_does_not_depend_on_the_mesh(radius, centre, nr, nz
     r, z = np.linspace(0, 0.012, nr + 1), np.linspace(-0.02, 0.01 + height, nz + 1)
     top = max(min(z[-1] - centre, radius), -radius)
     expected = math.pi * (radius**2 * (top + radius) - (top**3 + radius**3) / 3)
-    computed = volume([shapes.sphere(0.0, centre, radius)], r, z)[0]
+    computed = volume([sphere_outline(0.0, centre, radius)], r, z)[0]
     assert computed == pytest.approx(expected, rel=1e-11, abs=1e-11 * radius**3)
 
 
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_cells_contain_the_sum_of_their_parts(cylindrical):
     """Shares of cells equal those of cells cut in three by three, whose edges the curves cross elsewhere."""
-    outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
-                shapes.sphere(3e-3, 2e-3, 6.1e-3)]
+    outlines = [rod_shape("ogival", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
+                sphere_outline(3e-3, 2e-3, 6.1e-3)]
     r, z = np.linspace(0, 0.012, 8), np.linspace(-0.02, 0.02, 12)
     fine_r, fine_z = np.linspace(0, 0.012, 22), np.linspace(-0.02, 0.02, 34)
     coarse, fine = (insertion.fractions(outlines, *edges, cylindrical) for edges in ((r, z), (fine_r, fine_z)))
@@ -179,7 +189,7 @@ def test_cells_contain_the_sum_of_their_parts(cylindrical):
 def test_fractions_agree_with_sampling():
     """Share of each cell by a fine midpoint rule in (r^2/2, z)."""
     r, z = np.linspace(0, 0.01, 6), np.linspace(-0.006, 0.008, 6)
-    outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), shapes.polygon([(0.0, -0.001), (0.0093, 0.002), (0.001, 0.0071)])]
+    outlines = [rod_shape("ogival", 2.2 * R, tip=0.004), polygon_outline([(0.0, -0.001), (0.0093, 0.002), (0.001, 0.0071)])]
     exact = insertion.fractions(outlines, r, z, True)
     n = 400
     part = (np.arange(n) + 0.5) / n
@@ -207,7 +217,7 @@ def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_its_part_there(cyli
     """Along r^2/2 (planar: r) and z, off the middle of the cell, in cells; a moment is that times the share."""
     r, z = np.array([0.001, 0.002, 0.004, 0.005]), np.array([-0.002, 0.0, 0.001, 0.004])
     ends_r, ends_z = (0.0013, 0.0043), (-0.0005, 0.0015)
-    shares, moments = insertion.shares_and_moments([shapes.box(ends_r, ends_z)], r, z, cylindrical)
+    shares, moments = insertion.shares_and_moments([rectangle(ends_r, ends_z)], r, z, cylindrical)
 
     def cut(edges, ends):
         """Share of each interval, and the middle of that part."""
@@ -229,7 +239,7 @@ def test_the_centroid_of_a_box_in_each_cell_is_the_middle_of_its_part_there(cyli
 def test_moments_agree_with_sampling(cylindrical):
     """For a ball, and for a plate that it partly covers, by a fine midpoint rule in (r^2/2, z)."""
     r, z = np.linspace(0.0, 0.01, 6), np.linspace(-0.006, 0.008, 6)
-    outlines = [shapes.sphere(0.0, 0.001, 0.0063), shapes.box((0.0, math.inf), (-0.0031, 0.0043))]
+    outlines = [sphere_outline(0.0, 0.001, 0.0063), rectangle((0.0, math.inf), (-0.0031, 0.0043))]
     shares, moments = insertion.shares_and_moments(outlines, r, z, cylindrical)
     part = (np.arange(600) + 0.5) / 600
     for j in range(5):
@@ -249,8 +259,8 @@ def test_moments_agree_with_sampling(cylindrical):
 @pytest.mark.parametrize("cylindrical", [True, False])
 def test_moments_of_cells_are_those_of_their_parts(cylindrical):
     """For cells cut in two by two: to round-off, like the volumes."""
-    outlines = [rod_shape("ogive", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
-                shapes.sphere(3e-3, 2e-3, 6.1e-3)]
+    outlines = [rod_shape("ogival", 2.2 * R, tip=0.004), rod_shape("conical", R, -1, tip=-0.012),
+                sphere_outline(3e-3, 2e-3, 6.1e-3)]
     s = np.linspace(0.0, 1.0, 13)  # parts of equal volume
     fine_r, fine_z = 0.012 * (np.sqrt(s) if cylindrical else s), np.linspace(-0.02, 0.02, 23)
     _, moments = insertion.shares_and_moments(outlines, fine_r[::2], fine_z[::2], cylindrical)
@@ -379,7 +389,7 @@ def test_a_temperature_without_an_energy_is_an_error():
 def test_centroids_of_the_initial_state_are_moments_over_shares_in_cells_that_a_body_shares():
     d, grid, _, state = start(TEXT, ['body.rod.tip="0.3 mm"'])
     place, vof = state["centroid"], state["vof"]
-    shares, moments = insertion.shares_and_moments([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)
+    shares, moments = insertion.shares_and_moments([body.outline(0.0) for body in d.body], *deck.edges(d), True)
     assert place.shape == (2, 2, 120, 32)
     mixed = (vof > 0.0) & (vof < 1.0)
     np.testing.assert_allclose((place * shares)[:, mixed], moments[:, mixed], atol=1e-15)
@@ -394,7 +404,7 @@ def test_joined_bodies_have_one_centroid_where_they_meet():
     """The plate continues as the rod: in cells that both fill in part that of both together, and none where they fill them."""
     text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 17500\nshape')
     d, _, _, state = start(text, ['body.rod.tip="0.75 mm"', 'body.plate.z_front="0.1 mm"'])
-    shares, moments = insertion.shares_and_moments([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)
+    shares, moments = insertion.shares_and_moments([body.outline(0.0) for body in d.body], *deck.edges(d), True)
     total, place = shares.sum(axis=0), state["centroid"][:, 0]
     meet = (shares > 0.0).all(axis=0)
     cut = meet & (total < 1.0 - 1e-9)
@@ -409,7 +419,7 @@ def test_joined_bodies_are_one():
     text = TEXT.replace('material = "Al5083"\nshape', 'material = "W_alloy"\njoin = "rod"\ndensity = 17500\nshape')
     d, grid, table, state = start(text, ['body.rod.tip="0.25 mm"'])
     assert table.names == ("rod",)
-    vof = insertion.fractions([shapes.outline(body, 0.0) for body in d.body], *deck.edges(d), True)
+    vof = insertion.fractions([body.outline(0.0) for body in d.body], *deck.edges(d), True)
     assert np.array_equal(state["vof"][0], np.minimum(vof.sum(axis=0), 1.0))
     both = (vof[0] > 0) & (vof[1] > 0)
     assert both.any()

@@ -63,7 +63,7 @@ def test_a_rod_before_impact(simulation):
 
 
 @pytest.mark.parametrize(("keys", "length"), [
-    ({"nose": "ogive", "crh": 3.0}, 20.2e-3),  # its tip is thinner than half a cell
+    ({"nose": "ogival", "crh": 3.0}, 20.2e-3),  # its tip is thinner than half a cell
     ({"nose": "hemispherical"}, 20.2e-3),
 ])  # fmt: skip
 def test_a_rod_has_the_length_of_the_deck(keys, length):

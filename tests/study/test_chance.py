@@ -292,7 +292,7 @@ WRONG = [
     ("budget = 16", 'budget = 16\ntolerance = "5 m/s"', "tolerance belongs to a bisection"),
     ("budget = 16", "", "seed: belongs to a search with a budget; give budget, or leave it out"),
     ("seed = 3", "seed = -1", "transition.seed: should be greater than or equal to 0"),
-    ('"erosion"', '"regime"', 'the outcome must be one of two, and of = "regime" has three; give of = "erosion"'),
+    ('"erosion"', '"regime"', 'the outcome must be one of two, and of = "regime" has more; give of = "erosion"'),
     ('"erosion"', '"deeper"', 'depth is the threshold of of = "deeper" and of = "shallower"; give both or neither'),
     ('"erosion"', '"erosion"\ndepth = "30 cm"', "give both or neither"),
     ('"erosion"', '"deeper"\ndepth = "-30 cm"', "transition.depth: must be positive"),

@@ -52,7 +52,7 @@ def test_variants_set_several_keys_and_other_decks(tmp_path):
     assert other.values == {"method": "other_one"}
 
 
-NOSES = ["ogive", "hemispherical", "conical"]
+NOSES = ["ogival", "hemispherical", "conical"]
 
 
 def noses(folder, more="", overrides=(), change=("", "")):

@@ -8,7 +8,7 @@ import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.study.ensemble import ensembles, outcomes
+from hydro2d.study.ensemble import agreement, ensembles
 from hydro2d.study.ensemble.chance import wilson
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.records import layout, responses
@@ -101,7 +101,7 @@ def test_members_make_no_series_of_their_own(tmp_path):
 def test_an_experiment_is_scored_by_how_probable_its_outcome_was(contents):
     """45 cm at 1086 m/s is deeper than the limit of 25 cm, as are four of five; 20 cm at 1200 m/s is not, as is one."""
     shares = {each.name: each.outcome and (each.outcome[0], each.outcome[1][:2]) for each in contents.ensembles}
-    deeper, shallower = outcomes.DEEPER, outcomes.NOT_DEEPER
+    deeper, shallower = agreement.DEEPER, agreement.NOT_DEEPER
     assert shares == {"1086m-s": (deeper, (4, 5)), "1150m-s": None, "1200m-s": (shallower, (1, 5))}
     score = ensembles.score(contents.ensembles)
     assert score[:4] == (2, 5, 10, 1)
@@ -112,10 +112,10 @@ def test_a_score_rewards_the_true_probability():
     """Eight of ten shots end one way: members that do so in 80 % score better than members that always or half do."""
     def of(agreeing):
         shares = [wilson(agreeing, 1000)] * 8 + [wilson(1000 - agreeing, 1000)] * 2
-        return outcomes.score(shares).probability
+        return agreement.score(shares).probability
 
     assert of(800) > max(of(500), of(950), of(1000))
-    assert outcomes.score([]) is None
+    assert agreement.score([]) is None
 
 
 def test_the_page_and_the_files_have_the_ensembles(study, tmp_path):

@@ -11,10 +11,10 @@ import pytest
 import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.mesh.regime import RULE
+from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.run.case import Outcome
-from hydro2d.study.search import regimes
 from tests.decks import mesh, plate, rod, stop, table
 from tests.study import made_up, tubes
 from tests.study.html import Page
@@ -364,7 +364,7 @@ def test_status_and_report_show_the_transitions(again, capsys):
     assert "Transitions" in page.text
     assert "advection = momentum 1150 to 1200 m/s 1400 to 1450 m/s" in page.text
     assert "experiment: 1086 to 1200 m/s" in page.text
-    assert regimes.CRITERIA["regime"]["rigid"] in page.text
+    assert Regime.terms["rigid"] in page.text
 
 
 # ------------------------------------------------------------------------------------------------ a real shot

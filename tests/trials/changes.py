@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 
 from hydro2d.base import units
+from hydro2d.deck.shapes.rod import NOSE_KEYS
 from hydro2d.materials import library
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import words
@@ -314,10 +315,10 @@ def nose(tables, chance):
     if not rods:
         return "nothing"
     body = chance.choice(rods)
-    for key in ("crh", "half_angle", "nose_length"):
+    for key in NOSE_KEYS:
         body.pop(key, None)
-    body["nose"] = chance.choice(("flat", "hemispherical", "ogive", "conical"))
-    if body["nose"] == "ogive":
+    body["nose"] = chance.choice(("flat", "hemispherical", "ogival", "conical"))
+    if body["nose"] == "ogival":
         body["crh"] = chance.choice((0.5, 1.0, 3.0))
     if body["nose"] == "conical":
         body["half_angle"] = chance.choice(("20 deg", "60 deg", "85 deg"))

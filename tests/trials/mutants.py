@@ -58,7 +58,7 @@ def _cut(deck, tables: dict, z: np.ndarray) -> np.ndarray:
     if not rods or sum(body.velocity[1] != 0.0 for body in deck.body) > 1:  # bodies that fly with a rod would be cut off
         return z
     rod = deck.body[rods[0]]
-    length = min(rod.length, rod.resolved_nose_length + SHANK * rod.rod_radius)
+    length = min(rod.length, rod.shaped_nose.length + SHANK * rod.rod_radius)
     tables["body"][rods[0]]["length"] = length
     ends = (rod.tip - rod.direction * (length + BEHIND * rod.rod_radius), rod.tip + rod.direction * AHEAD * rod.rod_radius)
     kept = z[(z >= min(ends)) & (z <= max(ends))]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
+
+from hydro2d.base.parameters import Parameter
 
 #: the edges of the mesh, in the order of every array over them
 EDGES = ("r_min", "r_max", "z_min", "z_max")
@@ -16,20 +17,6 @@ NOTHING, OUT, BOTH_WAYS = "", "out", "both ways"
 FREE, DASHPOTS, PUSH = "", "dashpots", "push"
 
 
-@dataclass(frozen=True)
-class Key:
-    """A key of the deck that a kind needs: boundaries.EDGE_NAME, required if an edge is of the kind.
-
-    ``over_time`` : a table [[time, value], ...] in place of one value
-    """
-
-    name: str
-    unit: str
-    meaning: str
-    example: Any
-    over_time: bool = False
-
-
 class Edge:
     """One edge of the mesh. A kind overrides what differs from an open edge that constrains nothing.
 
@@ -38,11 +25,13 @@ class Edge:
     values : of its keys in the deck, in SI, by their names
     """
 
-    #: its word in decks, the edges that may be of this kind, its meaning
+    #: its word in decks, the edges that may be of this kind, its meaning, and its keys: boundaries.EDGE_NAME for each
     name: ClassVar[str]
     edges: ClassVar[tuple[str, ...]] = EDGES
     meaning: ClassVar[str]
-    keys: ClassVar[tuple[Key, ...]] = ()
+    keys: ClassVar[tuple[Parameter, ...]] = ()
+    #: the edge in a message
+    in_words: ClassVar[str] = "an open edge"
     #: its sink in the audit, and the meaning of that sink if hydro2d.mesh.sinks does not have it
     sink: ClassVar[str] = "outflow"
     sink_meaning: ClassVar[str] = ""

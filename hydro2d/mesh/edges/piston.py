@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.mesh.edges.base import Key
+from hydro2d.base.parameters import ANY, REQUIRED, Parameter
 from hydro2d.mesh.edges.velocity import Velocity
 
 
@@ -12,8 +12,10 @@ class Piston(Velocity):
     """The velocity is linear between the rows of the table, and constant before the first and after the last one."""
 
     name = "piston"
+    in_words = "a piston"
     meaning = "the normal velocity is a table over time; material crosses the edge as at a constant velocity"
-    keys = (Key("piston", "m/s", "normal velocity over time", [["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)
+    keys = (Parameter("piston", "m/s", REQUIRED, "normal velocity over time", sign=ANY,
+                      example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)  # fmt: skip
     sink = "piston"
     sink_meaning = "momentum that pistons take, and the work that they do (negative)"
 

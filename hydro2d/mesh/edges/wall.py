@@ -9,6 +9,7 @@ class Wall(Edge):
     """Images beyond it, no normal velocity, and no flow through it."""
 
     name = "wall"
+    in_words = "a wall"
     meaning = "a rigid wall without friction, or a plane of symmetry"
     sink = "walls"
 
@@ -39,6 +40,7 @@ class Anvil(Edge):
     """Images beyond it, and a normal velocity that never points outward; where bodies leave it, void comes in."""
 
     name = "anvil"
+    in_words = "an anvil"
     meaning = "a rigid wall without friction that only pushes: bodies that touch it may leave it"
     sink = "walls"
 

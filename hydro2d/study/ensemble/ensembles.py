@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from hydro2d.study.ensemble import outcomes
+from hydro2d.study.ensemble import agreement
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.layout import DONE, Study
@@ -60,7 +60,7 @@ class Ensemble:
     @cached_property
     def outcome(self) -> tuple[str, Share] | None:
         """The outcome of the experiment, and the share of the members with it; None without an experiment."""
-        pairs = [pair for each in self.members if (pair := outcomes.pair(each, self.measurement))]
+        pairs = [pair for each in self.members if (pair := agreement.pair(each, self.measurement))]
         return (pairs[0][1], wilson(sum(run == shot for run, shot in pairs), len(pairs))) if pairs else None
 
 
@@ -73,9 +73,9 @@ def grouped(records: Sequence[Record], measurements: Mapping[str, Measurement] |
     return [Ensemble(name, tuple(members), known.get(members[0].case.name)) for name, members in groups.items()]
 
 
-def score(ensembles: Sequence[Ensemble]) -> outcomes.Score | None:
+def score(ensembles: Sequence[Ensemble]) -> agreement.Score | None:
     """The probability of the outcomes of the experiments; None if no ensemble has one."""
-    return outcomes.score([each.outcome[1] for each in ensembles if each.outcome])
+    return agreement.score([each.outcome[1] for each in ensembles if each.outcome])
 
 
 def rows(study: Study, ensembles: Sequence[Ensemble], runs: Sequence[Row], choice: Choice | None = None) -> list[Row]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
@@ -14,6 +14,8 @@ from hydro2d.base.keys import PositiveLength, PositiveSpeed, Section, Speed
 from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain, read_text
+from hydro2d.study.outcomes.regime import Regime
+from hydro2d.study.outcomes.registry import BY_NAME, KINDS
 
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
@@ -100,6 +102,14 @@ ROUND, FEWEST = 4, 3
 TOLERANCE = 25.0
 
 
+#: outcomes with a threshold, as written in a study file
+WITH_DEPTH = [f'of = "{kind.name}"' for kind in KINDS if kind.has_depth]
+if TYPE_CHECKING:
+    Of = str
+else:
+    Of = Literal[tuple(BY_NAME)]
+
+
 class Transition(Section):
     """The impact velocities between which `hydro2d transition` searches, for every combination of the axes."""
 
@@ -111,12 +121,8 @@ class Transition(Section):
         None, description="largest width of a bracket; velocities are this far apart, from `from`; default 25 m/s"
     )
     key: str | None = Field(None, description="deck key to vary; default: the velocity of the deck's projectile")
-    of: Literal["regime", "erosion", "length", "perforation", "deeper", "shallower"] = Field(
-        "regime",
-        description="what changes: the regime of the projectile; whether it erodes; whether it loses a third of its length; "
-        "whether it perforates the target (ballistic limit); or whether fast shots go deeper, or less deep, than `depth`",
-    )
-    depth: PositiveLength | None = Field(None, description='threshold of `of = "deeper"` and `of = "shallower"`')
+    of: Of = Field(Regime.name, description=f"what changes: {'; '.join(kind.meaning for kind in KINDS)}")
+    depth: PositiveLength | None = Field(None, description=f"threshold of {' and '.join(f'`{word}`' for word in WITH_DEPTH)}")
     budget: int | None = Field(
         None, ge=1, le=10_000,
         description="number of runs for each combination of the axes, to find v50 of an outcome that is partly chance; "
@@ -133,8 +139,8 @@ class Transition(Section):
     def _growing(self):
         if not abs(self.from_) < abs(self.to) or self.from_ * self.to <= 0:
             raise ValueError(f"from = {self.from_:g} m/s, to = {self.to:g} m/s: to must be faster, in the same direction")
-        if (self.depth is not None) != (self.of in ("deeper", "shallower")):
-            raise ValueError('depth is the threshold of of = "deeper" and of = "shallower"; give both or neither')
+        if (self.depth is not None) != BY_NAME[self.of].has_depth:
+            raise ValueError(f"depth is the threshold of {' and '.join(WITH_DEPTH)}; give both or neither")
         return self
 
     @model_validator(mode="after")
@@ -144,8 +150,9 @@ class Transition(Section):
             if alone:
                 raise ValueError(f"{' and '.join(alone)}: belongs to a search with a budget; give budget, or leave it out")
             return self
-        if self.of == "regime":
-            raise ValueError('with a budget the outcome must be one of two, and of = "regime" has three; give of = "erosion"')
+        if len(BY_NAME[self.of].order) > 2:
+            raise ValueError(f'with a budget the outcome must be one of two, and of = "{self.of}" has more; '
+                             'give of = "erosion"')  # fmt: skip
         if self.tolerance is not None:
             raise ValueError("tolerance belongs to a bisection, which ends there; with a budget, the budget ends the search")
         size = self.round or ROUND

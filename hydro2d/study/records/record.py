@@ -47,10 +47,15 @@ class Setup(NamedTuple):
     shape: str = "rod"
 
     @property
+    def is_rod(self) -> bool:
+        """Whether the projectile has a nose."""
+        return bool(self.nose)
+
+    @property
     def size(self) -> str:
         """Length and diameter of the projectile."""
         across = f"{self.diameter * 1000:.4g} mm"
-        return f"{self.length * 100:.4g} cm x {across}" if self.shape == "rod" else across
+        return f"{self.length * 100:.4g} cm x {across}" if self.is_rod else across
 
     @property
     def plate(self) -> str:
@@ -60,18 +65,18 @@ class Setup(NamedTuple):
     @property
     def kind(self) -> str:
         """The projectile in words, without its material."""
-        return f"{self.nose} rod" if self.shape == "rod" else self.shape
+        return f"{self.nose} rod" if self.is_rod else self.shape
 
     @property
     def words(self) -> str:
         """Projectile and target."""
-        what = f"{self.nose} {self.rod} rod" if self.shape == "rod" else f"{self.rod} {self.shape}"
+        what = f"{self.nose} {self.rod} rod" if self.is_rod else f"{self.rod} {self.shape}"
         return f"{what} ({self.size}) into {self.plate}"
 
     @property
     def short(self) -> str:
         """For a heading."""
-        return f"{self.rod} into {self.target}, {f'{self.nose} nose' if self.shape == 'rod' else self.shape}"
+        return f"{self.rod} into {self.target}, {f'{self.nose} nose' if self.is_rod else self.shape}"
 
 
 class Place(NamedTuple):
@@ -288,18 +293,18 @@ def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None, direction: int)
     bodies = [decks.body(deck, target.name) for target in through]
     names = dict.fromkeys(deck.materials[each.material].name for each in bodies)
     (low, high), (_, radius) = (decks.extent(body, deck, axis) for axis in ("z", "r"))
-    rod = body.shape == "rod"
+    diameter, length = body.size or (2.0 * radius, high - low)
     thickness = shot.values.get("target.thickness") if shot else None
     return Setup(
         rod=deck.materials[body.material].name, target=" + ".join(names), nose=shot.nose if shot else getattr(body, "nose", ""),
-        diameter=2.0 * (body.rod_radius if rod else radius), length=body.length if rod else high - low,
+        diameter=diameter, length=length,
         thickness=thickness.value if thickness else _thickness(through, bodies), shape=body.shape,
     )  # fmt: skip
 
 
 def _thickness(through: list[targets.Target], bodies: list) -> float | None:
     """Distance from the face of the first target to the rear face of the last, m; None if the last has no rear face."""
-    solid = bodies[-1].shape in ("plate", "box")
+    solid = bodies[-1].is_target
     return float(f"{abs(through[-1].rear - through[0].surface):.12g}") if solid else None
 
 

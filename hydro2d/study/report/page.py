@@ -14,6 +14,7 @@ from hydro2d.base.terminal import shown
 from hydro2d.base.version import __version__
 from hydro2d.study.ensemble import ensembles
 from hydro2d.study.ensemble.contents import Contents
+from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.records import differences
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import Choice
@@ -91,7 +92,7 @@ def _transitions(contents: Contents) -> dict:
         "rows": [_of_combination(each, names) for each in combinations],
         "notes": [f"{each.title}: {note}" for each, known in with_notes for note in each.notes if note not in known],
         "criteria": regimes.criteria(contents.study),
-        "of_rods": contents.study.search.of in regimes.OF_ROD,
+        "of_rods": BY_NAME[contents.study.search.of].of_rod,
         "file": regimes.FILE,
     }
 

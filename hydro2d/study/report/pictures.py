@@ -59,7 +59,7 @@ def draw(contents: Contents, folder: Path) -> Iterator[Picture]:
     where = "at their depths below the target's original surface" if at_depth else "tip beside tip"
     measured = at_depth and any(each.case.name in contents.belonging for each in scale)
     left_out = f" {len(with_rod) - len(scale)} further runs are not drawn." if len(with_rod) > len(scale) else ""
-    word = "Rods" if all(each.setup.shape == "rod" for each in scale) else "Projectiles"
+    word = "Rods" if all(each.setup.is_rod for each in scale) else "Projectiles"
     for number, part in enumerate(shown, 1):
         file = folder / f"rods_{number:02d}.png"
         figures.save(rods.draw(part, contents.belonging, whole, others), file)

@@ -11,8 +11,11 @@ from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_json
-from hydro2d.mesh.regime import DEFORMING, ERODED_MASS, ERODING, GROWING, LEAST_KEPT, RULE
 from hydro2d.penetration.model import InputError
+from hydro2d.study.outcomes import perforation
+from hydro2d.study.outcomes.base import FALL, LIMIT
+from hydro2d.study.outcomes.regime import Regime
+from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
 from hydro2d.study.records import experiments, record
 from hydro2d.study.records.layout import Interval, Study
@@ -22,60 +25,18 @@ from hydro2d.study.search import bisection, v50
 FILE = "transition.json"
 
 
-@dataclass(frozen=True)
-class Scheme:
-    """Outcomes of a search: regimes in the order of velocity, and names of transitions by the regime they lead to."""
-
-    order: tuple[str, ...]
-    names: Mapping[str, str]
-
-
-STOPPED, PERFORATED = "stopped", "perforated"
-KEPT, USED_UP = "kept", "used up"
-HOLDS, ERODES = "not eroding", ERODING
-SHALLOW, DEEP = "shallower", "deeper"
-SCHEMES = {
-    "regime": Scheme(GROWING, {DEFORMING: "rigid to deforming", ERODING: "to eroding"}),
-    "length": Scheme((KEPT, USED_UP), {USED_UP: "a third of the length lost"}),
-    "perforation": Scheme((STOPPED, PERFORATED), {PERFORATED: "ballistic limit"}),
-    "erosion": Scheme((HOLDS, ERODES), {ERODES: "to eroding"}),
-    "deeper": Scheme((SHALLOW, DEEP), {DEEP: "depth reached"}),
-    "shallower": Scheme((DEEP, SHALLOW), {SHALLOW: "depth no longer reached"}),
-}
-#: searches with transitions that analytic models and experiments also have
-OF_ROD = ("regime", "erosion", "length")
-FALL, LIMIT = "depth falls", "hydrodynamic limit"
 DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
-_BY_DEPTH = {
-    FALL: "between the deepest run and the next faster one, however far apart; it prompts no further runs",
-    LIMIT: f"as for experiments: {model_transition.RULE}; also from the same runs, without those slower than every deeper one",
-}
-_OF_DEPTH = {DEEP: "the largest depth of the run is at least `depth` of the study", SHALLOW: "it is less"}
-#: meanings of the terms of a search
-CRITERIA = {
-    "regime": RULE | _BY_DEPTH,
-    "length": {
-        KEPT: "at least two thirds of the projectile's length are left at the end", USED_UP: "less is left", **_BY_DEPTH,
-    },
-    "perforation": {
-        PERFORATED: "the leading end is at least the radius of the projectile beyond the rear face of the target",
-        "ballistic limit": "between the fastest run that is stopped and the slowest that perforates",
-    },
-    "erosion": {ERODES: RULE[ERODING], HOLDS: "less has, whether the projectile is rigid or deforming", **_BY_DEPTH},
-    "deeper": _OF_DEPTH,
-    "shallower": _OF_DEPTH,
-}  # fmt: skip
 
 
-def criteria(study: Study) -> dict[str, str]:
+def criteria(study: Study) -> Mapping[str, str]:
     """The definitions of the terms of a search."""
     if study.search is None:
-        return CRITERIA["regime"]
-    terms = CRITERIA[study.search.of]
+        return Regime.terms
+    kind = BY_NAME[study.search.of]
     if study.search.budget is None:
-        return terms
-    kept = {name: words for name, words in terms.items() if name not in (FALL, LIMIT, "ballistic limit")}
-    return kept | v50.CRITERIA | (v50.MILITARY_CRITERION if study.search.of == "perforation" else {})
+        return kind.terms
+    terms = {name: words for name, words in kind.terms.items() if name not in (FALL, LIMIT, perforation.LIMIT)}
+    return terms | v50.CRITERIA | (v50.MILITARY_CRITERION if kind.is_ballistic else {})
 
 
 @dataclass(frozen=True)
@@ -128,43 +89,14 @@ def _at_least(run: Run) -> str:
     return "at least " if run.record.at_least else ""
 
 
-def judge(record: Record, of: str = "regime", depth: float | None = None) -> Run:
-    """The outcome of a case: its regime at the end, or the outcome that `of` of a study file names; depth : threshold in m.
-
-    None for a case that is not done, and for a rod that left the mesh and was not followed to its end. In runs of versions
-    without this regime, such a rod is recognised by its loss of mass.
-    """
+def judge(record: Record, of: str = Regime.name, depth: float | None = None) -> Run:
+    """The outcome of a case that `of` names, None with the reason if it is not known; depth : threshold in m."""
     case = record.case
     velocity = record.velocity if record.velocity is not None else velocities.speed(case.values[velocities.AXIS])
     if not record.done:
         reason = case.message.splitlines()[0] if case.message else ""
         return Run(record, velocity, None, f"{case.status}: {reason}" if reason else case.status)
-    if of == "perforation" and (record.perforated or not record.left):
-        return Run(record, velocity, PERFORATED if record.perforated else STOPPED)
-    if depth is not None:
-        return _by_threshold(record, velocity, depth)
-    first, mass = record.first.get("rod_mass_kg"), record.value("rod_mass_kg")
-    if record.perforated and (record.left or (first and mass < (1.0 - ERODED_MASS) * first)):
-        why = "the projectile went through the target and left the mesh; stop.perforation = true ends a run before that"
-        return Run(record, velocity, None, why)
-    if record.left:
-        return Run(record, velocity, None, "the projectile left the mesh before it came to rest")
-    if of == "length":
-        kept = record.value("rod_length_m") >= LEAST_KEPT * record.value("rod_initial_length_m")
-        return Run(record, velocity, KEPT if kept else USED_UP)
-    regime = case.summary.get("regime")
-    if of == "erosion":
-        return Run(record, velocity, ERODES if regime == ERODING else HOLDS)
-    return Run(record, velocity, regime)
-
-
-def _by_threshold(record: Record, velocity: float, depth: float) -> Run:
-    """Whether a case reached a depth in m; unknown for a rod that left the mesh, or the target, before it."""
-    if record.depth is None:
-        return Run(record, velocity, None, "it has no depth")
-    if record.depth < depth and record.at_least:
-        return Run(record, velocity, None, f"the projectile left the target or the mesh before a depth of {100 * depth:g} cm")
-    return Run(record, velocity, DEEP if record.depth >= depth else SHALLOW)
+    return Run(record, velocity, *BY_NAME[of].judge(record, depth))
 
 
 @dataclass(frozen=True)
@@ -226,12 +158,12 @@ def label(values: Mapping[str, str]) -> str:
     return ", ".join(f"{name} = {value}" for name, value in values.items() if name != velocities.AXIS)
 
 
-def so_far(outcomes: Mapping[float, str], of: str = "regime") -> list[str]:
+def so_far(outcomes: Mapping[float, str], of: str = Regime.name) -> list[str]:
     """The transitions of regimes by velocity in m/s, in words."""
-    scheme = SCHEMES[of]
+    kind = BY_NAME[of]
     return [
-        f"{name} {extent(Bracket(name, *bisection.bracket(outcomes, regime, scheme.order), ''))}"
-        for regime, name in scheme.names.items()
+        f"{name} {extent(Bracket(name, *bisection.bracket(outcomes, regime, kind.order), ''))}"
+        for regime, name in kind.transitions.items()
     ]
 
 
@@ -244,8 +176,8 @@ def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Tran
 
 
 def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transitions:
-    of = study.search.of
-    in_turn = [judge(each, of, study.search.depth) for each in members]
+    kind = BY_NAME[study.search.of]
+    in_turn = [judge(each, kind.name, study.search.depth) for each in members]
     runs = sorted(in_turn, key=lambda run: run.velocity)
     known = [run for run in runs if run.regime is not None]
     values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
@@ -256,9 +188,9 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
         estimate = None
     else:
         shots = [v50.Shot(run.record.case.name, run.velocity, run.regime, run.record.done) for run in in_turn]
-        estimate = v50.estimate(study.search, SCHEMES[of], shots)
+        estimate = v50.estimate(study.search, kind, shots)
         brackets, settled, notes = [estimate.bracket], {estimate.name: estimate.spent}, estimate.notes
-    comparison, problem = _compared(known, brackets[0]) if of in OF_ROD else (None, "")
+    comparison, problem = _compared(known, brackets[0]) if kind.of_rod else (None, "")
     notes += [*moving, *([problem] if problem else [])]
     return Transitions(title, values, brackets, settled, runs, notes, comparison, estimate)
 
@@ -266,16 +198,16 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
 def _by_bisection(search: Interval, runs: Sequence[Run],
                   known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:  # fmt: skip
     """Brackets, which of them are settled, and notes."""
-    scheme = SCHEMES[search.of]
+    kind = BY_NAME[search.of]
     outcomes = {run.velocity: run.regime for run in known}
     brackets, settled, notes = [], {}, []
-    for regime, name in scheme.names.items():
-        bracket = Bracket(name, *bisection.bracket(outcomes, regime, scheme.order), "")
+    for regime, name in kind.transitions.items():
+        bracket = Bracket(name, *bisection.bracket(outcomes, regime, kind.order), "")
         brackets.append(replace(bracket, source=_ends(bracket, outcomes)))
         settled[name], why = _settled(bracket, search, runs)
         notes += [f"{name}: {why}"] if why else []
-    notes += _disordered(outcomes, scheme.order)
-    if search.of in OF_ROD:
+    notes += _disordered(outcomes, kind.order)
+    if kind.of_rod:
         limit, disordered = _limit(known)
         brackets += [*_fall(known), *limit]
         notes += disordered

@@ -14,6 +14,7 @@ from pathlib import Path
 from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck as decks
 from hydro2d.files import toml
+from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import draws, velocities
 from hydro2d.study.plan.cases import Plan, Planned, distinct, short
 from hydro2d.study.records import layout
@@ -180,7 +181,7 @@ class Shots(Searching):
 
     def _outcomes(self, shots: Sequence[Planned], cases: dict[str, Case]) -> list[bool | None]:
         """Whether each shot has the outcome of fast ones; None if it has no outcome."""
-        fast = regimes.SCHEMES[self.search.of].order[-1]
+        fast = BY_NAME[self.search.of].order[-1]
         outcomes = [self.outcome(cases[shot.name]) for shot in shots]
         return [None if each is None else each == fast for each in outcomes]
 
@@ -201,5 +202,5 @@ class Shots(Searching):
         shots = [v50.Shot(case.name, velocities.speed(case.values[velocities.AXIS]), self.outcome(case), case.status == DONE)
                  for case in cases if case.name in names]  # fmt: skip
         words = regimes.label(group.ends[0].values)
-        estimate = v50.estimate(self.search, regimes.SCHEMES[self.search.of], shots)
+        estimate = v50.estimate(self.search, BY_NAME[self.search.of], shots)
         return f"  {words + ': ' if words else ''}{estimate.name}: {estimate.in_short}"

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hydro2d.base.terminal import say, wrapped
+from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
 from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.records import layout
@@ -81,7 +82,7 @@ class Bisection(Searching):
     def _search(self, group: Sequence[Planned], cases: dict[str, Case], busy: Collection[str]) -> Search:
         """The state of the search of a combination."""
         begun = {n for n, case in enumerate(group) if case.name in self.begun}
-        search = Search(len(group), begun=begun, order=regimes.SCHEMES[self.plan.search.of].order)
+        search = Search(len(group), begun=begun, order=BY_NAME[self.plan.search.of].order)
         for position, planned in enumerate(group):
             case = cases.get(planned.name)
             if case is None or planned.name in busy:

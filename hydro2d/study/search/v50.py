@@ -10,6 +10,7 @@ import numpy as np
 
 from hydro2d.analytic.model_transition import Bracket
 from hydro2d.files.whole import plain
+from hydro2d.study.outcomes.base import Outcome
 from hydro2d.study.plan.velocities import Velocities
 from hydro2d.study.records.layout import Interval
 from hydro2d.study.search import logit, sequence
@@ -125,20 +126,20 @@ def _range(low: float | None, high: float | None, form: str) -> str:
     return f"90 % interval {low:{form}} to {high:{form}} m/s"
 
 
-def estimate(search: Interval | Velocities, scheme, shots: Sequence[Shot]) -> Estimate:
-    """v50 and width from the runs of one combination, in the order of the search; scheme : of regimes.SCHEMES."""
+def estimate(search: Interval | Velocities, kind: type[Outcome], shots: Sequence[Shot]) -> Estimate:
+    """v50 and width from the runs of one combination, in the order of the search; kind : of outcome."""
     in_order = tuple(shots)
-    slow, fast = scheme.order
+    slow, fast = kind.order
     known = [shot for shot in in_order if shot.outcome is not None]
     outcomes = [None if shot.outcome is None else shot.outcome == fast for shot in in_order]
     successes = [shot.outcome == fast for shot in known]
     speeds = [shot.velocity for shot in known]
     all_done = all(shot.done for shot in in_order)
     return Estimate(
-        name=scheme.names[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
+        name=kind.transitions[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
         spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
-        fit=logit.fit(speeds, successes) if known else None, ballistic=search.of == "perforation",
-        military=military(speeds, successes) if search.of == "perforation" else None,
+        fit=logit.fit(speeds, successes) if known else None, ballistic=kind.is_ballistic,
+        military=military(speeds, successes) if kind.is_ballistic else None,
     )  # fmt: skip
 
 

@@ -8,15 +8,16 @@ from typing import NamedTuple
 
 from hydro2d.analytic.model_transition import hydrodynamic_limit
 from hydro2d.study.ensemble.chance import Share, probability
+from hydro2d.study.outcomes.perforation import PERFORATED, STOPPED
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record
-from hydro2d.study.search.regimes import DEEPER, NOT_DEEPER, PERFORATED, STOPPED
+from hydro2d.study.search.regimes import DEEPER, NOT_DEEPER
 
 
 def _limit(record: Record) -> float | None:
     """Depth that a rod that is used up at a constant rate reaches, L sqrt(rho_p / rho_t), m; None if it has no meaning."""
     shot, setup = record.shot, record.setup
-    return hydrodynamic_limit(setup.length, shot.rod, shot.target) if shot and setup and setup.shape == "rod" else None
+    return hydrodynamic_limit(setup.length, shot.rod, shot.target) if shot and setup and setup.is_rod else None
 
 
 def pair(record: Record, measurement: Measurement | None) -> tuple[str, str] | None:

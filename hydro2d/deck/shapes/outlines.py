@@ -12,8 +12,6 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
-import numpy as np
-
 #: lines along r by which the volume that two bodies share is computed
 LINES = 500
 
@@ -104,78 +102,14 @@ class Outline:
         return [chord for slab in self.slabs for chord in slab.chords_along_z(at)]
 
 
-def _solid(low: float, high: float, outer: Line | Arc) -> Slab:
+def solid(low: float, high: float, outer: Line | Arc) -> Slab:
+    """A slab of a body on the axis."""
     return Slab(low, high, outer.mirrored(), outer)
 
 
-def rod(radius: float, length: float, tip: float, direction: int, nose: str, nose_length: float) -> Outline:
-    """A rod of total ``length`` on the axis with its nose at ``tip``.
-
-    A tangent ogive of nose length n has an arc of radius (n^2 + R^2)/(2R) about a centre in the plane of the nose's
-    base; the hemisphere is its limit n = R.
-    """
-    base, tail = tip - direction * nose_length, tip - direction * length
-    slabs = [_solid(min(base, tail), max(base, tail), Line(radius))] if base != tail else []
-    if nose in ("hemispherical", "ogive"):
-        rho = (nose_length**2 + radius**2) / (2 * radius)
-        slabs.append(_solid(min(base, tip), max(base, tip), Arc(radius - rho, base, rho)))
-    elif nose == "conical":
-        slabs.append(_solid(min(base, tip), max(base, tip), Line(radius, base, -direction * radius / nose_length)))
-    return Outline(tuple(slabs))
-
-
-def sphere(r: float, z: float, radius: float, inner_radius: float = 0.0) -> Outline:
-    """A sphere, or a shell, about (r, z); split where its curves turn."""
-    slabs = []
-    levels = [z - radius, z - inner_radius, z, z + inner_radius, z + radius]
-    for low, high in zip(levels, levels[1:], strict=False):
-        if not low < high:
-            continue
-        left, right = Arc(r, z, radius, -1.0), Arc(r, z, radius, 1.0)
-        if abs(low + high - 2 * z) < 2 * inner_radius:
-            slabs.append(Slab(low, high, left, Arc(r, z, inner_radius, -1.0)))
-            slabs.append(Slab(low, high, Arc(r, z, inner_radius, 1.0), right))
-        else:
-            slabs.append(Slab(low, high, left, right))
-    return Outline(tuple(slabs))
-
-
-def box(r: tuple[float, float], z: tuple[float, float]) -> Outline:
-    """A rectangle."""
+def rectangle(r: tuple[float, float], z: tuple[float, float]) -> Outline:
+    """The outline of a plate or a box."""
     return Outline((Slab(z[0], z[1], Line(r[0]), Line(r[1])),))
-
-
-def polygon(points) -> Outline:
-    """A polygon with corners (r, z) whose edges do not cross, cut into slabs at its corners."""
-    corners = list(points)
-    sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
-    bottom, top = (choice([[a[1], b[1]] for a, b in sides], axis=1) for choice in (np.min, np.max))
-    levels = sorted({z for _, z in corners})
-    slabs = []
-    for low, high in zip(levels, levels[1:], strict=False):
-        middle = 0.5 * (low + high)
-        spanning = [_side(*sides[n]) for n in np.flatnonzero((bottom <= low) & (top >= high))]
-        spanning.sort(key=lambda line: line.r(middle))
-        slabs += [Slab(low, high, *pair) for pair in zip(spanning[::2], spanning[1::2], strict=True)]
-    return Outline(tuple(slabs))
-
-
-def _side(a: tuple[float, float], b: tuple[float, float]) -> Line:
-    return Line(a[0], a[1], (b[0] - a[0]) / (b[1] - a[1]))
-
-
-def outline(body, r_start: float) -> Outline:
-    """The outline of a body of a deck; a body without an inner edge begins at ``r_start``."""
-    if body.shape == "rod":
-        return rod(body.rod_radius, body.length, body.tip, body.direction, body.nose, body.resolved_nose_length)
-    if body.shape == "plate":
-        r = (r_start, math.inf) if body.radius is None else (-body.radius, body.radius)
-        return box(r, (body.z_front, body.z_front + body.thickness))
-    if body.shape == "box":
-        return box(body.r if body.r is not None else (r_start, math.inf), body.z)
-    if body.shape == "sphere":
-        return sphere(*body.centre, body.radius, body.inner_radius or 0.0)
-    return polygon(body.points)
 
 
 def shared_volume(one: Outline, other: Outline, r: tuple[float, float], z: tuple[float, float], planar: bool

@@ -1,0 +1,24 @@
+"""Whether a projectile loses a third of its length."""
+
+from __future__ import annotations
+
+from hydro2d.mesh.regime import LEAST_KEPT
+from hydro2d.study.outcomes.base import BY_DEPTH, Outcome, Verdict, lost
+
+KEPT, USED_UP = "kept", "used up"
+
+
+class Length(Outcome):
+    """The length at the end of a run over that at its start."""
+
+    name = "length"
+    meaning = "whether it loses a third of its length"
+    order = (KEPT, USED_UP)
+    transitions = {USED_UP: "a third of the length lost"}
+    terms = {KEPT: "at least two thirds of the projectile's length are left at the end", USED_UP: "less is left", **BY_DEPTH}
+    of_rod = True
+
+    @classmethod
+    def judge(cls, record, depth):
+        kept = LEAST_KEPT * (record.value("rod_initial_length_m") or 0.0)
+        return lost(record) or Verdict(KEPT if record.value("rod_length_m") >= kept else USED_UP)
