@@ -66,7 +66,7 @@ USER_ERRORS = (
     ("files.locks", "LockError"), ("files.strange", "StrangeFile"),
     ("penetration.model", "InputError"), ("output.snapshot", "SnapshotError"), ("output.history", "HistoryError"),
     ("output.vtk", "VtkError"), ("mesh.quantities", "FieldError"), ("running.run", "RunError"),
-    ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.fields", "ViewError"),
+    ("results.reading", "ResultsError"), ("results.scales", "FigureError"), ("results.viewer.field_arrays", "ViewError"),
     ("results.terminal_charts", "ChartError"),
     ("study.plan.definition", "StudyError"),
 )
