@@ -97,7 +97,7 @@ def test_energies_that_are_farthest_beyond_reach():
     gas = ideal_gas
     given = {"m": 0, "sliver": 0.01, "lowest": -2.0, "highest": 40.0, "plastic": 10.0, "most_strain": 0.8, "model": gas.ID,
              "memory": INTERNAL, "shear": 0.0, "chill": 1.0,
-             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "found": farthest}  # fmt: skip
+             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "worst": farthest}  # fmt: skip
     cells.q[RHO, 0, 3, 2:6] = 1.0
     cells.call(thermodynamics.worst_energies, warm=False, **given)
     elastic = 45.0 * 0.4 / (2 * 1.4)  # p^2/(2 K rho) of the gas, p = 0.4 rho e and K = 1.4 p
