@@ -45,7 +45,7 @@ def _commands(app, name: str) -> Iterator[tuple[str, object]]:
 
 
 def _paragraphs(command) -> list[str]:
-    """What the command's docstring says before its parameters."""
+    """The text of the command's docstring before its parameters."""
     text = inspect.cleandoc(command.help).split("\n\nParameters\n", 1)[0]
     return [" ".join(part.split()) for part in text.split("\n\n")]
 

@@ -40,7 +40,7 @@ class Schema:
         return part
 
     def shown(self, part: dict) -> str:
-        """What a value may be."""
+        """The values that are allowed, in words."""
         part = self.resolved(part)
         if "const" in part or "enum" in part:
             return ", ".join(f"`{json.dumps(value)}`" for value in part.get("enum", [part.get("const")]))

@@ -29,7 +29,7 @@ class Kind:
         return f"gallery_{self.name}.png"
 
     def commands(self) -> list[str]:
-        """What a reader types."""
+        """The command that a reader types."""
         return [f"hydro2d new {self.name}", f"hydro2d run {self.name}.toml --threads 1",
                 f"hydro2d plot runs/{self.name} -o {self.name}.png {self.plot}"]  # fmt: skip
 

@@ -31,7 +31,7 @@ class Count(NamedTuple):
     where: str = ""
 
     @property
-    def told(self) -> str:
+    def in_words(self) -> str:
         return f"{self.cells:.1f}" if self.cells >= 1.0 else f"{self.cells:.2g}"
 
 
@@ -49,7 +49,7 @@ class Flights:
         """
         start, later = self.begin(axis, low, high, velocity), self._fewest(axis, low, high, velocity)
         few = [count for count in (start, later) if count.cells < least - ROUNDING]
-        return few if later.told != start.told else few[:1]
+        return few if later.in_words != start.in_words else few[:1]
 
     def begin(self, axis: str, low: float, high: float, velocity: Velocity) -> Count:
         """The cells from low to high at the start; ahead of a body that the mesh follows, where that body reaches them."""

@@ -84,7 +84,7 @@ def thin_things(deck: Deck) -> Iterator[str]:
 def _cells_in_words(counts: list[Count], what: str) -> str:
     """Numbers of cells and where they apply; ``what`` they count follows the first."""
     first, *later = counts
-    return " and ".join([f"{first.told} cells {what}{first.where}", *(f"{count.told}{count.where}" for count in later)])
+    return " and ".join([f"{first.in_words} cells {what}{first.where}", *(f"{count.in_words}{count.where}" for count in later)])
 
 
 def _window(flights: Flights, axis: str) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""What every source has, whatever its kind."""
+"""The base of all kinds of sources."""
 
 from __future__ import annotations
 

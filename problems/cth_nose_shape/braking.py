@@ -1,4 +1,4 @@
-"""What brakes a rod in its first 90 us, and what it does to the rod, from `first_90us.toml` and `nose_force.toml`.
+"""The force that brakes a rod in its first 90 us, and its effect on the rod, from `first_90us.toml` and `nose_force.toml`.
 
     python -m problems.cth_nose_shape.braking [STUDY ...]
 
@@ -50,7 +50,7 @@ def section(r_edges, z_edges, fraction, axial, lateral) -> tuple[float, float]:
 
 
 def measure(directory: Path) -> dict[str, str]:
-    """What a run has of MEASURED. Raises ValueError for one that ends too early, hydro2d.Error."""
+    """The values of MEASURED of a run. Raises ValueError for one that ends too early, hydro2d.Error."""
     run = hydro2d.open_run(directory)
     history, time = run.history, run.history["time"]
     if time[-1] < FORCE_TO:

@@ -1,4 +1,4 @@
-"""What advection, sliding and failure do to the twelve shots: the tables of the nose-shape study, from kept rows.
+"""Effects of advection, sliding and failure on the twelve shots: the tables of the nose-shape study, from kept rows.
 
     python -m problems.cth_nose_shape.findings [FILE] [--figure PATH]
 

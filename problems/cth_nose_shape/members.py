@@ -123,7 +123,7 @@ def panel(axes, nose: str, alloy: str, found: dict[str, dict[Shot, list[Result]]
 
 
 def finish(figure, panels, columns: int) -> None:
-    """What the axes of panels with depths say, and one legend for all of them in so many columns."""
+    """Labels of the axes of panels with depths, and one legend for all of them in so many columns."""
     for row in panels:
         row[0].set_ylabel("depth [cm]")
     for axes in panels[-1]:

@@ -105,7 +105,7 @@ class Result:
 
     @property
     def identity(self) -> tuple:
-        """What no other run has."""
+        """Labels and member, which no other run has."""
         return *self.labels.items(), self.member
 
     @property
@@ -119,7 +119,7 @@ class Result:
 
     @property
     def column(self) -> str:
-        """What the case varies besides the shot; cells across the rod only if they are asked for."""
+        """The values that the case varies in addition to the shot; cells across the rod only if they are asked for."""
         of_shot = (SHOTS,) if SHOTS in self.labels else (*SEARCHED, NOSE)
         return ", ".join(label for axis, label in self.labels.items() if axis not in (*of_shot, CELLS))
 

@@ -183,7 +183,7 @@ def _locked(place, text, age):
 
 @pytest.mark.parametrize("skew", [1e4, 0.0, -1e4])
 def test_the_lock_of_another_machine_that_shows_no_sign_is_taken_over(text, place, monkeypatch, skew):
-    monkeypatch.setattr("hydro2d.study.run.case.SILENCE", 0.5)
+    monkeypatch.setattr("hydro2d.study.run.case.LONGEST_SILENCE", 0.5)
     _locked(place, "elsewhere 1", skew)
     began = time.monotonic()
     assert run_case(place, text).status == "done"
@@ -220,7 +220,7 @@ def _alive(place, skew):
     ],
 )
 def test_a_fault_that_the_user_can_mend_is_one_line(text, tmp_path, monkeypatch, spoil, said):
-    monkeypatch.setattr("hydro2d.study.run.case.SILENCE", 0.5)
+    monkeypatch.setattr("hydro2d.study.run.case.LONGEST_SILENCE", 0.5)
     monkeypatch.setattr("hydro2d.study.run.case.ENDING", 0.1)
     place = tmp_path / "cases" / "case"
     place.parent.mkdir()

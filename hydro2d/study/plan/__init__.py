@@ -1,1 +1,1 @@
-"""What a study asks for: its file, its cases, their members, velocities and meshes."""
+"""The plan of a study: its file, its cases, their members, velocities and meshes."""

@@ -204,7 +204,7 @@ class Keeper:
         return sum(self._identity(self.wanted[name].about) in known for name in names
                    if name in self.wanted and name not in fresh)  # fmt: skip
 
-    def told(self, names: Sequence[str]) -> str:
+    def in_words(self, names: Sequence[str]) -> str:
         """The numbers of cases that are up to date, stale, or without a row, in words."""
         fresh, stale = self.fresh(names), self.stale(names)
         missing = len(names) - len(fresh) - stale

@@ -32,7 +32,7 @@ TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeF
 FULL = "No space left on device"
 #: seconds in which neither lock nor progress of a process on another machine change before it loses its lock; progress.json is
 #: written every 3
-SILENCE = 120.0
+LONGEST_SILENCE = 120.0
 #: longest time in seconds for a worker to end after its sweep was killed
 ENDING = 60.0
 
@@ -132,14 +132,14 @@ def _wait_for_silence(directory: Path, interrupt: Interrupt | None) -> None:
     heard, signs = began, _signs(directory)
     while not (interrupt and interrupt.reason):
         by = holder(lock)
-        if by is None or time.monotonic() - began > (ENDING if by.is_here else 2 * SILENCE):
+        if by is None or time.monotonic() - began > (ENDING if by.is_here else 2 * LONGEST_SILENCE):
             return
         if (now := _signs(directory)) != signs:
             heard, signs = time.monotonic(), now
-        if not by.is_here and time.monotonic() - heard > SILENCE:
+        if not by.is_here and time.monotonic() - heard > LONGEST_SILENCE:
             lock.unlink(missing_ok=True)
             return
-        time.sleep(min(0.2, SILENCE))
+        time.sleep(min(0.2, LONGEST_SILENCE))
 
 
 def _signs(directory: Path) -> list[tuple[int, int]]:

@@ -67,7 +67,7 @@ class Choice:
 
     def kept(self) -> str:
         """The number of cases up to date in the rows that the study keeps, in words; empty if it keeps none."""
-        return "" if self.keeper is None else self.keeper.told([*self.fresh, *(case.name for case in self.selected)])
+        return "" if self.keeper is None else self.keeper.in_words([*self.fresh, *(case.name for case in self.selected)])
 
     def keep(self, cases: Iterable[Case]) -> None:
         """Adds the ended ones to the rows that the study keeps. Raises OSError."""

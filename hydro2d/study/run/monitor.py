@@ -69,7 +69,7 @@ def grid(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS):
 
 
 def lines(rows: list[tuple[str, ...]], heads: tuple[str, ...] = HEADS, spare: str = "") -> list[str]:
-    """The same as plain lines, none wider than the terminal.
+    """The progress of a sweep as plain lines, none wider than the terminal.
 
     Where a row does not fit, the table is without the column ``spare``; a name that is still too long has a line of its own,
     and if the rest does not fit either, every cell has one, below the name and beside its head.
@@ -107,9 +107,9 @@ def _row_lines(cells: tuple[str, ...], widths: list[int]) -> list[str]:
 
 def status(study: Study) -> list[str]:
     """The table of a study directory and its messages."""
-    told = [f"{case.name}: {text}" for case in study.cases for text in case.message.splitlines()]
+    failures = [f"{case.name}: {text}" for case in study.cases for text in case.message.splitlines()]
     heading = one_line(f"{study.name}: {study.title}" if study.title else study.name)
-    return [heading, "", *lines([row(case) for case in study.cases], HEADS, "worker"), "", counts(study.cases), *told]
+    return [heading, "", *lines([row(case) for case in study.cases], HEADS, "worker"), "", counts(study.cases), *failures]
 
 
 class Board:
@@ -179,7 +179,7 @@ class Board:
             self.look(name)
         seconds = left(self.chosen, self.workers(), self.further)
         coming = f", about {self.further} to come" if self.further else ""
-        compiling = f"; {told}" if (told := self.compiling()) else ""
+        compiling = f"; {line}" if (line := self.compiling()) else ""
         return self.counts() + coming + ("" if seconds is None else f"; {duration(seconds)} left") + compiling
 
     def update(self) -> None:
@@ -197,7 +197,7 @@ class Board:
 
 
 class Live(Board):
-    """The same on a terminal: a table that is redrawn in place."""
+    """The progress on a terminal: a table that is redrawn in place."""
 
     def __init__(self, study: Study, log, quiet: bool):
         from rich.live import Live as RichLive
@@ -239,5 +239,5 @@ def board(study: Study, quiet: bool) -> Iterator[Board]:
         yield shown
     finally:
         shown.close()
-        with suppress(OSError):  # lines that could not be written have been told
+        with suppress(OSError):  # lines that could not be written have been reported
             file.close()

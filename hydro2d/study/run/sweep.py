@@ -52,14 +52,14 @@ BEAT = 0.5
 
 
 def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> list[str]:
-    """What has changed since the study directory was last written, in words.
+    """Changes since the study directory was last written, in words.
 
     Raises StudyError if there is a study and neither `resume` nor `overwrite` is given, or if the decks of its cases have
     changed.
     """
     if directory.exists() and not directory.is_dir():
         raise StudyError(f"{directory} is a file, not a directory")
-    told = []
+    notices = []
     if (directory / SUMMARY).exists():
         raise StudyError(f"{directory} holds a run; give the study a directory of its own")
     if (directory / STUDY).exists():
@@ -69,10 +69,10 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
                 f"{directory} already holds a study ({monitor.counts(before.cases)}); {plan.again} continues it, "
                 "--overwrite starts it again from the beginning"
             )
-        told = _changes(plan, before, overwrite)
+        notices = _changes(plan, before, overwrite)
     elif resume:
         raise StudyError(f"{directory}: there is no study to continue")
-    return told
+    return notices
 
 
 def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
@@ -88,11 +88,11 @@ def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
             raise StudyError(f"{before.directory}: {_names(names)} {why}; "
                              "--overwrite runs them again from the beginning, --out makes a separate study")
     added, gone = [name for name in new if name not in old], [name for name in old if name not in new]
-    told = [f"{_names(added)} new"] if added else []
+    notices = [f"{_names(added)} new"] if added else []
     if gone and plan.search is None:  # a search may draw the velocity of a run that has not ended again
-        told.append(f"{_names(gone)} no longer in the study; the files in {CASES} are kept")
-    told += [f"{_names(changed)} with a different deck than before"] if changed else []
-    return told + ([f"{_names(older)} with another version of the method than before"] if older else [])
+        notices.append(f"{_names(gone)} no longer in the study; the files in {CASES} are kept")
+    notices += [f"{_names(changed)} with a different deck than before"] if changed else []
+    return notices + ([f"{_names(older)} with another version of the method than before"] if older else [])
 
 
 def _names(names: list[str]) -> str:
@@ -116,21 +116,21 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
         if not quiet:
             say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
         return ALL_DONE
-    told, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
+    notices, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
     layout.make(directory)
     with locked(directory / LOCK):
         if overwrite:
             cases = layout.of_plan(choice.plan, directory).cases
             _clear(case for case in cases if case.name not in choice.left_out and (not resume or is_older(case.summary)))
         layout.write(choice.begin(directory), directory)
-        return _sweep(choice, layout.read(directory), told, connect, interrupt, threads, overwrite, quiet)
+        return _sweep(choice, layout.read(directory), notices, connect, interrupt, threads, overwrite, quiet)
 
 
-def _sweep(choice: Choice, study: layout.Study, told: list[str], connect: AbstractContextManager, interrupt: Interrupt,
+def _sweep(choice: Choice, study: layout.Study, notices: list[str], connect: AbstractContextManager, interrupt: Interrupt,
            threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
     with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
         board.line(choice.heading(study))
-        for text in (*told, choice.kept()):
+        for text in (*notices, choice.kept()):
             board.line(text)
         started = time.perf_counter()
         with connect as client:
@@ -169,14 +169,14 @@ class _Sweep:
 
     def run(self, interrupt: Interrupt) -> float:
         """Runs until every case has ended and no more are wanted. Returns the seconds that they took in their workers."""
-        told = False
+        announced = False
         self._keep(self.board.cases)
         self._begin()
         while self.tasks:
             if interrupt.reason:
-                if not told:
+                if not announced:
                     self.board.line(f"{interrupt.reason}: running cases write their restart files and stop")
-                    told = True
+                    announced = True
                 self._stop(interrupt.reason)
             future = self._ended()
             case = None if future is None else self._take(future)
