@@ -21,6 +21,8 @@ RADIUS, LENGTH, SPEED, STOP = 4e-3, 20e-3, 1000.0, 20e-6
 class FakeDeck:
     """The part of a deck that run.py uses; a real one has the same names."""
 
+    _layout = None
+
     def __init__(self, **output):
         self.name, self.title = "fake", "a rod that meets a plate"
         self.output = SimpleNamespace(

@@ -11,7 +11,6 @@ from hydro2d.base.errors import DeckError
 from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over, require_that_it_fails
 from hydro2d.materials.material import Material, Model, solid_model
 from hydro2d.mesh.fields import INTERNAL, Field
-from strength import SHEAR
 
 #: a body is a gas compared with the stiffest one if its bulk modulus at rest is below this share of that one's
 GAS_MODULUS = 0.01
@@ -81,6 +80,8 @@ class MaterialTable:
     @property
     def shear(self) -> np.ndarray:
         """Shear modulus of every body at rest, Pa, float64[m]; 0 without strength."""
+        from strength import SHEAR
+
         return self.strength_par[:, SHEAR]
 
     def flow_stress(self, m: int, strain: float, rate: float, temperature: float, pressure: float) -> float:
