@@ -102,9 +102,10 @@ def test_force_of_the_rings_converges_with_the_second_order(shape, friction):
 @settings(max_examples=40, deadline=None)
 @given(st.sampled_from(SHAPES), st.floats(0.5, 8.0), st.floats(0.1, 1.4), st.floats(0.0, 1.0), st.floats(0.0, 0.2))
 def test_factors_grow_as_the_nose_goes_in(shape, crh, half_angle, share, friction):
+    """To round-off of antiderivatives of the size 2 (S/a)^2, at most 512 here, of which a factor is a difference."""
     nose = Nose(a_nose(shape, 0.02, crh, half_angle), friction)
     some, more, whole = (nose.factors(s * nose.length) for s in (share, min(1.2 * share, 1.0), 1.0))
-    assert all(0.0 <= a <= b * (1.0 + 1e-12) for a, b in zip(some, more, strict=True))
+    assert all(0.0 <= a <= b * (1.0 + 1e-12) + 1e-13 for a, b in zip(some, more, strict=True))
     assert whole == pytest.approx(nose.factors(), rel=1e-12)
 
 
