@@ -161,7 +161,7 @@ def test_unreadable_runs_are_reported_and_the_rest_is_made(study, file, said):
 
 def test_a_perforated_plate_is_a_bound(tmp_path):
     """A rod that perforated and left the mesh: its depth is at least the thickness, whatever was measured last."""
-    ogive = ("body.rod.nose=ogive", "body.rod.crh=2.5", "body.rod.length=101.346 mm")
+    ogive = ("body.rod.nose=ogival", "body.rod.crh=2.5", "body.rod.length=101.346 mm")
     run = fake.write_run(tmp_path / "runs" / "through", 1227.0, 0.54, overrides=ogive)
     fake.edit_json(run / "summary.json", penetration_depth_m=0.0)
     fake.write_run(tmp_path / "runs" / "stopped", 1227.0, 0.40, overrides=ogive)
