@@ -39,9 +39,11 @@ def kept(row: hydro2d.KeptRow) -> bool:
 
 
 def searches(rows: Rows) -> dict[tuple[str, ...], Rows]:
-    """The finished runs of every search, the slowest first."""
-    found = grouped((row for row in rows if row["status"] == "done"), CASE)
-    return {case: sorted(members, key=velocity) for case, members in found.items()}
+    """The finished runs of every search, the slowest first: those of the newest method of which the search has some."""
+    cases = grouped((row for row in rows if row["status"] == "done"), CASE)
+    newest = {case: max(row["method"] for row in members) for case, members in cases.items()}
+    return {case: sorted((row for row in members if row["method"] == newest[case]), key=velocity)
+            for case, members in cases.items()}
 
 
 def fitted(rows: Rows):
@@ -68,12 +70,13 @@ def _said(rows: Rows) -> tuple[str, str, str]:
 def table(rows: Rows) -> list[str]:
     """Lines of Markdown: a row for each search, and what must be said of runs of other versions of the method."""
     lines = [f"| {' | '.join(HEAD)} |", "|---" * len(HEAD) + "|"]
-    for (nose, cells, law, plate), members in searches(rows).items():
+    shown = searches(rows)
+    for (nose, cells, law, plate), members in shown.items():
         half, interval, sides = _said(members)
         lines.append(f"| {nose} | {cells} | {law} | {plate} | {EXPERIMENTS[nose, plate]} | {half} | {interval} | {sides} "
                      f"| {len(members)} |")  # fmt: skip
-    told = hydro2d.method_note(row["method"] for row in rows)
-    return [*lines, "", told] if told else lines
+    note = hydro2d.method_note(row["method"] for members in shown.values() for row in members)
+    return [*lines, "", note] if note else lines
 
 
 def main(arguments: list[str]) -> int:

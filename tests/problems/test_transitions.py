@@ -29,6 +29,11 @@ def test_the_velocity_lies_between_what_kept_and_what_lost():
     assert not transitions.kept({"length_ratio": "0.666"})
 
 
+def test_a_search_of_a_newer_method_replaces_that_of_an_older_one():
+    older, newer = rows([(1000, 0.99), (1100, 0.2)], method="2020-01-01"), rows([(1050, 0.99), (1200, 0.98)])
+    assert transitions.table([*older, *newer])[2:] == transitions.table(newer)[2:]
+
+
 def test_runs_that_do_not_tell():
     with pytest.raises(ValueError, match="do not tell"):
         transitions.fitted(rows([(1000, 0.99), (1100, 0.98)]))
