@@ -18,6 +18,7 @@ import numpy as np
 from hydro2d.deck import deck as decks
 from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources
+from hydro2d.files.shipped import problems_folder
 from tests.trials import changes
 
 #: cells of a deck before it is changed, and cycles that it runs for
@@ -29,7 +30,7 @@ SHANK, BEHIND, AHEAD = 4.0, 2.0, 8.0
 @cache
 def shipped() -> tuple[str, ...]:
     """The decks that hydro2d ships, without studies and materials, as paths within its problems."""
-    folder = shipped.problems_folder()
+    folder = problems_folder()
     tables = {file: toml.read(file, Sources()) for file in sorted(folder.glob("*/*.toml"))}
     return tuple(str(file.relative_to(folder)) for file, data in tables.items() if "mesh" in data and not toml.is_study(data))
 
