@@ -10,7 +10,7 @@ from hydro2d.analytic import model_deck
 from hydro2d.deck import deck
 from hydro2d.output import directory as run_directory
 from hydro2d.output.history import History
-from hydro2d.penetration import forrestal
+from hydro2d.penetration import forrestal, inputs
 from problems.sliding.drag import main, measure, windows
 
 DECK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
@@ -49,7 +49,7 @@ def test_rigid_rod_of_the_model(tmp_path):
     """A rod under the force of forrestal has that resistance in every window, and the model's depth in the end."""
     shot = model_deck.shot(deck.load(DECK))
     mass = shot.values["rod.mass"].value
-    nose, target = forrestal.Nose("hemispherical", 2.0 * RADIUS), forrestal.Target(4.82065 * 276e6, 1.12389 * 2660.0)
+    nose, target = forrestal.Nose(inputs.nose("hemispherical", 2.0 * RADIUS)), forrestal.Target(4.82065 * 276e6, 1.12389 * 2660.0)
     depth, duration = forrestal.deep(SPEED, mass, nose, target)
     rate = math.atan(SPEED * math.sqrt(0.5 * target.dynamic / target.static)) / duration
     time = np.linspace(0.0, duration, 1000)
