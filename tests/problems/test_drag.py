@@ -49,7 +49,8 @@ def test_rigid_rod_of_the_model(tmp_path):
     """A rod under the force of forrestal has that resistance in every window, and the model's depth in the end."""
     shot = model_deck.shot(deck.load(DECK))
     mass = shot.values["rod.mass"].value
-    nose, target = forrestal.Nose(inputs.nose("hemispherical", 2.0 * RADIUS)), forrestal.Target(4.82065 * 276e6, 1.12389 * 2660.0)
+    nose = forrestal.Nose(inputs.nose("hemispherical", 2.0 * RADIUS))
+    target = forrestal.Target(4.82065 * 276e6, 1.12389 * 2660.0)
     depth, duration = forrestal.deep(SPEED, mass, nose, target)
     rate = math.atan(SPEED * math.sqrt(0.5 * target.dynamic / target.static)) / duration
     time = np.linspace(0.0, duration, 1000)
