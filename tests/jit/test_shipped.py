@@ -39,7 +39,7 @@ def runs(site: Path, home: Path, **environment: str) -> tuple[str, list[str], se
 def ship(site: Path, home: Path) -> None:
     """Ships the user's cache as the compiled code of the package."""
     shutil.copytree(home / "cache", site / "hydro2d" / "_compiled")
-    about = ("from hydro2d.jit import cache; from hydro2d.files import write_json\n"
+    about = ("from hydro2d.jit import cache; from hydro2d.files.whole import write_json\n"
              "write_json(cache.SHIPPED / cache.ABOUT, cache.about())")
     subprocess.run([sys.executable, "-c", about], env={**os.environ, "PYTHONPATH": str(site)}, cwd=site, check=True)
 
