@@ -1,4 +1,4 @@
-"""Messages about wrong decks: file, line, key, what is allowed, and the nearest valid name."""
+"""Errors for users, and messages about wrong names and values: what is allowed, and the nearest valid name."""
 
 from __future__ import annotations
 

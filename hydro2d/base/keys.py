@@ -13,7 +13,7 @@ from annotated_types import GroupedMetadata
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from hydro2d.base import units
-from hydro2d.base.parameters import POSITIVE, Parameter
+from hydro2d.base.parameters import ANY, NON_NEGATIVE, POSITIVE, Parameter
 
 #: characters of a name
 LONGEST_NAME = 200
@@ -127,9 +127,13 @@ Fraction = Annotated[float, Quantity("1", _fraction)]
 NotNegative = Annotated[float, Quantity("1", _not_negative)]
 
 
+#: checks of numbers by the sign of a declared key
+_SIGNS: dict[str, Callable[[float], float] | None] = {ANY: None, POSITIVE: _positive, NON_NEGATIVE: _not_negative}
+
+
 def type_of(declared: Parameter) -> Any:
-    """The type of a key that a kind of edge or nose declares: a number in its unit, positive if it must be."""
-    return Annotated[float, Quantity(declared.unit or "1", _positive if declared.sign == POSITIVE else None)]
+    """The type of a key that a kind of edge or nose declares: a number in its unit, within the range of its sign."""
+    return Annotated[float, Quantity(declared.unit or "1", _SIGNS[declared.sign])]
 
 
 def optional(declared: Parameter, description: str, kind: Any = None) -> tuple[Any, Any]:

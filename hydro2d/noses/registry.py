@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from hydro2d.base.errors import unknown
-from hydro2d.base.parameters import Parameter
+from hydro2d.base.parameters import POSITIVE, Parameter
 from hydro2d.noses.base import Nose, Shaped
 from hydro2d.noses.conical import Conical
 from hydro2d.noses.flat import Flat
@@ -17,7 +17,7 @@ from hydro2d.noses.ogival import Ogival
 KINDS: tuple[type[Nose], ...] = (Flat, Hemispherical, Ogival, Conical, FlatRounded)
 BY_NAME = {kind.name: kind for kind in KINDS}
 #: the key that gives the length of a nose in place of its own keys
-LENGTH = Parameter("nose_length", "m", None, "length of the nose", example="10 mm")
+LENGTH = Parameter("nose_length", "m", None, "length of the nose", sign=POSITIVE, example="10 mm")
 
 
 def owners() -> dict[Parameter, list[str]]:

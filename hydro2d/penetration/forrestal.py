@@ -150,7 +150,6 @@ def immersion(velocity: float, mass: float, nose: Nose, target: Target) -> np.nd
 def of_inputs(*, friction, target_density, target_strength, cavity_a, cavity_b, **others) -> tuple[Nose, Target]:
     """Nose and target of a model's inputs, SI; ``others`` are those of the nose and of the target. InputError."""
     shaped = inputs.taken_nose(others)
-    del others["rod_diameter"]
     a, b = given_or_fitted(cavity_a, cavity_b, target_density=target_density, target_strength=target_strength, **others)
     return Nose(shaped, friction), Target(a * target_strength, b * target_density)
 

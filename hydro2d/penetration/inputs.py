@@ -66,7 +66,7 @@ def nose(name: str, diameter: float, **keys: float | None) -> Shaped:
 
 
 def taken_nose(values: dict[str, Any]) -> Shaped:
-    """The nose of the inputs of a model by keyword; removes those of ``NOSE`` from them, and keeps rod_diameter."""
+    """The nose of the inputs of a model by keyword; removes those of ``NOSE`` and rod_diameter from them."""
     word, *keys = (each.keyword for each in NOSE)
     given = {key.removeprefix("nose_"): values.pop(key) for key in keys}
-    return nose(values.pop(word), values["rod_diameter"], **given)
+    return nose(values.pop(word), values.pop("rod_diameter"), **given)

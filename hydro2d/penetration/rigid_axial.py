@@ -125,7 +125,6 @@ def evaluate(
 ):  # fmt: skip
     """A rigid rod from ``velocity`` to rest; keywords are those of ``MODEL.inputs``, in SI."""
     nose = inputs.taken_nose(others)
-    del others["rod_diameter"]
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **others)
     static = a * target_strength
     if cavity_c is None:

@@ -237,7 +237,6 @@ def evaluate(
 ):  # fmt: skip
     """A rod with the named nose into one plate, or a half space if no thickness is given; keywords as in ``MODEL.inputs``."""
     nose = inputs.taken_nose(others)
-    del others["rod_diameter"]
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **others)
     body = projectile(nose, rod_mass, rod_length)
     layer = Layer(math.inf if target_thickness is None else target_thickness, target_density, target_strength, a, b)

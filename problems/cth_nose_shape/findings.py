@@ -83,8 +83,8 @@ def scores(found: Runs) -> list[str]:
 def difference(one: Sequence[Result], other: Sequence[Result]) -> tuple[float, float | None]:
     """By how much the mean depth of some runs exceeds that of others, per cent, and its standard error.
 
-    Members of the same number lie in the same place on the mesh, so that they are compared in pairs; members of one side are
-    left out.
+    Members of the same number lie in the same place on the mesh, so that they are compared in pairs. Members of one side are
+    left out; there must be a pair.
     """
     depths = [{run.member: run.reach for run in runs} for runs in (one, other)]
     members = sorted(set.intersection(*map(set, depths)))
@@ -103,7 +103,8 @@ def compared(found: Runs, nose: str, axis: str) -> list[str]:
     rests = dict.fromkeys((*way[:place], *way[place + 1 :]) for way in found)
     for rest, choice in itertools.product(rests, choices):
         those, these = (found.get((*rest[:place], value, *rest[place:]), {}) for value in (first, choice))
-        differences = {shot: difference(these[shot], those[shot]) for shot in shots if shot in these and shot in those}
+        differences = {shot: difference(these[shot], those[shot]) for shot in shots
+                       if {run.member for run in these.get(shot, ())} & {run.member for run in those.get(shot, ())}}
         if differences:
             cells = [_difference(*differences[shot]) if shot in differences else "" for shot in shots]
             errors = [error for _, error in differences.values()]

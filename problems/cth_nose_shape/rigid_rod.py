@@ -141,13 +141,13 @@ class Result:
 @functools.cache
 def experiments() -> dict[Shot, Experiment]:
     """The twelve shots."""
-    found = {}
+    by_shot = {}
     for row in kept.rows(EXPERIMENTS, ("nose", "target", "velocity_m_s", "depth_cm", "depth_is", "length_cm")):
         alloy = row["target"].removeprefix("Al")
         limit = 1e-2 * float(row["length_cm"]) * math.sqrt(_density_ratio(alloy))
         shot = Shot(row["nose"], alloy, float(row["velocity_m_s"]))
-        found[shot] = Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"], limit)
-    return found
+        by_shot[shot] = Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"], limit)
+    return by_shot
 
 
 @functools.cache

@@ -227,6 +227,8 @@ def test_the_hard_bodies_of_a_contact_come_first_in_mixed_cells():
         ('nose = "ogival"\nnose_length = "3 mm"', "is at least the radius"),
         ('nose = "ogival"\nhalf_angle = "23 deg"', "an ogival nose has no half_angle; give crh or nose_length"),
         ('nose = "conical"\nhalf_angle = 30', 'half_angle: 30 has no unit; write "30 deg"'),
+        ('nose = "conical"\nnose_length = "0 mm"', "must be positive"),
+        ('nose = "ogival"\nnose_length = "-9 mm"', "must be positive"),
         ('nose = "conical"\ncrh = 3', "a conical nose has no crh; give half_angle or nose_length"),
         ('nose = "flat"\ncrh = 3', "a flat nose has no crh"),
         ('nose = "flat-rounded"', "a flat-rounded nose needs edge_radius"),

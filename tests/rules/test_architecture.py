@@ -37,8 +37,8 @@ def module(path: str) -> str:
 def named(cell: str) -> list[str]:
     """The files and folders in a cell, with those in a folder by their paths."""
     here, *inside = re.split(r"in `(\w+)` ", cell)
-    found = re.findall(r"`([\w/]+(?:\.py|/))`", here)
-    return found + [f"{folder}/{name}" for folder, names in zip(inside[::2], inside[1::2], strict=True)
+    at_once = re.findall(r"`([\w/]+(?:\.py|/))`", here)
+    return at_once + [f"{folder}/{name}" for folder, names in zip(inside[::2], inside[1::2], strict=True)
                     for name in re.findall(r"`(\w+\.py)`", names)]  # fmt: skip
 
 
@@ -67,8 +67,8 @@ def phases(function) -> set[str]:
 def kernels(method: str) -> set[str]:
     """Modules of the kernels in the phases that a line of `Cycle.advance` runs."""
     functions = [getattr(Cycle, method), *([Contact.find] if method == "close_cells" else [])]
-    found = {phase for function in functions for phase in phases(function)}
-    lists = [getattr(PHASES[phase.split(".")[0]], phase.split(".")[1]) for phase in found]
+    run = {phase for function in functions for phase in phases(function)}
+    lists = [getattr(PHASES[phase.split(".")[0]], phase.split(".")[1]) for phase in run]
     return {run.kernel.__module__ for phase in lists for run in phase.runs()}
 
 

@@ -37,9 +37,9 @@ def rows() -> dict[str, tuple[str, set[str]]]:
 def test_an_addition_touches_the_files_of_its_row(example):
     addition, files = rows()[example]
     pattern = re.compile(NAMED[example], re.MULTILINE)
-    found = {file.relative_to(source.ROOT).as_posix() for name, file in source.modules().items()
-             if pattern.search(file.read_text(encoding="utf-8"))}  # fmt: skip
-    assert found == files, f"CONTRIBUTING.md: {addition}"
+    files_with_it = {file.relative_to(source.ROOT).as_posix() for name, file in source.modules().items()
+                     if pattern.search(file.read_text(encoding="utf-8"))}  # fmt: skip
+    assert files_with_it == files, f"CONTRIBUTING.md: {addition}"
 
 
 def test_every_file_of_the_table_exists():

@@ -20,5 +20,7 @@ class Length(Outcome):
 
     @classmethod
     def judge(cls, record, depth):
-        kept = LEAST_KEPT * (record.value("rod_initial_length_m") or 0.0)
-        return lost(record) or Verdict(KEPT if record.value("rod_length_m") >= kept else USED_UP)
+        if verdict := lost(record):
+            return verdict
+        kept = record.value("rod_length_m") >= LEAST_KEPT * record.value("rod_initial_length_m")
+        return Verdict(KEPT if kept else USED_UP)
