@@ -66,10 +66,9 @@ class Study:
         return names[: next(names.index(name) for name in FIRST if name in names)]
 
     def minutes(self) -> float | None:
-        """Sum of the minutes of all runs."""
-        found = [float(row["minutes"]) for row in self.results if row.get("minutes")]
-        found += [float(row["wall_s"]) / 60.0 for row in self.results if row.get("wall_s")]
-        return sum(found) if found else None
+        """Sum of the minutes of all runs; None where the time of a run is not kept."""
+        times = [row.get("minutes") or (float(row["wall_s"]) / 60.0 if row.get("wall_s") else None) for row in self.results]
+        return sum(map(float, times)) if times and None not in times else None
 
 
 def studies() -> list[Study]:
