@@ -8,7 +8,8 @@ the material that the deck has placed there (hydro2d/following). A transmitting 
 from hydro2d.jit import cell_rows, kernel, not_inlined, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.mesh.fields import PARITY
-from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, GHOSTS
+from hydro2d.mesh.grid import GHOSTS
+from hydro2d.physics.corner import corner
 from hydro2d.physics.waves import impedances
 
 
@@ -112,8 +113,8 @@ def dashpots(along_r, j, i, w):
     normal, shear = 0.0, 0.0
     for row in range(j - 1, j + 1):
         for column in range(i - 1, i + 1):
-            axial = w.metrics[AZ_OUT, column] if column < i else w.metrics[AZ_IN, column]
-            area = 0.5 * w.metrics[FACE_R, i] * w.dz[row] if along_r else axial
+            across, hoop, c_z, _ = corner(column, column < i, row < j, w.metrics, w.dz[row])
+            area = abs(across + hoop) if along_r else abs(c_z)
             z_l, z_s = impedances(row, column, w.rhobar, w.cl, w.bulk)
             normal += area * z_l
             shear += area * z_s

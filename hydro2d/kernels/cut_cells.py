@@ -206,13 +206,22 @@ def common_traction(j, i, w):
 
 
 @point
-def skin_deviator(j, i, w):
-    """Sum of f n . s . n in a cell: the part of its pressure that is added to p_c."""
-    total = 0.0
+def bodies_stress(g, j, i, w):
+    """(rr, zz, tt, rz) of the stress of a cell without p_c, Pa: s - (n . s . n) I of its bodies by their shares.
+
+    g : group whose bodies count; all for g < 0
+    """
+    scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
+    rr, zz, tt, rz = 0.0, 0.0, 0.0, 0.0
     for m in range(w.vof.shape[0]):
-        if w.vof[m, j, i] > 0.0:
-            total += w.vof[m, j, i] * normal_deviator(m, j, i, w.skin, w.q)
-    return stress_scale(w.by_what_is_solid, w.solid[j, i]) * total
+        if w.vof[m, j, i] > 0.0 and (g < 0 or w.group[m] == g):
+            part = w.vof[m, j, i] * scale
+            across = normal_deviator(m, j, i, w.skin, w.q)
+            rr += part * (w.q[SRR, m, j, i] - across)
+            zz += part * (w.q[SZZ, m, j, i] - across)
+            tt -= part * (w.q[SRR, m, j, i] + w.q[SZZ, m, j, i] + across)
+            rz += part * w.q[SRZ, m, j, i]
+    return rr, zz, tt, rz
 
 
 @point

@@ -8,6 +8,7 @@ from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
 from hydro2d.physics.advection import TINY
 from hydro2d.physics.momentum import (
     carried,
+    corner_mean,
     corner_sum,
     energy_missing,
     slope_weight,
@@ -232,7 +233,7 @@ def deposit(j, ranges, deficit, w):
         low = deficit[g, j]
         high = deficit[g, j + 1]
         for i in range(ranges[j, 0], ranges[j, 1]):
-            gain = w.metrics[CM_IN, i] * (low[i] + high[i]) + w.metrics[CM_OUT, i] * (low[i + 1] + high[i + 1])
+            gain = corner_mean(w.metrics[CM_IN, i], w.metrics[CM_OUT, i], low[i], high[i], low[i + 1], high[i + 1])
             given += gain * w.cell_mass[g, j, i]
             for m in range(w.vof.shape[0]):
                 if w.group[m] == g and w.vof[m, j, i] > 0.0:

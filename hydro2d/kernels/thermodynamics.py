@@ -31,7 +31,7 @@ from hydro2d.materials.rows import (
 from hydro2d.mesh.fields import DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
-from hydro2d.physics.kinematics import volume_loss
+from hydro2d.physics.kinematics import divergence
 from hydro2d.physics.stress import largest_principal, release, von_mises
 from hydro2d.physics.viscosity import (
     directional_viscosity,
@@ -285,7 +285,7 @@ def viscosity_row(j, w):
         dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
         c = bulk_j[i] / rho
         c = sqrt(c) if c > 0.0 else cl_j[i]
-        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, w.dz[j])
+        loss = -divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
         du_q = max(du, -max(loss, 0.0) * w.dr[i])
         dv_q = max(dv, -max(loss, 0.0) * h)
         full = shut(solid_j[i])
@@ -346,7 +346,7 @@ def compression_viscosity_row(j, w):
         sv_l = 0.5 * ((vb[i] - vb[i - 1]) + (vt[i] - vt[i - 1]))
         sv_r = 0.5 * ((vb[i + 2] - vb[i + 1]) + (vt[i + 2] - vt[i + 1]))
         rate, n_r, n_z = strongest_compression(du / w.dr[i], dv / h, 0.5 * (su / h + sv / w.dr[i]))
-        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, w.dz[j])
+        loss = -divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
         length = length_along(n_r, n_z, w.dr[i], w.dz[j])
         jump = max(rate, -max(loss, 0.0)) * length
         psi_r = smoothness(n_r * du_l + n_z * sv_l, n_r * du + n_z * sv, n_r * du_r + n_z * sv_r)
@@ -395,7 +395,7 @@ def limit_step(j, part, w):
         rho = 1.0 if void else rho_j[i]
         du = (ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i])
         dv = (vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1])
-        loss = volume_loss(i, ub, ut, vb, vt, w.metrics, w.dz[j])
+        loss = -divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
         sound, radial, axial, volume = step_limits(
             i, ub, ut, vb, vt, w.courant, w.shock_courant, w.advective_courant, w.viscosity_linear, w.viscosity_quadratic,
             w.mesh_speed, w.dr, w.dz[j], rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
@@ -432,7 +432,7 @@ def step_cause(w):
     best = 1e300
     for i in range(w.active_range[j, 0], w.active_range[j, 1]):
         if w.rhobar[j, i] > 0.0:
-            loss = volume_loss(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.metrics, w.dz[j])
+            loss = -divergence(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.metrics, w.dz[j])
             limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.shock_courant,
                                  w.advective_courant, w.viscosity_linear, w.viscosity_quadratic, w.mesh_speed, w.dr, w.dz[j],
                                  w.rhobar[j, i], w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)

@@ -5,35 +5,27 @@ from math import sqrt
 from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
 from hydro2d.kernels.boundaries import velocity_at_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, union
-from hydro2d.kernels.cut_cells import KIND, WHOLE, contains_group, cut_pressure, pull_of_ties, skin_deviator, ties
+from hydro2d.kernels.cut_cells import KIND, WHOLE, bodies_stress, contains_group, cut_pressure, pull_of_ties, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
 from hydro2d.physics.corner import axial_force, hourglass_force, radial_force
 from hydro2d.physics.kinematics import divergence
 from hydro2d.physics.momentum import corner_sum
-from hydro2d.physics.stress import stress_scale
+from hydro2d.physics.traction import strained_pressure
 
 #: speeds below this carry no signal and are set to zero, so that the active region has an edge (explanation/speed)
 SMALLEST_SPEED = 1e-20
 
 
 @point
-def mixed_deviator(j, i, w):
-    """(s_rr, s_zz, s_rz) of a mixed cell, Pa: the bodies' by share, or in the hard zone of a slip layer the hard body's."""
-    scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
-    rr, zz, rz = 0.0, 0.0, 0.0
-    for m in range(w.vof.shape[0]):
-        rr += w.vof[m, j, i] * w.q[SRR, m, j, i]
-        zz += w.vof[m, j, i] * w.q[SZZ, m, j, i]
-        rz += w.vof[m, j, i] * w.q[SRZ, m, j, i]
-    rr, zz, rz = scale * rr, scale * zz, scale * rz
+def mixed_stress(j, i, w):
+    """(rr, zz, tt, rz) of a mixed cell without its pressure, Pa: of its bodies, or of the hard body in a hard zone."""
     for m in range(w.vof.shape[0]):
         if w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold:
-            rr = w.solid[j, i] * w.q[SRR, m, j, i]
-            zz = w.solid[j, i] * w.q[SZZ, m, j, i]
-            rz = w.solid[j, i] * w.q[SRZ, m, j, i]
-    return rr, zz, rz
+            rr, zz = w.solid[j, i] * w.q[SRR, m, j, i], w.solid[j, i] * w.q[SZZ, m, j, i]
+            return rr, zz, -(rr + zz), w.solid[j, i] * w.q[SRZ, m, j, i]
+    return bodies_stress(-1, j, i, w)
 
 
 @cell_rows
@@ -83,7 +75,7 @@ def total_stress(j, w):
     for x in range(n):
         i = lo + x
         div = divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
-        pressure = p_j[i] - 0.5 * w.dt * k_j[i] * div
+        pressure = strained_pressure(p_j[i], k_j[i], 0.5 * w.dt * div)
         ph_j[i] = pressure
         tt[i] = -(rr[i] + zz[i]) - pressure - qt_j[i]
         rr[i] = rr[i] - pressure - qr_j[i]
@@ -91,16 +83,13 @@ def total_stress(j, w):
         rz[i] -= qrz_j[i]
     for k in range(w.mixed_count[j]):  # again from s: in a crumb beside a full cell's pressure s may be lost to rounding
         i = w.mixed[j, k]
-        s_rr, s_zz, s_rz = mixed_deviator(j, i, w)
-        pressure = ph_j[i]
+        own_rr, own_zz, own_tt, own_rz = mixed_stress(j, i, w)
         if w.skin[KIND, j, i] != WHOLE:
-            pressure = cut_pressure(j, i, divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j]), w)
-            ph_j[i] = pressure
-            pressure += skin_deviator(j, i, w)
-        tt[i] = -(s_rr + s_zz) - pressure - qt_j[i]
-        rr[i] = s_rr - pressure - qr_j[i]
-        zz[i] = s_zz - pressure - qz_j[i]
-        rz[i] = s_rz - qrz_j[i]
+            ph_j[i] = cut_pressure(j, i, divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j]), w)
+        rr[i] = own_rr - ph_j[i] - qr_j[i]
+        zz[i] = own_zz - ph_j[i] - qz_j[i]
+        tt[i] = own_tt - ph_j[i] - qt_j[i]
+        rz[i] = own_rz - qrz_j[i]
 
 
 @vertex_rows

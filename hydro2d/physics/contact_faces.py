@@ -1,10 +1,14 @@
-"""Two groups of bodies in contact: apertures of faces and flow through them."""
+"""Two groups of bodies in contact: apertures of faces, flow through them, and volumes that pressure moves between cells."""
+
+from math import sqrt
 
 from hydro2d.jit import point
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R
 
 #: share of void in a cell of both groups up to which they touch
 GAP = 0.01
+#: share of a difference of p_c between two neighbouring cells of the surface that evens out in a step
+EVENING = 0.05
 
 
 @point
@@ -88,6 +92,25 @@ def volume_rate(j, i, g, metrics, h, aperture_r, aperture_z, u, v):
                                                   aperture_r, u)
     axial = face_flow_z(j + 1, i, g, metrics, aperture_z, v) - face_flow_z(j, i, g, metrics, aperture_z, v)
     return 0.5 * h * radial + axial
+
+
+@point
+def evened_volume(compliance, difference):
+    """Volume that evens out a difference of p_c + q between two cells of the surface in a step (sliding, equation 8).
+
+    compliance : V/K of the stiffer cell, m^3/Pa per radian;  difference : Pa
+    """
+    return EVENING * compliance * difference
+
+
+@point
+def closed_volume(area, dt, excess, rho, modulus):
+    """Void that a full cell closes in a step dt: its face moves as fast as an acoustic wave, p/(rho c) (sliding, equation 9).
+
+    area : of the face, across the surface, m^2 per radian;  excess : pressure beyond that of the void, Pa;
+    rho, modulus : of the full cell, kg/m^3 and Pa
+    """
+    return area * dt * excess / sqrt(rho * modulus)
 
 
 @point

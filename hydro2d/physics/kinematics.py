@@ -28,11 +28,3 @@ def divergence(i, ub, ut, vb, vt, metrics, h):
     radial = 0.5 * h * (metrics[FACE_R, i + 1] * (ub[i + 1] + ut[i + 1]) - metrics[FACE_R, i] * (ub[i] + ut[i]))
     axial = metrics[AZ_IN, i] * (vt[i] - vb[i]) + metrics[AZ_OUT, i] * (vt[i + 1] - vb[i + 1])
     return (radial + axial) / (metrics[VOL_R, i] * h)
-
-
-@point
-def volume_loss(i, ub, ut, vb, vt, metrics, h):
-    """Rate at which cell i loses its volume, 1/s."""
-    inward = metrics[FACE_R, i + 1] * (ub[i + 1] + ut[i + 1]) - metrics[FACE_R, i] * (ub[i] + ut[i])
-    inside, outside = metrics[AZ_IN, i] * (vt[i] - vb[i]), metrics[AZ_OUT, i] * (vt[i + 1] - vb[i + 1])
-    return -(0.5 * inward * h + inside + outside) / (metrics[VOL_R, i] * h)

@@ -25,6 +25,15 @@ def corner_sum(share_inner, share_outer, outer_of_left, other_of_left, inner_of_
 
 
 @point
+def corner_mean(share_inner, share_outer, inner_low, inner_high, outer_low, outer_high):
+    """Mean of a quantity over a cell from its four vertices by the corner shares, the transpose of `corner_sum`.
+
+    A cell that gets the mean of an energy per mass of vertices gets what they lose, since their masses are corner sums.
+    """
+    return share_inner * (inner_low + inner_high) + share_outer * (outer_low + outer_high)
+
+
+@point
 def slope_weight(mass, m_ll, m_l, m_r, m_rr):
     """Half of the share of the donor that stays while ``mass`` leaves it: the factor on the limited slope.
 

@@ -42,13 +42,19 @@ def pull_left(void, weight):
 
 
 @point
+def strained_pressure(p, bulk, strain):
+    """p - K e: pressure after a volumetric strain e, Pa (explanation/lagrangian-step, equation 9)."""
+    return p - bulk * strain
+
+
+@point
 def half_pressure(p, bulk, strain, void, pull):
     """Pressure of a cut cell after a volumetric strain: void closes first, and the share `pull` of a tension is left.
 
     p is the bodies' pressure, bulk their modulus (Pa), void its share. The result is continuous in all of them (explanation/
     mixed-cells, equation 9).
     """
-    together = p - bulk * strain
+    together = strained_pressure(p, bulk, strain)
     if together <= 0.0:
         return pull * together
     return max(together - bulk * void, 0.0) * (1.0 - smoothstep(void / WIDE - 1.0))

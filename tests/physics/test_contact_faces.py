@@ -16,6 +16,8 @@ blend = contact_faces.blend.py_func
 face_flow_r = contact_faces.face_flow_r.py_func
 face_flow_z = contact_faces.face_flow_z.py_func
 volume_rate = contact_faces.volume_rate.py_func
+evened_volume = contact_faces.evened_volume.py_func
+closed_volume = contact_faces.closed_volume.py_func
 largest_of = contact_faces.largest_of.py_func
 
 HARD, SOFT, BOTH = 1, 0, -1
@@ -358,3 +360,18 @@ def test_of_a_group_that_is_not_there_no_body_is_the_largest():
 
 def test_of_bodies_as_large_as_each_other_the_first_counts():
     assert largest(HARD, 0.1, 0.3, 0.3, 0.0, 0.3) == 1
+
+
+# ----------------------------------------------------------------------------------------- volumes that pressure moves
+
+
+def test_evening_takes_a_twentieth_of_what_would_balance_the_softer_cell():
+    """The volume goes from the higher pressure to the lower."""
+    assert evened_volume(2.0, 3.0) == pytest.approx(0.05 * 6.0)
+    assert evened_volume(2.0, -3.0) == -evened_volume(2.0, 3.0)
+
+
+def test_a_face_closes_void_at_the_velocity_of_an_acoustic_wave():
+    """Aluminium at 1 GPa: rho c = sqrt(2785 * 78e9) = 14.74e6 kg/(m^2 s), a velocity of 67.8 m/s."""
+    assert closed_volume(1e-6, 1e-8, 1e9, 2785.0, 78e9) == pytest.approx(1e-14 * 67.85, rel=1e-3)
+    assert closed_volume(2e-6, 3e-8, 1e9, 2785.0, 78e9) == pytest.approx(6.0 * closed_volume(1e-6, 1e-8, 1e9, 2785.0, 78e9))

@@ -24,6 +24,18 @@ def test_dual_masses_stay_corner_sums_of_cells():
         assert at(after, i) == pytest.approx(at(mass, i) + crossing[0] - crossing[1], rel=1e-14)
 
 
+def test_cells_get_by_their_corner_means_what_the_vertices_of_a_periodic_row_give():
+    """The sum over cells of mass times corner mean is the sum over vertices of dual mass times value."""
+    random = np.random.default_rng(2)
+    inner, outer = 0.2, 0.3
+    mass, value = random.uniform(1.0, 2.0, (2, 5)), random.uniform(-1.0, 1.0, (2, 5))  # both rows and the columns are periodic
+    got = sum(mass[j, i] * momentum.corner_mean(inner, outer, value[j, i], value[1 - j, i], value[j, (i + 1) % 5],
+                                                value[1 - j, (i + 1) % 5]) for j in range(2) for i in range(5))
+    given = sum(value[j, i] * momentum.corner_sum(inner, outer, mass[j, i - 1], mass[1 - j, i - 1], mass[j, i], mass[1 - j, i])
+                for j in range(2) for i in range(5))
+    assert got == pytest.approx(given, rel=1e-13)
+
+
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_the_slope_weight_is_half_of_what_stays(sign):
     assert momentum.slope_weight(sign * 0.5, 2.0, 2.0, 2.0, 2.0) == pytest.approx(0.5 * (1.0 - 0.25))

@@ -14,6 +14,7 @@ from tests.physics.continuity import changes_in_proportion, largest_jump
 smoothstep = traction.smoothstep.py_func
 along_normal = traction.along_normal.py_func
 pull_left = traction.pull_left.py_func
+strained_pressure = traction.strained_pressure.py_func
 half_pressure = traction.half_pressure.py_func
 strain_across = traction.strain_across.py_func
 
@@ -55,6 +56,11 @@ def test_a_crack_pulls_the_less_the_wider_it_is_and_a_surface_does_not():
 
 
 # ------------------------------------------------------------------------------------------- pressure at half the step
+
+
+def test_a_strain_takes_pressure_by_the_modulus():
+    assert strained_pressure(2.0, 10.0, 0.05) == 1.5
+    assert strained_pressure(2.0, 10.0, -0.05) == 2.5
 
 
 def test_half_a_step_shuts_void_before_it_makes_pressure():

@@ -10,19 +10,20 @@ from hydro2d.kernels.cut_cells import (
     INTERFACE,
     KIND,
     WHOLE,
+    bodies_stress,
     contains_group,
     cut_pressure,
-    normal_deviator,
     pull_of_ties,
     ties,
 )
-from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
+from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
 from hydro2d.physics.contact_faces import meeting, volume_rate
 from hydro2d.physics.corner import corner, corner_force
 from hydro2d.physics.kinematics import hourglass_mode
-from hydro2d.physics.stress import normal_pressure, stress_scale
+from hydro2d.physics.stress import normal_pressure
+from hydro2d.physics.traction import strained_pressure
 from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
 from hydro2d.physics.waves import sound_step, volume_step
 
@@ -112,7 +113,7 @@ def contact_stress(j, w):
         w.contact_pressure[j, i] = 0.0
     for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
         if w.skin[KIND, j, i] == WHOLE:
-            pressure = w.p[j, i] - 0.5 * w.dt * w.bulk[j, i] * w.rate[j, i]
+            pressure = strained_pressure(w.p[j, i], w.bulk[j, i], 0.5 * w.dt * w.rate[j, i])
         else:
             pressure = cut_pressure(j, i, w.rate[j, i], w)
         gain = pressure - w.ph[j, i]
@@ -127,27 +128,11 @@ def contact_stress(j, w):
 
 
 @point
-def group_stress(g, j, i, w):
-    """Stress of group g in a cell without p_c: (rr, zz, tt, rz), of its bodies by their shares, as in total_stress."""
-    scale = stress_scale(w.by_what_is_solid, w.solid[j, i])
-    rr, zz, tt, rz = 0.0, 0.0, 0.0, 0.0
-    for m in range(w.vof.shape[0]):
-        if w.group[m] == g and w.vof[m, j, i] > 0.0:
-            part = w.vof[m, j, i] * scale
-            across = normal_deviator(m, j, i, w.skin, w.q)
-            rr += part * (w.q[SRR, m, j, i] - across)
-            zz += part * (w.q[SZZ, m, j, i] - across)
-            tt -= part * (w.q[SRR, m, j, i] + w.q[SZZ, m, j, i] + across)
-            rz += part * w.q[SRZ, m, j, i]
-    return rr, zz, tt, rz
-
-
-@point
 def group_force(g, j, i, at_j, at_i, w):
     """Force of the deviators of group g in cell (at_j, at_i), and of its hourglass filter, on vertex (j, i) (as accelerate)."""
     if w.cell_mass[g, at_j, at_i] == 0.0:
         return 0.0, 0.0
-    rr, zz, tt, rz = group_stress(g, at_j, at_i, w)
+    rr, zz, tt, rz = bodies_stress(g, at_j, at_i, w)
     outer, upper = at_i < i, at_j < j  # the vertex is on the outer side of a cell to the left of it
     across, hoop, c_z, along = corner(at_i, outer, upper, w.metrics, w.dz[at_j])
     force_r, force_z = corner_force(rr, zz, tt, rz, across, hoop, c_z, along)

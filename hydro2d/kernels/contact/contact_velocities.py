@@ -11,7 +11,7 @@ from hydro2d.jit import not_inlined, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.kernels.contact.contact_geometry import REACH, SHARE
 from hydro2d.kernels.contact.extension import SPAN, TIED
-from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, HOOP
+from hydro2d.physics.corner import corner
 from hydro2d.physics.stress import normal_pressure
 
 #: share of the mismatch down to which the ties are solved, and the largest number of steps
@@ -260,12 +260,9 @@ def normal_force(j, i, n_r, n_z, w):
             share = w.line[SHARE, row, column]
             if share < 0.0:
                 continue
-            left, low = column < i, row < j
-            half = 0.5 * w.metrics[FACE_R, i] * w.dz[row]
-            area = w.metrics[AZ_OUT, column] if left else w.metrics[AZ_IN, column]
-            hoop = w.metrics[HOOP, column] * w.dz[row]
-            area_r += share * ((half - hoop) if left else -(half + hoop))
-            area_z += share * (area if low else -area)
+            across, _, c_z, _ = corner(column, column < i, row < j, w.metrics, w.dz[row])
+            area_r += share * across
+            area_z += share * c_z
             pressure += normal_pressure(row, column, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz)
             cells += 1.0
     return max(pressure / cells, 0.0) * abs(n_r * area_r + n_z * area_z) if cells > 0.0 else 0.0

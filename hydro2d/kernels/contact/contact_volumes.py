@@ -12,8 +12,9 @@ from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
-from hydro2d.physics.contact_faces import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.physics.contact_faces import GAP, closed_volume, evened_volume, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import cumulative
+from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import smoothstep
 
 #: share of other bodies and void, and of void alone, in a cell at which the rules of `contact_shares` apply in full
@@ -45,10 +46,6 @@ def contact_swept_volumes(j, w):
                 face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v) + face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v0))
 
 
-#: share of a difference of p_c between two neighbouring cells of the surface that evens out in a step
-EVENING = 0.05
-
-
 @point
 def surface_volume(j, i, row, column, w):
     """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column) in addition to the swept volume.
@@ -62,7 +59,7 @@ def surface_volume(j, i, row, column, w):
     moved = 0.0
     if here_meets and there_meets:
         compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-        moved = EVENING * compliance * (here - there)
+        moved = evened_volume(compliance, here - there)
     opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
         smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
     if opened == 0.0:
@@ -75,13 +72,13 @@ def surface_volume(j, i, row, column, w):
         return moved
     push, part = w.ph[full, at] + w.qr[full, at], 1.0
     if w.skin[KIND, full, at] != INTERFACE:
-        push = -(n_r * n_r * w.sig_rr[full, at] + n_z * n_z * w.sig_zz[full, at] + 2.0 * n_r * n_z * w.sig_rz[full, at]) / steep
+        push = normal_pressure(full, at, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz) / steep
         part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
     excess = push - w.ph[hole, beside] - w.qr[hole, beside]
     if excess <= 0.0:
         return moved
     swept = w.metrics[FACE_R, column] * w.dz[j] if row == j else w.metrics[AZ_IN, i] + w.metrics[AZ_OUT, i]
-    return moved + opened * part * swept * w.dt * excess / sqrt(w.rhobar[full, at] * w.bulk[full, at])
+    return moved + opened * closed_volume(part * swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
 
 
 @vertex_rows
