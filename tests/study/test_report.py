@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+from hydro2d.analytic import experience
 from hydro2d.base.version import __version__
 from hydro2d.cli.main import call
 from hydro2d.results import movies
@@ -74,6 +75,24 @@ def test_one_well_formed_file(made):
 def test_faults_are_found(made, spoilt):
     text = (made[0] / "report" / "report.html").read_text(encoding="utf-8")
     assert Page(text.replace("</main>", f"{spoilt}</main>")).faults != []
+
+
+def test_the_experience_with_such_runs(made):
+    """Four of the made-up rods end rigid, two deformed, and the line of each kind says so."""
+    text = Page((made[0] / "report" / "report.html").read_text(encoding="utf-8")).text
+    rows = {row["case"]: row["regime"] for row in table(made[0] / "report").values()}
+    for regime in set(rows.values()):
+        number = list(rows.values()).count(regime)
+        (known,) = [row for row in experience.table() if (row.of, row.kind, row.chosen) == (
+            "hydro2d", f"depth of {regime} tungsten rods in aluminium", False)]  # fmt: skip
+        many = "" if number == len(rows) else f": {number} of {len(rows)} runs"
+        assert f"experience: {known.words}{many}" in text
+
+
+def test_unfinished_runs_have_no_experience(study):
+    fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", status="unphysical")
+    record = next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke")
+    assert (record.experience, bool(record.unfinished)) == ([], True)
 
 
 def test_the_table(made):
