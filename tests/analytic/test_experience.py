@@ -72,6 +72,12 @@ def test_a_run_has_the_rows_of_its_regime_and_materials(table):
         "experience: none for this kind of shot (depth of deforming tungsten rods in aluminium)"]
 
 
+def test_a_run_has_no_experience_of_a_formula(table):
+    table(change(of="tate"))
+    assert experience.of_run(RODS, "rigid", False) == [
+        "experience: none for this kind of shot (depth of rigid tungsten rods in aluminium)"]
+
+
 def test_a_rod_that_perforates_has_no_experience_of_depths(table):
     table(RIGID, change(quantity="residual velocity", projectile="steel rod", target="steel", ended=""))
     assert experience.of_run(RODS, "rigid", True) == [
@@ -125,6 +131,11 @@ def test_a_material_of_a_deck_is_its_metal():
     deck = hydro2d.Deck.from_file("problems/cth_nose_shape/hemi_5083_1086.toml",
                                   ['body.rod.material="own"', 'materials.own.based_on="W_sintered"'])  # fmt: skip
     assert hydro2d.impact_of(deck) == RODS
+
+
+def test_a_metal_without_strength_is_none_of_them():
+    deck = hydro2d.Deck.from_file("problems/validation/jet_w_5083_2.toml")
+    assert {experience.substance(material) for material in deck.materials.values()} & {*experience.METALS} == set()
 
 
 def test_a_model_has_its_own_experience(table):

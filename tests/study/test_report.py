@@ -4,6 +4,7 @@ import csv
 import json
 import shutil
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -14,6 +15,7 @@ from hydro2d.results import movies
 from hydro2d.results.scales import FigureError
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.records import layout
+from hydro2d.study.report import page as report_page
 from hydro2d.study.report import pictures
 from hydro2d.study.report.report import report
 from tests.study import fake
@@ -87,6 +89,15 @@ def test_the_experience_with_such_runs(made):
             "hydro2d", f"depth of {regime} tungsten rods in aluminium", False)]  # fmt: skip
         many = "" if number == len(rows) else f": {number} of {len(rows)} runs"
         assert f"experience: {known.words}{many}" in text
+
+
+def test_experience_of_all_runs_has_no_number_of_runs():
+    def contents(*lines):
+        return SimpleNamespace(records=[SimpleNamespace(experience=list(each)) for each in lines])
+
+    assert report_page._experience(contents(["a"], ["a"], [])) == ["a"]
+    assert report_page._experience(contents(["a", "b"], ["a"])) == ["a", "b: 1 of 2 runs"]
+    assert report_page._experience(contents([], [])) == []
 
 
 def test_unfinished_runs_have_no_experience(study):
