@@ -17,7 +17,17 @@ from typing import TYPE_CHECKING  # noqa: E402
 from hydro2d.base.version import __version__ as __version__  # noqa: E402
 
 if TYPE_CHECKING:
-    from hydro2d.api import Study, fit_residual_velocity, open_run, open_study, penetration_model, run, sweep
+    from hydro2d.analytic.experience import Experience, Impact, impact_of
+    from hydro2d.api import (
+        Study,
+        fit_residual_velocity,
+        open_run,
+        open_study,
+        penetration_model,
+        penetration_models,
+        run,
+        sweep,
+    )
     from hydro2d.base.errors import DeckError, Error, UnphysicalState
     from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
@@ -27,7 +37,7 @@ if TYPE_CHECKING:
     from hydro2d.results.reading import Results, ResultsError
     from hydro2d.solver.callbacks import every
     from hydro2d.solver.simulation import Simulation
-    from hydro2d.study.ensemble.chance import wilson
+    from hydro2d.study.ensemble.chance import bias_and_scatter, wilson
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
     from hydro2d.study.records.layout import Case
@@ -49,9 +59,14 @@ _PLACES = {
     "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
     "penetration_model": "hydro2d.api",
+    "penetration_models": "hydro2d.api",
     "fit_residual_velocity": "hydro2d.api",
     "fit_transition": "hydro2d.study.search.logit",
     "wilson": "hydro2d.study.ensemble.chance",
+    "bias_and_scatter": "hydro2d.study.ensemble.chance",
+    "Experience": "hydro2d.analytic.experience",
+    "Impact": "hydro2d.analytic.experience",
+    "impact_of": "hydro2d.analytic.experience",
     "to_si": "hydro2d.base.units",
     "new_figure": "hydro2d.results.figures",
     "save_figure": "hydro2d.results.figures",
@@ -69,6 +84,8 @@ __all__ = [
     "Deck",
     "DeckError",
     "Error",
+    "Experience",
+    "Impact",
     "KeptRow",
     "Results",
     "ResultsError",
@@ -77,15 +94,18 @@ __all__ = [
     "Study",
     "StudyError",
     "UnphysicalState",
+    "bias_and_scatter",
     "every",
     "fit_residual_velocity",
     "fit_transition",
+    "impact_of",
     "kept_rows",
     "method_note",
     "new_figure",
     "open_run",
     "open_study",
     "penetration_model",
+    "penetration_models",
     "register",
     "run",
     "save_figure",

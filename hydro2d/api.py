@@ -16,7 +16,7 @@ from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
 from hydro2d.files.whole import plain, write_text
 from hydro2d.output.directory import deck_hash
-from hydro2d.penetration import lambert_jonas
+from hydro2d.penetration import catalogue, lambert_jonas
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.running.team import at_most
@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
     from hydro2d.solver.simulation import Simulation
 
-__all__ = ["Study", "fit_residual_velocity", "open_run", "open_study", "penetration_model", "run", "sweep"]
+__all__ = ["Study", "fit_residual_velocity", "open_run", "open_study", "penetration_model", "penetration_models", "run",
+           "sweep"]
 
 
 def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads: int | None = None, restart: bool = False,
@@ -225,13 +226,19 @@ def penetration_model(name: str, deck: Deck, inputs: Mapping[str, float | str] |
     Returns
     -------
     models.Case
-        ``values`` has all inputs by name; ``rows(velocities)`` has a dict of the outputs for each impact velocity in m/s;
-        ``transition()`` is the velocity above which the rod is no longer rigid, m/s. All in SI units.
+        ``values`` has all inputs by name, and ``borrowed`` names those that come from the model's example; ``rows(velocities)``
+        has a dict of the outputs for each impact velocity in m/s; ``transition()`` is the velocity above which the rod is no
+        longer rigid, m/s. All in SI units.
 
     Raises DeckError if the deck has no such rod and target, ValueError for an unknown model or an impossible input.
     """
     shot = model_deck.shot(deck)
     return models.resolve(models.named(name), models.Request(shot.rod, shot.target, inputs or {}, shot.values))
+
+
+def penetration_models() -> tuple[str, ...]:
+    """Names of all analytic penetration models, as `hydro2d model` lists them."""
+    return tuple(catalogue.MODELS)
 
 
 def fit_residual_velocity(velocities: Sequence[float], residual_velocities: Sequence[float], *,

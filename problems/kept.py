@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import csv
+import re
 import sys
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from statistics import median
-from typing import TypeVar
+from typing import TextIO, TypeVar
 
 import hydro2d
 
 R = TypeVar("R")
+_BLOCK = re.compile(r"(<!-- (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
 def rows(path: Path, columns: Collection[str]) -> list[dict[str, str]]:
@@ -37,9 +39,14 @@ def read(path: Path, columns: Collection[str], of_row: Callable[[dict[str, str]]
 def write(path: Path, columns: Sequence[str], records: Iterable[dict[str, object]]) -> None:
     """Writes a file with these columns; values that a row lacks are empty. Raises OSError."""
     with open(path, "w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
-        table.writeheader()
-        table.writerows(records)
+        write_to(file, columns, records)
+
+
+def write_to(file: TextIO, columns: Sequence[str], records: Iterable[dict[str, object]]) -> None:
+    """Writes these columns to an open file."""
+    table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
+    table.writeheader()
+    table.writerows(records)
 
 
 def show(columns: Sequence[str], of_run: Callable[[Path], Sequence], runs: Iterable[str]) -> None:
@@ -71,3 +78,22 @@ def grouped(rows: Iterable[dict[str, str]], columns: Sequence[str]) -> dict[tupl
     for row in rows:
         groups.setdefault(tuple(row[name] for name in columns), []).append(row)
     return groups
+
+
+def filled(text: str, tables: Mapping[str, Callable[[], list[str]]]) -> str:
+    """The text of a page with its tables: each stands between `<!-- NAME -->` and `<!-- end -->`, and a function makes it."""
+    return _BLOCK.sub(lambda found: "\n".join([found[1].rstrip(), *tables[found[2]](), found[3]]), text)
+
+
+def fill(pages: Iterable[Path], tables: Mapping[str, Callable[[], list[str]]], check: bool) -> int:
+    """Fills pages, and names those that change; check : writes nothing. Returns 1 if a page that is checked would change."""
+    status = 0
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        new = filled(text, tables)
+        if new != text:
+            print(f"{page.name}: {'has other tables' if check else 'filled'}")
+            status = 1 if check else 0
+            if not check:
+                page.write_text(new, encoding="utf-8")
+    return status

@@ -17,9 +17,8 @@ def case(name: str, shot: model_deck.Shot) -> models.Case:
     Raises InputError if the deck and its materials lack an input; it is never taken from the model's example.
     """
     resolved = models.resolve(models.named(name), models.Request(rod=shot.rod, target=shot.target, geometry=shot.values))
-    borrowed = sorted(key for key, given in resolved.inputs.items() if models.EXAMPLE in given.source)
-    if borrowed:
-        raise InputError(f"the deck and its materials do not give {', '.join(borrowed)}")
+    if resolved.borrowed:
+        raise InputError(f"the deck and its materials do not give {', '.join(resolved.borrowed)}")
     return resolved
 
 

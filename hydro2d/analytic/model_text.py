@@ -95,16 +95,22 @@ def inputs(case: Case) -> list[str]:
     return columns((name, shown(given.value, units_of[name]), given.source) for name, given in case.inputs.items())
 
 
-def report(case: Case, rows: Sequence[dict[str, Value]]) -> str:
-    """The inputs, and the outputs at one velocity or in a table."""
+def report(case: Case, rows: Sequence[dict[str, Value]], experience: Sequence[str] = ()) -> str:
+    """The inputs, the outputs at one velocity or in a table, and lines of the experience with the model."""
     lines = [f"{case.model.name}: {case.model.title}", "", "inputs", *inputs(case), ""]
     if len(rows) > 1:
-        return "\n".join([*lines, *table(case.model, rows)])
+        return "\n".join([*lines, *table(case.model, rows), *_apart(experience)])
     (row,) = rows
     lines.append(f"at {row[VELOCITY]:g} m/s")
     return "\n".join(
-        lines + columns((entry.name, shown(row[entry.name], entry.unit), entry.description) for entry in case.model.outputs)
-    )
+        [*lines, *columns((entry.name, shown(row[entry.name], entry.unit), entry.description) for entry in case.model.outputs),
+         *_apart(experience)]
+    )  # fmt: skip
+
+
+def _apart(lines: Sequence[str]) -> list[str]:
+    """Lines below an empty one; none if there are none."""
+    return ["", *lines] if lines else []
 
 
 def heads(model: Model) -> list[str]:
@@ -140,7 +146,7 @@ def given_data(inputs: dict[str, Given], model: Model) -> dict[str, dict]:
     }
 
 
-def data(case: Case, rows: Sequence[dict[str, Value]]) -> dict:
+def data(case: Case, rows: Sequence[dict[str, Value]], experience: Sequence[str] = ()) -> dict:
     """The contents of `report` for JSON."""
     return {
         "model": case.model.name,
@@ -149,4 +155,5 @@ def data(case: Case, rows: Sequence[dict[str, Value]]) -> dict:
         "inputs": given_data(case.inputs, case.model),
         "units": {VELOCITY: "m/s"} | {entry.name: entry.unit for entry in case.model.outputs},
         "results": [{name: plain(value) for name, value in row.items()} for row in rows],
+        "experience": list(experience),
     }

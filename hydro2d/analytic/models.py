@@ -50,6 +50,11 @@ class Case:
     def values(self) -> dict[str, Value]:
         return {name: given.value for name, given in self.inputs.items()}
 
+    @property
+    def borrowed(self) -> list[str]:
+        """Names of the inputs that come from the model's example."""
+        return sorted(name for name, given in self.inputs.items() if EXAMPLE in given.source)
+
     def rows(self, velocities: Sequence[float]) -> list[dict[str, float | str]]:
         """Outputs by name, with the velocity, at impact velocities in m/s. Raises InputError."""
         return [{VELOCITY: velocity, **self._at(velocity, len(velocities) > 1)} for velocity in velocities]

@@ -63,7 +63,7 @@ def evaluate(
     """
     if name is None:
         return _without_name(help_, rod, target, velocity, set_, deck)
-    from hydro2d.analytic import model_text, models
+    from hydro2d.analytic import experience, model_text, models
 
     chosen = models.named(name)
     if help_ or (velocity is None and deck is None):
@@ -76,7 +76,8 @@ def evaluate(
     case = models.resolve(chosen, request)
     rows = case.rows(velocities)
     written = _write(case, rows, csv, figure)
-    _show(model_text.data(case, rows) if json else model_text.report(case, rows))
+    known = experience.of_model(chosen, request.rod, request.target)
+    _show(model_text.data(case, rows, known) if json else model_text.report(case, rows, list(map(wrapped, known))))
     if written and not json:
         say("\n" + "\n".join(f"wrote {path}" for path in written))
     return 0

@@ -9,12 +9,12 @@ With --check nothing is written, and the status is 1 if a page has another table
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import hydro2d
+from problems import kept
 from problems.cth_nose_shape import findings, members, rigid_rod, transitions
 
 HERE = Path(__file__).parent
@@ -23,7 +23,6 @@ RESULTS = HERE / "results"
 #: cells across the rod of the tables of all twelve shots, and of those that are compared with them
 USUAL, OTHERS = 5.5, (6.5, 8.5, 12.5)
 HEMISPHERICAL, OGIVAL = rigid_rod.NOSES.values()
-_BLOCK = re.compile(r"(<!-- (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
 def _twelve(cells: float | None = USUAL) -> list[rigid_rod.Result]:
@@ -85,22 +84,13 @@ TABLES: dict[str, Callable[[], list[str]]] = {
 
 def filled(text: str) -> str:
     """The text of a page with the tables that the kept rows make."""
-    return _BLOCK.sub(lambda found: "\n".join([found[1].rstrip(), *TABLES[found[2]](), found[3]]), text)
+    return kept.filled(text, TABLES)
 
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
-    check, status = parser.parse_args(arguments).check, 0
-    for page in PAGES:
-        text = page.read_text(encoding="utf-8")
-        new = filled(text)
-        if new != text:
-            print(f"{page.name}: {'has other tables' if check else 'filled'}")
-            status = 1 if check else 0
-            if not check:
-                page.write_text(new, encoding="utf-8")
-    return status
+    return kept.fill(PAGES, TABLES, parser.parse_args(arguments).check)
 
 
 if __name__ == "__main__":

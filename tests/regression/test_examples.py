@@ -50,6 +50,7 @@ NOT_RUN = {
     "python docs/gallery.py": "half an hour; tests/regression/test_gallery.py has it in short form",
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
     "hydro2d plot runs/ball -o debris.png": "nothing flies behind a plate yet; tests/results/test_line_figures.py draws debris",
+    "python -m problems.validation.experience": "a minute; tests/problems/test_experience.py has the quick models",
     "python -m problems.verification.table runs": "five minutes; tests/verification/test_accuracy.py has the cheap runs",
     "dask ": "needs a cluster",
     "hydro2d sweep problems/cth_nose_shape/study.toml --background": "its process would outlive the test",

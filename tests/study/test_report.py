@@ -4,15 +4,18 @@ import csv
 import json
 import shutil
 import sys
+from types import SimpleNamespace
 
 import pytest
 
+from hydro2d.analytic import experience
 from hydro2d.base.version import __version__
 from hydro2d.cli.main import call
 from hydro2d.results import movies
 from hydro2d.results.scales import FigureError
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.records import layout
+from hydro2d.study.report import page as report_page
 from hydro2d.study.report import pictures
 from hydro2d.study.report.report import report
 from tests.study import fake
@@ -74,6 +77,33 @@ def test_one_well_formed_file(made):
 def test_faults_are_found(made, spoilt):
     text = (made[0] / "report" / "report.html").read_text(encoding="utf-8")
     assert Page(text.replace("</main>", f"{spoilt}</main>")).faults != []
+
+
+def test_the_experience_with_such_runs(made):
+    """Four of the made-up rods end rigid, two deformed, and the line of each kind says so."""
+    text = Page((made[0] / "report" / "report.html").read_text(encoding="utf-8")).text
+    rows = {row["case"]: row["regime"] for row in table(made[0] / "report").values()}
+    for regime in set(rows.values()):
+        number = list(rows.values()).count(regime)
+        (known,) = [row for row in experience.table() if (row.of, row.kind, row.chosen) == (
+            "hydro2d", f"depth of {regime} tungsten rods in aluminium", False)]  # fmt: skip
+        many = "" if number == len(rows) else f": {number} of {len(rows)} runs"
+        assert f"experience: {known.words}{many}" in text
+
+
+def test_experience_of_all_runs_has_no_number_of_runs():
+    def contents(*lines):
+        return SimpleNamespace(records=[SimpleNamespace(experience=list(each)) for each in lines])
+
+    assert report_page._experience(contents(["a"], ["a"], [])) == ["a"]
+    assert report_page._experience(contents(["a", "b"], ["a"])) == ["a", "b: 1 of 2 runs"]
+    assert report_page._experience(contents([], [])) == []
+
+
+def test_unfinished_runs_have_no_experience(study):
+    fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", status="unphysical")
+    record = next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke")
+    assert (record.experience, bool(record.unfinished)) == ([], True)
 
 
 def test_the_table(made):

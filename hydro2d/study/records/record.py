@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.analytic import model_deck
+from hydro2d.analytic import experience, model_deck
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
 from hydro2d.deck import key_messages
@@ -99,6 +99,7 @@ class Record:
     text, deck : the resolved deck as its file has it, and as tables, SI
     setup, velocity : setup and impact velocity in m/s; None without a projectile and a target
     target_density : initial density of a single target, kg/m^3
+    impact : what strikes what, None if the deck is none of the kinds of shots that are known
     shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
     history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
     start, rod : outlines of the projectile at the start and at the end
@@ -113,6 +114,7 @@ class Record:
     without_models: str = ""
     setup: Setup | None = None
     target_density: float | None = None
+    impact: experience.Impact | None = None
     history: dict[str, np.ndarray] = field(default_factory=dict)
     first: dict[str, float] = field(default_factory=dict)
     last: dict[str, float] = field(default_factory=dict)
@@ -227,6 +229,11 @@ class Record:
         thickness = self.setup.thickness if self.setup and self.perforated else None
         return self.value("penetration_depth_m") if thickness is None else thickness
 
+    @property
+    def experience(self) -> list[str]:
+        """How far results of such runs were from measurements, or that nobody knows; empty for a run that has not ended."""
+        return [] if self.unfinished else experience.of_run(self.impact, self.value("regime"), self.perforated)
+
     def value(self, name: str):
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
         result = self.case.summary.get(name)
@@ -270,6 +277,7 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
     except DeckError as error:
         record.problems.append(f"{file.name} is not a deck of this version: {str(error).splitlines()[0]}")
         return None
+    record.impact = experience.impact_of(deck)
     record.unread = [said for material in deck.materials.values() for said in material.unread()]
     if deck.penetration is None:
         return None

@@ -46,7 +46,8 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
         ensembles=_ensembles(contents, choice) if contents.study.ensembles else None,
-        results=columns_of_results(contents.study, contents.rows, choice), audit=columns_of_audit(),
+        results=columns_of_results(contents.study, contents.rows, choice), experience=_experience(contents),
+        audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )  # fmt: skip
 
@@ -75,6 +76,13 @@ def whole_words(text: str):
 def download(text: str, kind: str) -> str:
     """A text as a data URL, which needs no network."""
     return f"data:{kind};charset=utf-8;base64,{base64.b64encode(text.encode()).decode()}"
+
+
+def _experience(contents: Contents) -> list[str]:
+    """Every line of the experience with such runs, and of how many of the ended ones it is, unless it is of all."""
+    ended = [each.experience for each in contents.records if each.experience]
+    counts = Counter(line for lines in ended for line in lines)
+    return [line if number == len(ended) else f"{line}: {number} of {len(ended)} runs" for line, number in counts.items()]
 
 
 def _transitions(contents: Contents) -> dict:

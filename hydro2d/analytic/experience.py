@@ -1,0 +1,248 @@
+"""How far results were from measurements in the shots of the repository, for the kind of shot at hand.
+
+The table of experience is a file in `problems`, which `python -m problems.validation.experience` writes. A row is for one kind
+of shot: a quantity, what strikes what, and how the rod ends. It is the experience of runs, or of one analytic model.
+"""
+
+from __future__ import annotations
+
+import csv
+import functools
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+
+from hydro2d.deck import deck as decks
+from hydro2d.files.shipped import problems_folder
+from hydro2d.materials import library
+from hydro2d.materials.material import Material
+from hydro2d.mesh.regime import GROWING, LEFT
+from hydro2d.penetration.model import Model
+
+FILE = "validation/results/experience.csv"
+#: what a row is the experience of, if not of an analytic model
+RUNS = "hydro2d"
+DEPTH, HOLE, RESIDUAL, LENGTH, PERFORATION = "depth", "hole diameter", "residual velocity", "length", "perforation"
+#: how a rod ended by its measured depth, for analytic models, which are asked before anyone knows how their rod ends
+MEASURED = STAYED_RIGID, ERODED = "stayed rigid", "eroded"
+#: metals by density at rest in kg/m^3 and sound speed in m/s, of those that the shots of the repository are made of
+METALS = {
+    "aluminium": ((2600.0, 2900.0), (5000.0, 5600.0)),
+    "steel": ((7700.0, 8000.0), (4400.0, 4700.0)),
+    "copper": ((8800.0, 9050.0), (3700.0, 4050.0)),
+    "tungsten": ((16500.0, 19500.0), (3900.0, 4200.0)),
+}
+EXPLOSIVE, WALL = "explosive", "wall"
+#: beginning of a line, and its end where there is no row
+HEAD, NONE = "experience", "none for this kind of shot"
+
+
+@dataclass(frozen=True)
+class Impact:
+    """What strikes what: a rod, ball or bar with its material, such as "tungsten rod", and the material that it strikes.
+
+    An explosive strikes the metal that it drives.
+    """
+
+    projectile: str
+    target: str
+
+
+@dataclass(frozen=True)
+class Experience:
+    """A row of the table: ratios of computed to measured values for one kind of shot.
+
+    of : "hydro2d", or the name of an analytic model;  sets : the sets of shots, "; " between them
+    quantity : what is compared, such as "depth"
+    projectile, target : what strikes what, such as "tungsten rod" and "aluminium"
+    ended : regime at the end, of the run; for an analytic model, of the experiment; empty if it does not matter
+    fit : whether the measured values are points of a formula that was fitted to shots
+    chosen : whether something was chosen by looking at results
+    shots : number of ratios, one for each shot, or of outcomes;  right : outcomes as measured, of a row without ratios
+    bias, low, high : geometric mean of the ratios and its 90 % interval
+    scatter : standard deviation of their logarithms;  least, most : the smallest and the largest ratio
+    factor : with 90 %, the measured value of another shot is within this factor of its computed one over the bias
+    missed : shots that perforate although the measured projectile stopped, which have no ratio; of residual velocities, those
+        that stop although the measured one perforated
+    numerical : standard deviation of the logarithms within a shot, over members and meshes
+    measurement : relative standard deviation of the measurements;  model : scatter without it
+    slowest, fastest : impact velocities in m/s;  coarsest, finest : cells across the radius
+    """
+
+    of: str
+    quantity: str
+    projectile: str
+    target: str
+    ended: str
+    fit: bool
+    chosen: bool
+    sets: str
+    shots: int
+    right: int | None = None
+    bias: float | None = None
+    low: float | None = None
+    high: float | None = None
+    scatter: float | None = None
+    factor: float | None = None
+    least: float | None = None
+    most: float | None = None
+    missed: int = 0
+    numerical: float | None = None
+    measurement: float | None = None
+    model: float | None = None
+    slowest: float | None = None
+    fastest: float | None = None
+    coarsest: float | None = None
+    finest: float | None = None
+
+    @property
+    def impact(self) -> Impact:
+        return Impact(self.projectile, self.target)
+
+    @property
+    def kind(self) -> str:
+        """The kind of shot in words."""
+        return kind(self.quantity, self.impact, self.ended)
+
+    @property
+    def words(self) -> str:
+        """The row in a line, such as "computed/measured 0.97 (0.92 to 1.02), scatter 13 %, 21 shots (depth of ...)"."""
+        many = f"{self.shots} {'point' if self.fit else 'shot'}{'s' * (self.shots != 1)}{' of a fit to shots' * self.fit}"
+        about = [self.kind, *_range(self.slowest, self.fastest, "m/s"), *_range(self.coarsest, self.finest, "cells"),
+                 *(["set-up chosen by results"] if self.chosen else [])]  # fmt: skip
+        told = f"({', '.join(about)})"
+        if self.right is not None:
+            return f"{self.right} of {many} ended as measured {told}"
+        ways = ("stopped", "perforated") if self.quantity == RESIDUAL else ("perforated", "stopped")
+        missed = f", and {self.missed} that {ways[0]} where the measured one {ways[1]}" if self.missed else ""
+        if self.bias is None:
+            return f"no ratio{missed} {told}"
+        interval = "" if self.low is None else f" ({self.low:.2f} to {self.high:.2f})"
+        scatter = "" if self.scatter is None else f", scatter {100.0 * self.scatter:.0f} %"
+        within = "" if self.numerical is None else f", {100.0 * self.numerical:.0f} % between runs of one shot"
+        return f"computed/measured {self.bias:.2f}{interval}{scatter}{within}, {many}{missed} {told}"
+
+
+def _range(low: float | None, high: float | None, unit: str) -> list[str]:
+    """One text of a range, or none without its ends."""
+    if low is None or high is None:
+        return []
+    return [f"{low:g} {unit}" if low == high else f"{low:g} to {high:g} {unit}"]
+
+
+def kind(quantity: str, impact: Impact, ended: str) -> str:
+    """A kind of shot in words, such as "depth of eroding tungsten rods in aluminium"."""
+    if impact.target == WALL:
+        return f"{quantity} of a {impact.projectile} on a wall"
+    if impact.projectile == EXPLOSIVE:
+        return f"{quantity} of {impact.target} driven by an explosive"
+    who, how = f"{impact.projectile}s", "through" if quantity in (RESIDUAL, PERFORATION) else "in"
+    if ended in MEASURED:
+        return f"{quantity} of {who} that {ended}, {how} {impact.target}"
+    return f"{quantity} of {ended + ' ' if ended else ''}{who} {how} {impact.target}"
+
+
+@functools.cache
+def table() -> tuple[Experience, ...]:
+    """All rows of the shipped file. Raises FileNotFoundError."""
+    with open(problems_folder() / FILE, encoding="utf-8", newline="") as file:
+        return tuple(read(row) for row in csv.DictReader(file))
+
+
+def read(row: Mapping[str, str]) -> Experience:
+    """A row of the file; an empty text is a value that is not known. Raises KeyError for a missing column, ValueError."""
+    types_of = typing.get_type_hints(Experience)
+    return Experience(**{field.name: _value(row[field.name], types_of[field.name]) for field in fields(Experience)})
+
+
+def _value(text: str, kind_of: object) -> object:
+    allowed = typing.get_args(kind_of) or (kind_of,)
+    if types.NoneType in allowed and not text:
+        return None
+    of = allowed[0]
+    if of is bool:
+        return {"yes": True, "no": False}[text]
+    return of(text)  # type: ignore[operator]
+
+
+def substance(material: Material) -> str:
+    """The metal that a material is, by its density and sound speed, or "explosive"; else the material's name.
+
+    A metal without strength is none of them: in the shots of the table all have some.
+    """
+    if material.eos.name == "jwl":
+        return EXPLOSIVE
+    speed = material.eos.values.get("sound_speed")
+    for name, ((light, heavy), (slow, fast)) in METALS.items():
+        if material.has_strength and speed and light <= material.reference_density <= heavy and slow <= speed <= fast:
+            return name
+    return material.name
+
+
+def impact_of(deck: decks.Deck) -> Impact | None:
+    """What strikes what in a deck, by the metals of its bodies, as the table of experience names kinds of shots.
+
+    The result has ``projectile``, such as "tungsten rod", and ``target``, such as "aluminium", in a deck with a projectile;
+    several targets, and other bodies such as a jacket, are all named. An explosive and the metal that it
+    drives are "explosive" and the metal; one body on a wall is a "copper bar" and "wall". None for any other deck.
+    """
+    def of(name: str) -> str:
+        return substance(deck.materials[decks.body(deck, name).material])
+
+    names = [body.name for body in deck.body]
+    if deck.penetration is not None:
+        rod = decks.body(deck, deck.penetration.rod)
+        others = [of(name) for name in names if name != rod.name]
+        alike = len(others) > 1 and len(set(others)) == 1
+        return Impact(f"{of(rod.name)} {rod.shape}", f"{len(others)} bodies of {others[0]}" if alike else " and ".join(others))
+    if len(names) == 2 and of(names[0]) == EXPLOSIVE:
+        return Impact(EXPLOSIVE, of(names[1]))
+    if len(names) == 1 and WALL in (deck.boundaries.z_min, deck.boundaries.z_max):
+        return Impact(f"{of(names[0])} bar", WALL)
+    return None
+
+
+def of_run(impact: Impact | None, regime: str | None, perforated: bool) -> list[str]:
+    """Lines of the experience with a kind of run: computed over measured values, or that there are none.
+
+    regime : that of the rod at the end, None without a rod;  perforated : whether it left the target behind
+    """
+    ended = regime if regime in GROWING and not perforated else ""
+    return [f"{HEAD}: {each}" for each in _of_run(impact, ended, perforated, regime == LEFT)]
+
+
+def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool) -> Iterator[str]:
+    if impact is None:
+        yield NONE
+        return
+    rows = [row for row in table() if row.of == RUNS and row.impact == impact and row.ended in (ended, "")]
+    rows = [row for row in rows if perforated or row.quantity != RESIDUAL]
+    predicted = {row.quantity for row in rows if not row.chosen}
+    shown = [row for row in rows if not row.chosen or row.quantity not in predicted]
+    yield from (row.words for row in shown)
+    main = RESIDUAL if perforated else DEPTH
+    struck = ended or perforated or left
+    if struck and main not in {row.quantity for row in shown}:
+        yield f"{NONE} ({kind(main, impact, ended)})"
+    elif not shown:
+        yield NONE
+
+
+def of_model(model: Model, rod: Material | None, target: Material | None) -> list[str]:
+    """Lines of the experience with an analytic model for a rod of one material and a target of another, or that there is none.
+
+    It is that of the formula, with inputs from decks and the library, and not that of runs.
+
+    rod, target : None for those of the model's example
+    """
+    rows = [row for row in table() if row.of == model.name]
+    if not rows:
+        return [f"{HEAD}: none with this model"]
+    rod, target = (given or (library.load(name) if name else None)
+                   for given, name in ((rod, model.example.rod), (target, model.example.target)))  # fmt: skip
+    if rod is None or target is None:
+        return [f"{HEAD}: {NONE}"]
+    here = Impact(f"{substance(rod)} rod", substance(target))
+    shown = [row.words for row in rows if row.impact == here] or [f"{NONE} ({kind(DEPTH, here, '')})"]
+    return [f"{HEAD} with this model: {words}" for words in shown]

@@ -1,0 +1,165 @@
+"""The experience with a kind of shot: which rows of the shipped table belong to a run or to an analytic model."""
+
+import json
+
+import pytest
+
+import hydro2d
+from hydro2d.analytic import experience, models
+from hydro2d.analytic.experience import Experience, Impact
+from hydro2d.cli.main import call
+from hydro2d.materials import library
+
+RODS = Impact("tungsten rod", "aluminium")
+RIGID = Experience("hydro2d", "depth", "tungsten rod", "aluminium", "rigid", False, False, "a", 21, bias=0.97, low=0.92,
+                   high=1.02, scatter=0.13, least=0.8, most=1.3, slowest=900.0, fastest=1200.0, coarsest=6.0,
+                   finest=12.0)  # fmt: skip
+
+
+def change(**changes):
+    return Experience(**{**vars(RIGID), **changes})
+
+
+@pytest.fixture
+def table(monkeypatch):
+    """Replaces the shipped table by these rows."""
+    def by(*rows):
+        monkeypatch.setattr(experience, "table", lambda: rows)
+
+    return by
+
+
+def test_a_line(table):
+    table(RIGID)
+    assert experience.of_run(RODS, "rigid", False) == [
+        "experience: computed/measured 0.97 (0.92 to 1.02), scatter 13 %, 21 shots (depth of rigid tungsten rods in aluminium, "
+        "900 to 1200 m/s, 6 to 12 cells)"]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "words"), [
+    ({"numerical": 0.05}, "scatter 13 %, 5 % between runs of one shot, 21 shots ("),
+    ({"missed": 2}, "21 shots, and 2 that perforated where the measured one stopped ("),
+    ({"fit": True, "low": None}, "0.97, scatter 13 %, 21 points of a fit to shots ("),
+    ({"shots": 1, "low": None, "scatter": None}, "0.97, 1 shot ("),
+    ({"shots": 0, "bias": None, "missed": 1}, "no ratio, and 1 that perforated where the measured one stopped ("),
+    ({"quantity": "residual velocity", "ended": "", "missed": 1}, "21 shots, and 1 that stopped where the measured one perf"),
+    ({"chosen": True}, "6 to 12 cells, set-up chosen by results)"),
+    ({"coarsest": 8.5, "finest": 8.5, "slowest": None}, "(depth of rigid tungsten rods in aluminium, 8.5 cells)"),
+    ({"quantity": "perforation", "ended": "", "right": 10, "shots": 12},
+     "10 of 12 shots ended as measured (perforation of tungsten rods through aluminium, "),
+])  # fmt: skip
+def test_words_of_a_row(changes, words):
+    assert words in change(**changes).words
+
+
+@pytest.mark.parametrize(("quantity", "impact", "ended", "words"), [
+    ("depth", RODS, "eroding", "depth of eroding tungsten rods in aluminium"),
+    ("depth", RODS, "stayed rigid", "depth of tungsten rods that stayed rigid, in aluminium"),
+    ("residual velocity", Impact("steel rod", "steel"), "", "residual velocity of steel rods through steel"),
+    ("length", Impact("copper bar", "wall"), "", "length of a copper bar on a wall"),
+    ("wall velocity at 6 mm", Impact("explosive", "copper"), "", "wall velocity at 6 mm of copper driven by an explosive"),
+])  # fmt: skip
+def test_words_of_a_kind(quantity, impact, ended, words):
+    assert experience.kind(quantity, impact, ended) == words
+
+
+def test_a_run_has_the_rows_of_its_regime_and_materials(table):
+    rows = change(shots=7), change(ended="eroding", shots=2), change(target="steel", shots=9), change(of="tate", shots=8)
+    table(*rows)
+    (line,) = experience.of_run(RODS, "eroding", False)
+    assert ", 2 shots (" in line
+    assert experience.of_run(RODS, "deforming", False) == [
+        "experience: none for this kind of shot (depth of deforming tungsten rods in aluminium)"]
+
+
+def test_a_run_has_no_experience_of_a_formula(table):
+    table(change(of="tate"))
+    assert experience.of_run(RODS, "rigid", False) == [
+        "experience: none for this kind of shot (depth of rigid tungsten rods in aluminium)"]
+
+
+def test_a_rod_that_perforates_has_no_experience_of_depths(table):
+    table(RIGID, change(quantity="residual velocity", projectile="steel rod", target="steel", ended=""))
+    assert experience.of_run(RODS, "rigid", True) == [
+        "experience: none for this kind of shot (residual velocity of tungsten rods through aluminium)"]
+    (line,) = experience.of_run(Impact("steel rod", "steel"), "rigid", True)
+    assert "(residual velocity of steel rods through steel, " in line
+    assert "residual" not in "".join(experience.of_run(Impact("steel rod", "steel"), "rigid", False))
+
+
+def test_rows_with_choices_are_shown_where_there_are_no_others(table):
+    chosen = change(chosen=True, shots=3)
+    table(RIGID, chosen)
+    (line,) = experience.of_run(RODS, "rigid", False)
+    assert "chosen" not in line
+    table(chosen)
+    (line,) = experience.of_run(RODS, "rigid", False)
+    assert "set-up chosen by results" in line
+
+
+def test_no_kind_of_shot_has_no_experience():
+    assert experience.of_run(None, None, False) == ["experience: none for this kind of shot"]
+    assert experience.of_run(Impact("tungsten bar", "wall"), None, False) == ["experience: none for this kind of shot"]
+    (line,) = experience.of_run(RODS, "left the mesh", False)[-1:]
+    assert line == "experience: none for this kind of shot (depth of tungsten rods in aluminium)"
+
+
+def test_every_metal_of_the_library_is_recognised():
+    found = {name: experience.substance(library.load(name)) for name in library.names()}
+    for name, metal in {"Al": "aluminium", "steel_": "steel", "copper_": "copper", "W_": "tungsten"}.items():
+        own = [each for each in found if each.startswith(name) and library.load(each).has_strength and "porous" not in each]
+        assert {found[each] for each in own} == {metal}, name
+    others = {name for name, substance in found.items() if substance == name}
+    assert {"tantalum", "uranium", "lead", "nylon", "alumina_995", "Al_porous", "Al_tillotson", "granite_tillotson"} <= others
+    assert {name for name, substance in found.items() if substance == "explosive"} >= {"TNT", "C4", "octol"}
+
+
+@pytest.mark.parametrize(("deck", "impact"), [
+    ("cth_nose_shape/hemi_5083_1086", RODS),
+    ("validation/eroding_w_4340_2070", Impact("tungsten rod", "steel")),
+    ("whipple/shield", Impact("aluminium sphere", "2 bodies of aluminium")),
+    ("explosives/cylinder", Impact("explosive", "copper")),
+    ("classic/taylor_bar", Impact("copper bar", "wall")),
+    ("templates/jacketed", Impact("tungsten rod", "steel and aluminium")),
+    ("verification/sedov", None),
+])  # fmt: skip
+def test_what_strikes_what(deck, impact):
+    assert hydro2d.impact_of(hydro2d.Deck.from_file(f"problems/{deck}.toml")) == impact
+
+
+def test_a_material_of_a_deck_is_its_metal():
+    deck = hydro2d.Deck.from_file("problems/cth_nose_shape/hemi_5083_1086.toml",
+                                  ['body.rod.material="own"', 'materials.own.based_on="W_sintered"'])  # fmt: skip
+    assert hydro2d.impact_of(deck) == RODS
+
+
+def test_a_metal_without_strength_is_none_of_them():
+    deck = hydro2d.Deck.from_file("problems/validation/jet_w_5083_2.toml")
+    assert {experience.substance(material) for material in deck.materials.values()} & {*experience.METALS} == set()
+
+
+def test_a_model_has_its_own_experience(table):
+    table(RIGID, change(of="tate", ended="eroded", shots=4))
+    rod, target = library.load("W_alloy"), library.load("Al5083")
+    (line,) = experience.of_model(models.named("tate"), rod, target)
+    assert line.startswith("experience with this model: computed/measured 0.97")
+    assert ", 4 shots (depth of tungsten rods that eroded, in aluminium" in line
+    assert experience.of_model(models.named("forrestal"), rod, target) == ["experience: none with this model"]
+    assert experience.of_model(models.named("tate"), library.load("tantalum"), target) == [
+        "experience with this model: none for this kind of shot (depth of tantalum rods in aluminium)"]
+
+
+def test_without_materials_they_are_those_of_the_example(table):
+    table(change(of="tate", ended="eroded", shots=4))
+    example = models.named("tate").example
+    given = experience.of_model(models.named("tate"), *map(library.load, (example.rod, example.target)))
+    assert experience.of_model(models.named("tate"), None, None) == given
+
+
+def test_the_command_shows_it(capsys):
+    words = ["model", "tate", "--rod", "W_alloy", "--target", "Al5083", "--velocity", "1086m/s"]
+    assert call(words) == 0
+    last = capsys.readouterr().out.rstrip().splitlines()[-1]
+    assert last.startswith("experience with this model: computed/measured ")
+    assert call([*words, "--json"]) == 0
+    assert last in json.loads(capsys.readouterr().out)["experience"]
