@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
+    from hydro2d.mesh.regime import LEAST_KEPT_LENGTH
     from hydro2d.output.directory import RunError
     from hydro2d.results.figures import new_figure, save_figure
     from hydro2d.results.reading import Results, ResultsError
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from hydro2d.study.ensemble.chance import wilson
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
-    from hydro2d.study.records.layout import Case
+    from hydro2d.study.records.study_directory import Case
     from hydro2d.study.search.logit import fit_transition
 
 #: modules of the public names, imported on first use, so that `import hydro2d` costs nothing
@@ -44,7 +45,7 @@ _PLACES = {
     "sweep": "hydro2d.api",
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
-    "Case": "hydro2d.study.records.layout",
+    "Case": "hydro2d.study.records.study_directory",
     "kept_rows": "hydro2d.study.records.keeping",
     "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
@@ -53,6 +54,7 @@ _PLACES = {
     "fit_transition": "hydro2d.study.search.logit",
     "wilson": "hydro2d.study.ensemble.chance",
     "to_si": "hydro2d.base.units",
+    "LEAST_KEPT_LENGTH": "hydro2d.mesh.regime",
     "new_figure": "hydro2d.results.figures",
     "save_figure": "hydro2d.results.figures",
     "register": "hydro2d.materials.outside",
@@ -65,6 +67,7 @@ _PLACES = {
 }
 
 __all__ = [
+    "LEAST_KEPT_LENGTH",
     "Case",
     "Deck",
     "DeckError",
