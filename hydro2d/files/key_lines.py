@@ -29,9 +29,10 @@ def _ending(head: str) -> str:
 @functools.lru_cache(maxsize=256)
 def _first_lines(text: str, number: int) -> dict | None:
     """The data in the first lines of a TOML text, with open strings, arrays and tables closed; None where they do not end."""
-    head = "\n".join(text.split("\n")[:number])
+    lines = text.split("\n")
+    head = "\n".join(lines[:number])
     try:
-        return tomllib.loads(f"{head}\n{_ending(head)}")
+        return tomllib.loads(f"{head}\n{_ending(head)}" if number < len(lines) else text)
     except tomllib.TOMLDecodeError:
         return None
 
