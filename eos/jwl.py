@@ -64,8 +64,9 @@ SPENT = 1.0, NEVER, 1.0
 #: indices of the internal variables
 BURNT, LIGHT, BURN_TIME = range(3)
 
-#: share of the burn time before the light time, which is that of the middle of a cell: half of the explosive has burnt before
-#: the detonation arrives there and half of the pressure is reached after it, both within half a cell
+#: share of the burn time before the light time, at which the detonation reaches the middle of a cell: half of the explosive has
+#: then burnt up to half a cell ahead of the detonation, and half of the pressure is reached as far behind it (0.7 of a cell
+#: along a diagonal of the mesh); see explanation/explosives
 LEAD = 0.64
 
 #: slots of the row; the common ones are RHO0 and E0

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
+    from hydro2d.mesh.regime import LEAST_KEPT_LENGTH
     from hydro2d.output.directory import RunError
     from hydro2d.results.figures import new_figure, save_figure
     from hydro2d.results.reading import Results, ResultsError
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from hydro2d.study.ensemble.chance import bias_and_scatter, wilson
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
-    from hydro2d.study.records.layout import Case
+    from hydro2d.study.records.study_directory import Case
     from hydro2d.study.search.logit import fit_transition
 
 #: modules of the public names, imported on first use, so that `import hydro2d` costs nothing
@@ -54,7 +55,7 @@ _PLACES = {
     "sweep": "hydro2d.api",
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
-    "Case": "hydro2d.study.records.layout",
+    "Case": "hydro2d.study.records.study_directory",
     "kept_rows": "hydro2d.study.records.keeping",
     "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
@@ -68,6 +69,7 @@ _PLACES = {
     "Impact": "hydro2d.analytic.experience",
     "impact_of": "hydro2d.analytic.experience",
     "to_si": "hydro2d.base.units",
+    "LEAST_KEPT_LENGTH": "hydro2d.mesh.regime",
     "new_figure": "hydro2d.results.figures",
     "save_figure": "hydro2d.results.figures",
     "register": "hydro2d.materials.outside",
@@ -80,6 +82,7 @@ _PLACES = {
 }
 
 __all__ = [
+    "LEAST_KEPT_LENGTH",
     "Case",
     "Deck",
     "DeckError",

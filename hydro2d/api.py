@@ -23,7 +23,7 @@ from hydro2d.running.team import at_most
 from hydro2d.study.ensemble import contents
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from hydro2d.study.run import cluster
 from hydro2d.study.run import sweep as sweeps
 from hydro2d.study.run.choice import Choice
@@ -94,7 +94,7 @@ def open_run(directory: str | Path, *, trust: bool = False) -> Results:
     return Results(directory, trust=trust)
 
 
-class Study(layout.Study):
+class Study(study_directory.Study):
     """A study directory, or several runs treated as a study, as `open_study` reads them.
 
     Attributes
@@ -124,7 +124,7 @@ class Study(layout.Study):
 
 def open_study(directory: str | Path) -> Study:
     """Opens a study directory in any state of completion, or a run or a folder of runs as a study. Raises StudyError."""
-    return Study(**vars(layout.load(Path(directory))))
+    return Study(**vars(study_directory.load(Path(directory))))
 
 
 def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = None, *, directory: str | Path | None = None,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
+import subprocess
 from pathlib import Path
 
 from hydro2d.files import whole
@@ -28,3 +30,9 @@ class Disk:
     def begin(self, full: int = 0, once: bool = False) -> None:
         """Starts the count again. full : number of the first file without space, 0 for none;  once : for that file only"""
         self.count, self.full, self.once = 0, full, once
+
+
+def can_mount() -> bool:
+    """Whether a small file system can be mounted here."""
+    probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
+    return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0

@@ -585,13 +585,13 @@ def test_threads_are_those_of_the_run_alone(deck, tmp_path, monkeypatch):
 
 
 def test_reprs_are_short(deck, shot):
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
 
     assert repr(deck) == str(deck)
     assert len(repr(deck)) < 120
     assert repr(deck.stop) == str(deck.stop) == "Stop(time=4e-06, body='rod', speed_below=55.0)"
     assert len(repr(deck.body[0])) < 250
-    assert repr(layout.gather([shot.directory])).endswith(": 1 case, 1 ended>")
+    assert repr(study_directory.gather([shot.directory])).endswith(": 1 case, 1 ended>")
     assert len(repr(hydro2d.open_study(shot.directory).cases[0])) < 250
     assert len(repr(shot)) < 120
     assert repr(shot.view()).startswith("<View: a page of ")

@@ -5,15 +5,18 @@ from __future__ import annotations
 import functools
 import operator
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Any, cast
+from typing import Annotated, Any, TypeVar, cast
 
 from annotated_types import GroupedMetadata
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
 
 from hydro2d.base import units
 from hydro2d.base.parameters import ANY, NON_NEGATIVE, POSITIVE, Parameter
+from hydro2d.base.tables import Rows
+
+S = TypeVar("S", bound="Section")
 
 #: characters of a name
 LONGEST_NAME = 200
@@ -77,10 +80,6 @@ def _fraction(value: float) -> float:
     return value
 
 
-def _to_si(value, unit: str) -> float:
-    return units.in_reach(units.to_si(value, unit), unit)
-
-
 @dataclass(frozen=True)
 class Quantity(GroupedMetadata):
     """Marks a float as a number in ``unit``, given in SI or as a string with a unit, and kept in SI: Annotated[float, ...]."""
@@ -92,7 +91,7 @@ class Quantity(GroupedMetadata):
         schema: dict[str, Any] = {"type": "number", "x-unit": self.unit}
         if self.unit != "1":
             schema = {"anyOf": [{"type": "number"}, {"type": "string"}], "x-unit": self.unit}
-        yield BeforeValidator(partial(_to_si, unit=self.unit))
+        yield BeforeValidator(partial(units.read, unit=self.unit))
         if self.check is not None:
             yield AfterValidator(self.check)
         yield WithJsonSchema(schema)
@@ -120,7 +119,6 @@ PositiveDensity = Annotated[float, Quantity("kg/m^3", _positive)]
 Pressure = Annotated[float, Quantity("Pa")]
 Temperature = Annotated[float, Quantity("K", _not_negative)]
 SpecificEnergy = Annotated[float, Quantity("J/kg")]
-Angle = Annotated[float, Quantity("rad", _positive)]
 Number = Annotated[float, Quantity("1")]
 PositiveNumber = Annotated[float, Quantity("1", _positive)]
 Fraction = Annotated[float, Quantity("1", _fraction)]
@@ -132,19 +130,36 @@ _SIGNS: dict[str, Callable[[float], float] | None] = {ANY: None, POSITIVE: _posi
 
 
 def type_of(declared: Parameter) -> Any:
-    """The type of a key that a kind of edge or nose declares: a number in its unit, within the range of its sign."""
-    return Annotated[float, Quantity(declared.unit or "1", _SIGNS[declared.sign])]
+    """The type of a declared key: a number in its unit, or a table of rows, within the range of its sign."""
+    table, unit, check = declared.table, declared.unit or "1", _SIGNS[declared.sign]
+    if table is None:
+        return Annotated[float, Quantity(unit, check)]
+    read = BeforeValidator(partial(table.read, unit=unit, check=check))
+    return Annotated[float | Rows if table.or_number else Rows, read, WithJsonSchema(table.schema(unit))]
 
 
-def optional(declared: Parameter, description: str, kind: Any = None) -> tuple[Any, Any]:
-    """Type and field of a declared key that a table may leave out, for `pydantic.create_model`; kind : in place of a number."""
-    return (kind or type_of(declared)) | None, Field(None, description=description, examples=[declared.example])
+def field_of(declared: Parameter) -> tuple[Any, Any]:
+    """Type and field of a declared key, for `with_keys`: a key without a default may be left out."""
+    kind, default = type_of(declared), ... if declared.required else declared.default
+    return (kind | None if default is None else kind,
+            Field(default, description=declared.description, examples=[declared.example]))
+
+
+def optional(declared: Parameter, description: str) -> tuple[Any, Any]:
+    """`field_of` a key that may be left out of a table that is shared by several kinds."""
+    return field_of(replace(declared, default=None, description=description))
+
+
+def with_keys(section: type[S], keys: Mapping[str, tuple[Any, Any]]) -> type[S]:
+    """The section, under the same name, with more keys: the type and the field of each."""
+    name, page, place = section.__name__.lstrip("_"), section.__doc__, section.__module__
+    return create_model(name, __base__=section, __doc__=page, __module__=place, **cast(Any, keys))
 
 
 def _pair(value, unit: str) -> tuple[float, float]:
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise ValueError(f"expected two numbers or strings in {unit}, [first, second]")
-    return _to_si(value[0], unit), _to_si(value[1], unit)
+    return units.read(value[0], unit), units.read(value[1], unit)
 
 
 def _interval(value) -> tuple[float, float]:
@@ -157,7 +172,7 @@ def _interval(value) -> tuple[float, float]:
 def _velocity(value) -> tuple[float, float]:
     if isinstance(value, (list, tuple)):
         return _pair(value, "m/s")
-    return 0.0, _to_si(value, "m/s")
+    return 0.0, units.read(value, "m/s")
 
 
 _ITEM_SCHEMA = {"anyOf": [{"type": "number"}, {"type": "string"}]}

@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any, Protocol
 
 from hydro2d.base.errors import unknown
+from hydro2d.base.tables import Table
 
 
 class Required:
@@ -37,12 +38,13 @@ def check_sign(name: str, number: float, sign: str, error: type[ValueError] = Va
 
 @dataclass(frozen=True)
 class Parameter:
-    """One number of a material model, or one key of an edge or a nose.
+    """One number of a material model, or one key of an edge, a nose or a source.
 
     ``unit`` is in SI, and empty for a pure number. ``default`` is a float, ``REQUIRED``, or None if it may be left out; only a
     parameter with an infinite default may be infinite. ``sign`` is ``ANY``, ``POSITIVE`` or ``NON_NEGATIVE``. ``from_eos``
     marks a property of the material that its equation of state also has, under the same name. ``example`` is a value as written
-    in a deck, for its reference page. ``over_time`` marks a table [[time, value], ...] in place of one value.
+    in a deck, for its reference page. With ``table`` the value is not one number but a table of rows; ``unit`` then has
+    the unit of each column, with commas, and ``sign`` is that of the last one.
     """
 
     name: str
@@ -53,7 +55,7 @@ class Parameter:
     sign: str = NON_NEGATIVE
     from_eos: bool = False
     example: Any = None
-    over_time: bool = False
+    table: Table | None = None
 
     @property
     def required(self) -> bool:

@@ -230,6 +230,11 @@ def to_si(value: float | str, unit: str) -> float:
     return number
 
 
+def read(value: float | str, unit: str) -> float:
+    """`to_si` of a value in a deck, which must be `in_reach` as well."""
+    return in_reach(to_si(value, unit), unit)
+
+
 def of_argument(text: str, unit: str) -> float:
     """SI value of an argument of a command: a number with its unit, or a bare one if it is 0 or the quantity is a plain number.
 

@@ -151,9 +151,9 @@ def converge(
 def _conclude(directory: Path, y, quiet: bool) -> None:
     """Writes and prints the results of all meshes."""
     from hydro2d.study.ensemble import contents, convergence
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
 
-    sequences = convergence.sequences(contents.collect(layout.read(directory)), y)
+    sequences = convergence.sequences(contents.collect(study_directory.read(directory)), y)
     convergence.write(directory, sequences)
     for line in [line for each in sequences for line in ("", *each.lines())] if not quiet else []:
         say(line)

@@ -44,7 +44,7 @@ def status(
     """
     import_matplotlib()
     from hydro2d.results import terminal_charts
-    from hydro2d.study.records.layout import RUNNING
+    from hydro2d.study.records.study_directory import RUNNING
 
     terminal = sys.stdout.isatty()
     drawn = bool(quantity) or (terminal and terminal_charts.available()) if plot is None else plot
@@ -69,10 +69,10 @@ def _look(run: Path, quantity: list[str] | None, drawn: bool) -> tuple[tuple[lis
     from hydro2d.output.directory import HISTORY
     from hydro2d.results import standing, terminal_charts
     from hydro2d.results.reading import Results
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
 
     opened = Results(run)
-    (case,) = layout.gather([run]).cases
+    (case,) = study_directory.gather([run]).cases
     lines = standing.lines(opened, case.status, case.message, case.progress)
     charts: list[str] = []
     if drawn and (opened.directory / HISTORY).exists():
@@ -93,7 +93,7 @@ def _live(run: Path, quantity: list[str] | None, drawn: bool) -> None:
     from rich.text import Text
 
     from hydro2d.base.terminal import one_line
-    from hydro2d.study.records.layout import RUNNING
+    from hydro2d.study.records.study_directory import RUNNING
 
     state = RUNNING
     with Live(auto_refresh=False, vertical_overflow="visible") as live:

@@ -96,42 +96,42 @@ def sweep(
 
 def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), skip: Sequence[str] = (), quiet: bool) -> int:
     """Runs the cases of a plan and prints the joint results of ensembles. Returns the exit status."""
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
     from hydro2d.study.run import sweep as sweeps
     from hydro2d.study.run.choice import Choice
 
     choice = Choice(plan, only, skip, again=workers.anew)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
                           overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
-    if plan.ensemble and not quiet and (out / layout.STUDY).is_file():
+    if plan.ensemble and not quiet and (out / study_directory.STUDY).is_file():
         say("")
         _show_ensembles(out)
     return status
 
 
 def _is_of_parts(study: Path) -> bool:
-    from hydro2d.study import parts
+    from hydro2d.study import study_parts
 
-    return study.is_file() and parts.is_of_parts(study)
+    return study.is_file() and study_parts.is_of_parts(study)
 
 
 def _parts(study: Path, place: Path, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
            quiet: bool) -> int:  # fmt: skip
     """Runs the parts of a study in turn. The next part runs despite a failed case, but not after an interrupt."""
-    from hydro2d.study import parts
-    from hydro2d.study.records import layout
+    from hydro2d.study import study_parts
+    from hydro2d.study.records import study_directory
     from hydro2d.study.run.sweep import SOME_FAILED
 
-    plans = parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
+    plans = study_parts.plans(study, overrides, size, only, again=workers.anew, quiet=quiet)
     if check:
-        return parts.show(plans, workers.number)
+        return study_parts.show(plans, workers.number)
     worst = 0
     place.mkdir(parents=True, exist_ok=True)
     for number, each in enumerate(plans, 1):
         if not quiet:
             say(f"part {number} of {len(plans)}: {each.name}")
         directory = place / each.name
-        of_part = replace(workers, resume=workers.resume and (directory / layout.STUDY).is_file())
+        of_part = replace(workers, resume=workers.resume and (directory / study_directory.STUDY).is_file())
         if each.plan.search:
             status = run_search(each.plan, directory, of_part, quiet=quiet)
         else:
@@ -139,18 +139,18 @@ def _parts(study: Path, place: Path, overrides: list[str], size, workers: Worker
         if status > SOME_FAILED:
             return status
         worst = max(worst, status)
-    for line in parts.mixed(plans):
+    for line in study_parts.mixed(plans):
         say(wrapped(line))
     return worst
 
 
 def _status_of_parts(study: Path, out: Path | None) -> int:
     """Prints how far each part of a study has got."""
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
     from hydro2d.study.run import monitor
 
-    for directory in sorted(file.parent for file in (out or _directory(study)).glob(f"*/{layout.STUDY}")):
-        say(wrapped(f"{directory.name}: {monitor.counts(list(layout.read(directory).cases))}"))
+    for directory in sorted(file.parent for file in (out or _directory(study)).glob(f"*/{study_directory.STUDY}")):
+        say(wrapped(f"{directory.name}: {monitor.counts(list(study_directory.read(directory).cases))}"))
     return 0
 
 
@@ -228,18 +228,18 @@ def run_search(plan, out: Path, workers: Workers, *, quiet: bool) -> int:
 def _show_ensembles(directory: Path) -> None:
     """Prints the joint results of the members of each case of a study."""
     from hydro2d.study.ensemble import contents, ensembles
-    from hydro2d.study.records import layout, responses
+    from hydro2d.study.records import responses, study_directory
 
-    results = contents.collect(layout.read(directory))
+    results = contents.collect(study_directory.read(directory))
     for line in ensembles.report(results.ensembles, responses.choose(results.study, results.records).y):
         say(wrapped(line))
 
 
 def _status(study: Path, out: Path | None) -> int:
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
     from hydro2d.study.run import monitor
 
-    opened = layout.read(out or (study if study.is_dir() else _directory(study)))
+    opened = study_directory.read(out or (study if study.is_dir() else _directory(study)))
     lines = monitor.status(opened)
     if opened.search is not None:
         from hydro2d.study.search import regimes

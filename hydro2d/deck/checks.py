@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.base.errors import unknown
-from hydro2d.deck import derived
+from hydro2d.deck import formulas
 from hydro2d.deck.layout import axis_edges, extent, layout
-from hydro2d.deck.mesh import SegmentError, body, body_radius
+from hydro2d.deck.mesh import MeshError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
@@ -169,7 +169,7 @@ def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield ("boundaries", "r_min"), 'r = 0 of a cylindrical mesh is the axis; only "axis" is allowed there'
     try:
         r, z = axis_edges(deck, "r"), axis_edges(deck, "z")
-    except SegmentError as problem:
+    except MeshError as problem:
         yield problem.path, str(problem)
         return
     direction = 0.0
@@ -313,6 +313,6 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield ("stop", "body"), "is missing: the name of the body whose speed is watched"
     if deck.stop.perforation and deck.penetration is None:
         yield ("stop", "perforation"), "needs a projectile and a target"
-    yield from derived.problems(deck)
+    yield from formulas.problems(deck)
     if deck.output.history_interval is None or deck.output.vtk_interval is None:
         yield ("output",), "without stop.time, history_interval and vtk_interval must be given"

@@ -20,9 +20,9 @@ from hydro2d.base import units
 from hydro2d.base.errors import MOST_LINES, DeckError, unknown
 from hydro2d.deck import key_messages, sections
 from hydro2d.deck.checks import axial_length, bars_to_follow, faces, heading, inconsistencies, room, travel, unsupported
-from hydro2d.deck.generated_mesh import ReachError, as_segments, with_segments
+from hydro2d.deck.generated_mesh import as_segments, with_segments
 from hydro2d.deck.layout import body_groups, edges, extent, layout, slots
-from hydro2d.deck.mesh import body, body_radius, cells_between
+from hydro2d.deck.mesh import MeshError, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
 from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources, spelled
@@ -240,7 +240,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
         raise DeckError("\n".join(dict.fromkeys(problems))) from None
     try:
         deck = with_segments(deck)
-    except ReachError as error:
+    except MeshError as error:
         raise complaint(error.path, str(error)) from None
     wrong_together = islice(chain(inconsistencies(deck), _unknown_materials(data)), MOST_LINES)
     problems += [str(complaint(path, message)) for path, message in wrong_together]

@@ -12,7 +12,7 @@ from hydro2d.base import units
 from hydro2d.base.errors import unknown
 from hydro2d.deck.checks import heading
 from hydro2d.deck.layout import extent
-from hydro2d.deck.mesh import body
+from hydro2d.deck.mesh import MeshError, body
 from hydro2d.deck.mesh_sections import GENERATED, Mesh, as_text, radii
 from hydro2d.deck.sections import Deck
 
@@ -27,18 +27,10 @@ MOST = 1_000_000
 ROUNDING = 1e-6
 
 
-class ReachError(ValueError):
-    """A mesh that cannot be made; ``path`` is its key in the deck."""
-
-    def __init__(self, path: tuple, message: str):
-        super().__init__(message)
-        self.path = path
-
-
 def with_segments(deck: Deck) -> Deck:
     """The deck with the segments that its `mesh.cells_across` and `mesh.reach` stand for; the same deck without these keys.
 
-    Raises ReachError.
+    Raises MeshError.
     """
     mesh = deck.mesh
     if mesh.reach is None:
@@ -75,7 +67,7 @@ def _measured(deck: Deck):
     """The body across which cells are counted."""
     names, given = [entry.name for entry in deck.body], deck.mesh.across
     if given is not None and given not in names:
-        raise ReachError(("mesh", "across"), unknown("body", given, names))
+        raise MeshError(("mesh", "across"), unknown("body", given, names))
     chosen = given or deck.mesh.follow or (deck.penetration.rod if deck.penetration else None)
     if chosen in names:
         return body(deck, chosen)
@@ -89,14 +81,14 @@ def _reach(entry, deck: Deck) -> float:
         return float(deck.mesh.reach)
     radius = entry.reach_radius(deck.mesh.r_start)
     if not math.isfinite(radius):
-        raise ReachError(("mesh", "reach"), f'"{entry.name}" has no radius; give a length, such as "20 mm"')
+        raise MeshError(("mesh", "reach"), f'"{entry.name}" has no radius; give a length, such as "20 mm"')
     return count * radius
 
 
 def _count(length: float, size: float, key: str) -> int:
     """Cells of this size that cover a length."""
     if length / size > MOST:
-        raise ReachError(("mesh", key), f"would need {length / size:.3g} cells of {size:.3g} m")
+        raise MeshError(("mesh", key), f"would need {length / size:.3g} cells of {size:.3g} m")
     return max(math.ceil(length / size - ROUNDING), 0)
 
 

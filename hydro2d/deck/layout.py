@@ -27,7 +27,7 @@ class Layout:
 
     slots : names of the bodies with their own place in the arrays, in the order of index m
     groups : body group of every slot, that is, its velocity field: 1 for the hard bodies of a contact, else 0
-    edges : edges of the cells in m without ghosts by axis, float64[n + 1]; asking for them raises SegmentError for a segment
+    edges : edges of the cells in m without ghosts by axis, float64[n + 1]; asking for them raises MeshError for a segment
         that cannot be divided into cells
     bodies : in the order of the deck
     """
@@ -77,7 +77,7 @@ def extent(body: Body, deck: Deck, axis: str) -> tuple[float, float]:
 
 
 def axis_edges(deck: Deck, axis: str) -> np.ndarray:
-    """Edges along "r" or "z", float64[n + 1]. Raises SegmentError for a segment that cannot be divided into cells."""
+    """Edges along "r" or "z", float64[n + 1]. Raises MeshError for a segment that cannot be divided into cells."""
     return layout(deck).edges[axis]
 
 

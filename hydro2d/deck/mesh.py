@@ -22,8 +22,8 @@ _STEEPEST, _LARGEST = 1e-3, 1e300
 _GROWTH = 50.0
 
 
-class SegmentError(ValueError):
-    """A segment that cannot be divided into cells; ``path`` is its key in the deck."""
+class MeshError(ValueError):
+    """A mesh or a segment that cannot be divided into cells; ``path`` is its key in the deck."""
 
     def __init__(self, path: tuple, message: str):
         super().__init__(message)
@@ -44,7 +44,7 @@ def body_radius(deck: Deck, name: str) -> float | None:
 
 
 def edges_along(deck: Deck, axis: str) -> np.ndarray:
-    """Edges along "r" or "z", float64[n + 1]. Raises SegmentError for a segment that cannot be divided into cells."""
+    """Edges along "r" or "z", float64[n + 1]. Raises MeshError for a segment that cannot be divided into cells."""
     edges = [deck.mesh.r_start if axis == "r" else deck.mesh.z_start]
     for *_, new in _laid(deck, axis):
         edges += new.tolist()
@@ -68,13 +68,13 @@ def misfits(deck: Deck) -> Iterator[str]:
 
 
 def _laid(deck: Deck, axis: str) -> Iterator[tuple[int, Segment, float, np.ndarray]]:
-    """The segments of an axis: number, segment, start, and the edges without the first. Raises SegmentError."""
+    """The segments of an axis: number, segment, start, and the edges without the first. Raises MeshError."""
     start, previous = (deck.mesh.r_start if axis == "r" else deck.mesh.z_start), None
     for number, segment in enumerate(getattr(deck.mesh, axis)):
         try:
             new = _segment(deck, segment, start, previous, _as_written(deck, axis, number))
         except ValueError as problem:
-            raise SegmentError(("mesh", axis, number), str(problem)) from None
+            raise MeshError(("mesh", axis, number), str(problem)) from None
         yield number, segment, start, new
         previous = float(new[-1] - (new[-2] if len(new) > 1 else start))
         start = float(new[-1])

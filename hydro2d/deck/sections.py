@@ -21,7 +21,7 @@ from hydro2d.base.keys import (
     Time,
     within,
 )
-from hydro2d.deck.boundaries import Boundaries
+from hydro2d.deck.boundary_section import Boundaries
 from hydro2d.deck.mesh_sections import Mesh
 from hydro2d.deck.shapes.registry import AnyBody
 from hydro2d.sources.registry import AnySource

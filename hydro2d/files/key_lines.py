@@ -4,24 +4,37 @@ from __future__ import annotations
 
 import bisect
 import functools
-import itertools
+import re
 import tomllib
 
-#: what may be missing after the first lines of a TOML file: ends of strings, arrays and inline tables
-_ENDINGS = tuple(end + "".join(brackets) for depth in range(4) for end in ("", '"""', "'''")
-                 for brackets in itertools.product("]}", repeat=depth))  # fmt: skip
+#: strings and comments of a TOML text, which are not its structure; the group is the start of a string that does not end
+_QUOTED = re.compile(
+    r'"""(?:\\.|[^\\])*?"{3,5}|\'{3}.*?\'{3,5}|("{3}|\'{3}).*|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'|#[^\n]*', re.DOTALL)
+_CLOSING = {"[": "]", "{": "}"}
+
+
+def _ending(head: str) -> str:
+    """What is missing after the first lines of a valid TOML text: the ends of its open string, arrays and inline tables."""
+    structure = _QUOTED.sub(r"\1", head)
+    missing: list[str] = []
+    for bracket in re.findall(r"[][{}]", structure):
+        if bracket in _CLOSING:
+            missing.append(_CLOSING[bracket])
+        else:
+            missing.pop()
+    opened = structure[-3:] if structure.endswith(('"""', "'''")) else ""
+    return opened + "".join(reversed(missing))
 
 
 @functools.lru_cache(maxsize=256)
 def _first_lines(text: str, number: int) -> dict | None:
     """The data in the first lines of a TOML text, with open strings, arrays and tables closed; None where they do not end."""
-    head = "\n".join(text.split("\n")[:number])
-    for ending in _ENDINGS:
-        try:
-            return tomllib.loads(f"{head}\n{ending}")
-        except tomllib.TOMLDecodeError:
-            continue
-    return None
+    lines = text.split("\n")
+    head = "\n".join(lines[:number])
+    try:
+        return tomllib.loads(f"{head}\n{_ending(head)}" if number < len(lines) else text)
+    except tomllib.TOMLDecodeError:
+        return None
 
 
 def line_of(path: tuple, text: str) -> int | None:

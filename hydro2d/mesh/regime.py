@@ -14,7 +14,7 @@ RIGID_LENGTH, RIGID_RADIUS = 0.05, 0.10
 #: it is eroding once it has lost more than this share of its length, or more than that of its mass has left its core
 ERODED_LENGTH, ERODED_MASS = 1.0 / 3.0, 0.10
 #: least share of its length that a rod keeps if it does not erode; erosion leaves less, perhaps a needle or two
-LEAST_KEPT = 1.0 - ERODED_LENGTH
+LEAST_KEPT_LENGTH = 1.0 - ERODED_LENGTH
 
 #: the rule in words
 RULE = {
@@ -30,6 +30,6 @@ def regime(length: float, radius: float, core: float) -> str:
 
     length, radius, core : length, largest radius and mass of the core, each over its value at the start
     """
-    if length < LEAST_KEPT or core < 1.0 - ERODED_MASS:
+    if length < LEAST_KEPT_LENGTH or core < 1.0 - ERODED_MASS:
         return ERODING
     return RIGID if length > 1.0 - RIGID_LENGTH and radius < 1.0 + RIGID_RADIUS else DEFORMING

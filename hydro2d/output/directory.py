@@ -16,7 +16,7 @@ DECK, SUMMARY, HISTORY, LOG, LOCK = "deck.toml", "summary.json", "history.h5", "
 PROGRESS = "progress.json"
 OWN_FILES = (DECK, SUMMARY, HISTORY, LOG, PROGRESS, snapshot.NAME, snapshot.PREVIOUS, *SERIES.values())
 
-#: file in the directory of a study, see study/records/layout.py
+#: file in the directory of a study, see study/records/study_directory.py
 STUDY = "study.json"
 
 

@@ -14,8 +14,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from hydro2d.penetration.model import Example, Input, InputError, Model, Output, non_negative, positive
-from hydro2d.penetration.recht_ipson import LIMIT_VELOCITY
+from hydro2d.penetration.model import Example, Input, InputError, Model, non_negative, positive
+from hydro2d.penetration.recht_ipson import LIMIT_VELOCITY, OUTPUTS
 
 #: exponents from which a fit starts, and its allowed range; p = 1 would be a straight line
 STARTS, EXPONENTS = (1.5, 2.0, 3.0, 5.0), (1.0, 20.0)
@@ -111,12 +111,7 @@ MODEL = Model(
         Input("lambert.a", "1", "slope of the residual velocity at high velocity", "a", default=1.0),
         Input("lambert.p", "1", "exponent; 2 stands for conservation of energy", "p", default=2.0),
     ),
-    outputs=(
-        Output("residual_velocity", "m/s", "velocity behind the plate", "V_r"),
-        Output("residual_over_limit", "1", "velocity behind the plate over the ballistic limit", "V_r/V50"),
-        Output("limit_velocity", "m/s", "ballistic limit", "V50"),
-        Output("regime", "", "perforation or stopped"),
-    ),
+    outputs=OUTPUTS,
     main="residual_velocity",
     example=Example(
         rod="W_alloy", target="steel_4340", velocity=1200.0, velocities=(500.0, 2000.0),

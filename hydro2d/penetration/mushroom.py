@@ -46,11 +46,6 @@ class Rod:
             raise InputError(f"rod.length = {self.length:g}: must be more than the radius, {0.5 * self.diameter:g} m")
 
     @property
-    def wave_speed(self) -> float:
-        """c0 = sqrt(Ep/rho_p), m/s."""
-        return math.sqrt(self.youngs_modulus / self.density)
-
-    @property
     def elastic_limit(self) -> float:
         """(1 - nu)/(1 - 2 nu) Yp, Pa: Luk & Piekutowski (1991), eq. (5)."""
         return (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio) * self.strength

@@ -14,7 +14,7 @@ from hydro2d.output.directory import HISTORY
 def lines(run, status: str, message: str, progress: dict) -> list[str]:
     """The state of a run (results.Results), a line for each item.
 
-    status, message, progress : of its directory, as in study.records.layout.Case
+    status, message, progress : of its directory, as in study.records.study_directory.Case
 
     Raises HistoryError, VtkError.
     """

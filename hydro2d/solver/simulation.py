@@ -11,7 +11,7 @@ from hydro2d.base import units
 from hydro2d.base.errors import UnphysicalState, unknown
 from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.deck import deck as decks
-from hydro2d.deck import derived
+from hydro2d.deck import formulas
 from hydro2d.jit import compilation
 from hydro2d.materials import library
 from hydro2d.mesh import fields, quantities, sums
@@ -100,7 +100,7 @@ class Simulation:
         self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
         self.columns: dict[str, Callable[[Simulation], float]] = {}
         self.lengths = body_measurements.lengths(self)
-        self.formulas = derived.expressions(deck)
+        self.formulas = formulas.expressions(deck)
         assert deck.output.history_interval is not None, "a resolved deck has one"
         self._recorder = Recorder(deck.output.history_interval)
 

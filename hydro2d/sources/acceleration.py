@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
-from pydantic import Field
 
-from hydro2d.base.over_time import AccelerationOverTime, integral
-from hydro2d.sources.base import Source
+from hydro2d.base.parameters import ANY, REQUIRED, Parameter
+from hydro2d.base.tables import CONSTANT_OR_OVER_TIME, integral
+from hydro2d.sources.base import Source, declared
 
 
+@declared
 class Acceleration(Source):
     """Accelerates a body, or what of it lies within reach of the source, along z."""
 
-    kind: Literal["acceleration"] = Field(description="a force per mass along the axis, constant or over time")
-    axial: AccelerationOverTime = Field(
-        description="acceleration towards +z: a constant, or a table of [time, acceleration], straight between its rows, zero "
-                    "before the first and after the last",
-        examples=["-9.81 m/s^2", [["0 us", "1e9 m/s^2"], ["20 us", "0 m/s^2"]]],
-    )
+    word = "acceleration"
+    meaning = "a force per mass along the axis, constant or over time"
+    keys = (
+        Parameter("axial", "s, m/s^2", REQUIRED, "acceleration towards +z: a constant, or a table of [time, acceleration], "
+                  "straight between its rows, zero before the first and after the last", sign=ANY, example="-9.81 m/s^2",
+                  table=CONSTANT_OR_OVER_TIME),
+    )  # fmt: skip
 
     def push(self, grid, time: float, dt: float) -> np.ndarray:
         """The integral of the acceleration over the step times the share of a cell that lies within reach."""

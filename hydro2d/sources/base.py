@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
 
-from hydro2d.base.keys import Interval, Name, Section
+from hydro2d.base.keys import Interval, Name, Section, field_of, with_keys
+from hydro2d.base.parameters import Parameter
 
 
 class Reached(NamedTuple):
@@ -30,8 +31,12 @@ class Reached(NamedTuple):
 class Source(Section):
     """A table of [[source]]. What a source has given is a sink of the audit with its name, negative.
 
-    The keys of a kind are its fields; `kind` must be one of them, a Literal of one word.
+    A kind says its word in decks, its meaning and its keys, whose values are attributes, in SI.
     """
+
+    word: ClassVar[str]
+    meaning: ClassVar[str]
+    keys: ClassVar[tuple[Parameter, ...]] = ()
 
     name: Name = Field(description="name of the source, and of its sink in the audit", examples=["beam"])
     body: str = Field(description="the body to which it gives", examples=["plate"])
@@ -66,6 +71,12 @@ class Source(Section):
         float64[2, nz, nr], m/s, radial and axial; None from a kind that does not push.
         """
         return None
+
+
+def declared(kind: type[Source]) -> type[Source]:
+    """The kind with its word and its keys as keys of its table; every kind needs this decorator."""
+    word = Literal[kind.word], Field(description=kind.meaning)
+    return with_keys(kind, {"kind": word} | {key.name: field_of(key) for key in kind.keys})
 
 
 def _overlap(edges: np.ndarray, reach) -> np.ndarray:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Annotated, Literal
-
 import numpy as np
-from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from hydro2d.base import units
 from hydro2d.base.errors import DeckError
-from hydro2d.base.keys import PositiveNumber, PositiveSpeed
-from hydro2d.sources.base import Reached, Source
+from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter
+from hydro2d.base.tables import Table
+from hydro2d.sources.base import Reached, Source, declared
 
 #: equations of state that a detonation can burn, by name
 EXPLOSIVES = ("jwl",)
@@ -22,46 +18,25 @@ HALF = 0.5
 #: most points of one detonation
 MOST = 1000
 
-Points = tuple[tuple[float, float, float], ...]
 
-
-def _points(value, unit: tuple[str, str, str]) -> Points:
-    if not isinstance(value, (list, tuple)) or not 0 < len(value) <= MOST:
-        raise ValueError(f"expected a table of 1 to {MOST} rows, [[r, z, time], ...]")
-    rows = []
-    for number, row in enumerate(value):
-        if not isinstance(row, (list, tuple)) or len(row) != 3:
-            raise ValueError(f"row {number} is not [r, z, time]")
-        try:
-            r, z, time = (units.in_reach(units.to_si(part, of), of) for part, of in zip(row, unit, strict=True))
-        except ValueError as problem:
-            raise ValueError(f"row {number}: {problem}") from None
-        if time < 0.0:
-            raise ValueError(f"the time of row {number} must not be negative, is {time:g} s")
-        rows.append((r, z, time))
-    return tuple(rows)
-
-
-_ITEM = {"anyOf": [{"type": "number"}, {"type": "string"}]}
-_SCHEMA = {"type": "array", "minItems": 1, "maxItems": MOST,
-           "items": {"type": "array", "items": _ITEM, "minItems": 3, "maxItems": 3, "x-unit": "m, m, s"}}
-
-
+@declared
 class Detonation(Source):
     """Lights an explosive: every cell at the time at which the detonation arrives there, straight or around obstacles.
 
     It gives no energy by itself: that of the explosive is in its equation of state. explanation/explosives
     """
 
-    kind: Literal["detonation"] = Field(description="detonation points of an explosive")
-    points: Annotated[Points, BeforeValidator(partial(_points, unit=("m", "m", "s"))), WithJsonSchema(_SCHEMA)] = Field(
-        description="table of [r, z, time] at which the detonation begins; beside the axis of an r-z mesh a point is a ring",
-        examples=[[["0 mm", "0 mm", "0 us"]]],
-    )
-    widths: PositiveNumber = Field(WIDTHS, description="cell widths over which the detonation burns the explosive",
-                                   examples=[2.5])
-    speed: PositiveSpeed | None = Field(
-        None, description="speed of the detonation; default: detonation_velocity of the explosive", examples=["6930 m/s"])
+    word = "detonation"
+    meaning = "detonation points of an explosive"
+    keys = (
+        Parameter("points", "m, m, s", REQUIRED, "table of [r, z, time] at which the detonation begins; beside the axis of an "
+                  "r-z mesh a point is a ring", example=[["0 mm", "0 mm", "0 us"]],
+                  table=Table(("r", "z", "time"), fewest=1, most=MOST)),
+        Parameter("widths", "", WIDTHS, "cell widths over which the detonation burns the explosive", sign=POSITIVE,
+                  example=2.5),
+        Parameter("speed", "m/s", None, "speed of the detonation; default: detonation_velocity of the explosive", sign=POSITIVE,
+                  example="6930 m/s"),
+    )  # fmt: skip
 
     def misfit(self, material) -> str | None:
         """Why the material of the body cannot be lit, or None; material : materials.material.Material."""

@@ -1,4 +1,4 @@
-"""The kinds of sources. A new one is a file in this folder and a line in ``KINDS``."""
+"""The kinds of sources. A new one is a file in this folder and its class in ``KINDS``."""
 
 from __future__ import annotations
 
@@ -10,10 +10,6 @@ from hydro2d.sources.base import Source
 from hydro2d.sources.detonation import Detonation
 from hydro2d.sources.heating import Heating
 
-KINDS: dict[str, type[Source]] = {
-    "heating": Heating,
-    "acceleration": Acceleration,
-    "detonation": Detonation,
-}
+KINDS: dict[str, type[Source]] = {kind.word: kind for kind in (Heating, Acceleration, Detonation)}
 
 AnySource: Any = Source if TYPE_CHECKING else one_of(KINDS, "kind")

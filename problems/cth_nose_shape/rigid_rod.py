@@ -38,8 +38,6 @@ ALLOYS = ("5083", "7039")
 RODS = tuple(itertools.product(NOSES.values(), ALLOYS))
 #: thickness of the plates, cm; mass of the rods, kg
 PLATE, MASS = 53.34, 0.063
-#: least share of its length that is left of a rod that is not used up
-LEAST_KEPT = 1.0 - 1.0 / 3.0
 #: marks runs that are not trustworthy
 DOUBTFUL = "†"
 #: words for the loss of length of rods, by the largest loss in per cent
@@ -126,7 +124,7 @@ class Result:
     @property
     def held(self) -> bool:
         """Whether two thirds of its length are left, as in a search for the loss of length."""
-        return self.loss <= 100.0 * (1.0 - LEAST_KEPT)
+        return self.loss <= 100.0 * (1.0 - hydro2d.LEAST_KEPT_LENGTH)
 
     @property
     def reach(self) -> float:

@@ -12,7 +12,6 @@ import sys
 from pathlib import Path
 
 import hydro2d
-from problems.cth_nose_shape.rigid_rod import LEAST_KEPT
 from problems.kept import grouped
 
 HERE = Path(__file__).parent
@@ -35,7 +34,7 @@ def velocity(row: hydro2d.KeptRow) -> float:
 
 def kept(row: hydro2d.KeptRow) -> bool:
     """Whether the rod of a row has kept two thirds of its length."""
-    return float(row["length_ratio"]) >= LEAST_KEPT
+    return float(row["length_ratio"]) >= hydro2d.LEAST_KEPT_LENGTH
 
 
 def searches(rows: Rows) -> dict[tuple[str, ...], Rows]:

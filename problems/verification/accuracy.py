@@ -531,7 +531,7 @@ def _riemann(run: hydro2d.Results, cells: int) -> list[Quantity]:
     ]  # fmt: skip
 
 
-def _riemann_curve(run: hydro2d.Results) -> Curve:
+def _axial_pressure(run: hydro2d.Results) -> Curve:
     cells = cells_of(run)
     x, y = cells.along(cells.mean_pressure, "z")
     return 1e3 * x, 1e-9 * y
@@ -601,12 +601,6 @@ def _detonation_exact(x: np.ndarray) -> np.ndarray:
     return np.where(1e-3 * x < flow.speed * time, 1e-9 * flow.at(1e-3 * x, time)[2], 0.0)
 
 
-def _detonation_curve(run: hydro2d.Results) -> Curve:
-    cells = cells_of(run)
-    x, y = cells.along(cells.mean_pressure, "z")
-    return 1e3 * x, 1e-9 * y
-
-
 
 PROBLEMS = (
     sedov(3),
@@ -652,10 +646,10 @@ PROBLEMS = (
             partial(_shell_exact, 2), ("time [us]", "inner radius [mm]"),
             advection("both"), {"cavity_m": partial(_cavity, 2)}),
     Problem("riemann_jwl", "Products and aluminium", "riemann_jwl.toml", "on 80 mm", (80, 160, 320),
-            lambda cells: column(0.04, cells, -0.04), _riemann, _riemann_curve,
+            lambda cells: column(0.04, cells, -0.04), _riemann, _axial_pressure,
             lambda x: 1e-9 * DRIVEN.sample(1e-3 * x / 4e-6)[2], ("z [mm]", "pressure [GPa]"), advection("both")),
     Problem("detonation", "Plane detonation of TNT", "../explosives/plane_charge.toml", "on 50 mm", (100, 200, 400),
-            _detonation_refine, _detonation, _detonation_curve, _detonation_exact,
+            _detonation_refine, _detonation, _axial_pressure, _detonation_exact,
             ("z [mm]", "pressure [GPa]"), advection("both"), {"front_m": _lit}),
 )  # fmt: skip
 BY_NAME = {problem.name: problem for problem in PROBLEMS}

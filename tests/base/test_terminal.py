@@ -88,7 +88,7 @@ def test_tables_on_a_terminal_take_names_as_they_are():
 
 
 def test_lines_of_a_study(tmp_path):
-    from hydro2d.study.records.layout import Study
+    from hydro2d.study.records.study_directory import Study
 
     log = io.StringIO()
     board = monitor.Board(Study(tmp_path, NASTY, "a", (), ()), log, quiet=True)

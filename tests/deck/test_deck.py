@@ -645,6 +645,12 @@ def test_the_line_of_a_key(path, line, newline):
     assert line_of(path, AWKWARD.replace("\n", newline)) == line
 
 
+def test_brackets_in_strings_and_comments_open_nothing():
+    text = 'a = [  # [{\n  {b = "[\\"{"}, """say "hi" [\n{\\"""\n""", \'\'\'it\'s [\n{\'\'\',\n]\nc = 1\n'
+    lines = [line_of(path, text) for path in (("a",), ("a", 0, "b"), ("a", 1), ("a", 2), ("c",))]
+    assert lines == [1, 2, 2, 4, 7]
+
+
 def test_a_key_that_is_not_there_has_no_line():
     assert line_of(("array", 2), AWKWARD) is None
     assert line_of(("list", "d"), AWKWARD) is None

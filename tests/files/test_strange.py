@@ -21,7 +21,7 @@ from hydro2d.output import history, snapshot, vtk
 from hydro2d.results.export import export
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from tests import fake
 
 SERIES = '<VTKFile><Collection><DataSet timestep="0" file="{}"/></Collection></VTKFile>'
@@ -160,30 +160,30 @@ def test_a_study_has_no_pipes_and_no_links(tmp_path, secret, name):
         study.mkdir()
         make(study / name)
         with pytest.raises(StrangeFile):
-            layout.make(study)
+            study_directory.make(study)
         shutil.rmtree(study)
     study.mkdir()
     (study / "cases").symlink_to(secret.parent)
     with pytest.raises(StrangeFile):
-        layout.make(study)
+        study_directory.make(study)
 
 
 @pytest.mark.parametrize("directory", ["../home", "/etc", "cases/../../home", "cases", "cases/a/b", ""])
 def test_cases_of_a_study_are_in_its_folder_of_cases(tmp_path, directory):
     (tmp_path / "study.json").write_text(
         json.dumps({"name": "a", "axes": [], "cases": [{"name": "a", "values": {}, "directory": directory}]}))
-    with pytest.raises((layout.StudyError, StrangeFile), match=r"must be in cases/|does not name a file"):
-        layout.read(tmp_path)
+    with pytest.raises((study_directory.StudyError, StrangeFile), match=r"must be in cases/|does not name a file"):
+        study_directory.read(tmp_path)
 
 
 def test_the_directory_of_a_case_is_no_link(tmp_path, secret):
     (tmp_path / "study.json").write_text(
         '{"name": "a", "axes": [], "cases": [{"name": "a", "values": {}, "directory": "cases/a"}]}')
     (tmp_path / "cases").mkdir()
-    assert layout.read(tmp_path).cases[0].directory == tmp_path / "cases" / "a"
+    assert study_directory.read(tmp_path).cases[0].directory == tmp_path / "cases" / "a"
     (tmp_path / "cases" / "a").symlink_to(secret.parent)
     with pytest.raises(StrangeFile, match="symbolic link"):
-        layout.read(tmp_path)
+        study_directory.read(tmp_path)
 
 
 def test_files_that_the_user_names_may_be_links_but_no_pipes(tmp_path, capsys):

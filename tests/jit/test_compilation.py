@@ -1,7 +1,6 @@
 """A run reports the compilation of kernels when it happens, once, and not when they come from the cache."""
 
 import os
-import shutil
 import subprocess
 import sys
 import threading
@@ -23,6 +22,7 @@ from hydro2d.running import compile_all
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.simulation import Simulation
 from tests.cli.test_main import DECK
+from tests.disk import can_mount
 
 
 class Shown:
@@ -300,12 +300,7 @@ def test_turns_are_taken(tmp_path):
     assert count.read_text() == "100"
 
 
-def _can_mount():
-    probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
-    return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0
-
-
-@pytest.mark.skipif(not _can_mount(), reason="no file system can be mounted here")
+@pytest.mark.skipif(not can_mount(), reason="no file system can be mounted here")
 def test_a_cache_that_cannot_be_written_is_read(tmp_path):
     """One of a site, on a file system that is mounted read-only."""
     (tmp_path / "shot.toml").write_text(DECK)

@@ -3,7 +3,6 @@
 import errno
 import os
 import pickle
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +13,7 @@ import pytest
 from hydro2d.files import locks
 from hydro2d.jit import cache, options, store
 from tests import error_output
-from tests.disk import Disk
+from tests.disk import Disk, can_mount
 
 OPTIONS = options.OPTIONS
 
@@ -248,11 +247,6 @@ def test_every_file_of_a_cache_can_be_spoiled(tmp_path):
             file.unlink()
             file.mkdir()
     assert program(tmp_path) == ("6.0", [])
-
-
-def can_mount() -> bool:
-    probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
-    return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0
 
 
 @pytest.mark.skipif(not can_mount(), reason="no file system can be mounted here")

@@ -13,7 +13,7 @@ from hydro2d.files import toml
 from hydro2d.materials.outside import ModelError
 from hydro2d.output import snapshot, vtk
 from hydro2d.study.ensemble import contents
-from hydro2d.study.records import layout, record
+from hydro2d.study.records import record, study_directory
 from tests.materials.made_models import GAS, VOCE
 
 SHOT = "problems/cth_nose_shape/hemi_5083_1086.toml"
@@ -61,7 +61,7 @@ def test_commands_that_read_a_run_execute_none_of_its_code(strange, mark, tmp_pa
 def test_reading_a_run_in_python_executes_none_of_its_code(strange, mark):
     assert len(hydro2d.open_run(strange).fields.time) == len(hydro2d.open_run(strange).dumps)
     hydro2d.open_study(strange).table()
-    stored = record.read(layout.load(strange).cases[0])
+    stored = record.read(study_directory.load(strange).cases[0])
     assert stored.velocity == 1086.0
     assert stored.setup.rod == "W_alloy"
     assert stored.problems == []
@@ -90,7 +90,7 @@ def test_a_report_with_trust_has_the_models(strange, mark, tmp_path, capsys):
     assert call(["report", str(strange), "--trust", "--out", str(tmp_path / "report")]) == 0
     assert mark.exists()
     assert "is not run" not in capsys.readouterr().out
-    assert contents.collect(layout.load(strange)).notes == []  # this process has run it already
+    assert contents.collect(study_directory.load(strange)).notes == []  # this process has run it already
 
 
 def test_a_deck_in_a_run_names_no_file(strange, mark, tmp_path):
@@ -98,7 +98,7 @@ def test_a_deck_in_a_run_names_no_file(strange, mark, tmp_path):
     (tmp_path / "evil.py").write_text(deck["materials"]["W_alloy"]["strength"].pop("code"))
     deck["materials"]["W_alloy"]["strength"] = {"file": str(tmp_path / "evil.py")}
     (strange / "deck.toml").write_text(toml.dumps(deck))
-    stored = record.read(layout.load(strange).cases[0])
+    stored = record.read(study_directory.load(strange).cases[0])
     assert "names a file of code" in stored.problems[0]
     assert not mark.exists()
 

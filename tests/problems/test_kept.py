@@ -2,7 +2,7 @@
 
 import pytest
 
-from hydro2d.study.records.layout import StudyError
+from hydro2d.study.records.study_directory import StudyError
 from problems import kept
 
 

@@ -9,7 +9,7 @@ from hydro2d.base.method_version import METHOD
 from hydro2d.mesh.regime import DEFORMING, ERODING, RIGID, regime
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.scaling import Size
-from hydro2d.study.records import keeping, layout
+from hydro2d.study.records import keeping, study_directory
 from hydro2d.study.run.choice import Choice
 from problems import kept
 from problems.cth_nose_shape import rigid_rod
@@ -131,9 +131,9 @@ def test_runs_of_a_directory_read_as_their_rows_do(tmp_path):
     plan = replace(plan, cases=plan.cases[:4], keep=tmp_path / "rows.csv")
     for case in plan.cases:
         fake.write_run(tmp_path / "out/cases" / case.name, text=case.text)
-    layout.make(tmp_path / "out")
-    layout.write(plan, tmp_path / "out")
-    Choice(plan).keep(layout.read(tmp_path / "out").cases)
+    study_directory.make(tmp_path / "out")
+    study_directory.write(plan, tmp_path / "out")
+    Choice(plan).keep(study_directory.read(tmp_path / "out").cases)
     assert rigid_rod.read(tmp_path / "out") == rigid_rod.read(plan.keep)
     assert [run.member for run in rigid_rod.read(plan.keep)] == [0, 1, 0, 1]
 

@@ -136,7 +136,7 @@ def test_a_source():
     exec(compile(blocks("python", SOURCE)[0], "flash.py", "exec"), space)
     flash = space["Flash"](name="flash", kind="flash", body="plate", z=["5 mm", "15 mm"], dose="1 MJ/kg", absorption="1 mm",
                            duration="0.2 us")
-    assert '"flash": Flash,' in SOURCE
+    assert "`Flash` into `KINDS`" in SOURCE
     grid = Grid(np.linspace(0.0, 4e-3, 5), np.linspace(0.0, 20e-3, 401), "planar")
     half, rest, after = (flash.heat(grid, *step) for step in ((0.0, 0.1e-6), (0.1e-6, 0.3e-6), (0.4e-6, 0.1e-6)))
     assert half.sum() == pytest.approx(0.5 * half.shape[1] * 1e6 * 1e-3 / 0.05e-3 * (1.0 - np.exp(-10.0)), rel=1e-3)

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.output import snapshot
 from hydro2d.solver.simulation import Simulation
 from tests.decks import entry, mesh, plate, rod, stop, table
+from tests.restarts import final, restarted
 
 SHOT = (
     mesh([{"to": "9 mm", "cells": 18}, {"cells": 6, "ratio": 1.1}], ("-14 mm", "16 mm", "0.5 mm"))
@@ -93,13 +93,7 @@ def test_one_and_two_threads(options):
 @pytest.mark.parametrize("at", [1, 37, 60])
 def test_restart(options, at):
     whole = cycles(started(*options), 120)
-    first = cycles(started(*options), at)
-    arrays = {name: array.copy() for name, array in first.restart_arrays().items()}
-    scalars = first.restart_scalars()
-    second = started(*options)
-    second.load_restart_arrays(arrays)
-    second.load_restart_scalars(scalars)
-    cycles(second, 120 - at)
+    second = cycles(restarted(cycles(started(*options), at)), 120 - at)
     assert_same(whole, second)
     assert whole.restart_scalars() == second.restart_scalars()
 
@@ -127,11 +121,6 @@ def command(folder, *arguments: str, threads: int) -> None:
     environment = {**os.environ, "NUMBA_NUM_THREADS": str(threads)}
     subprocess.run([sys.executable, "-m", "hydro2d", "run", *arguments], cwd=folder, env=environment, check=True,
                    capture_output=True, timeout=300)
-
-
-def final(directory) -> tuple[dict, dict]:
-    saved = snapshot.read(directory / "restart.h5")
-    return {name: array.tobytes() for name, array in saved.arrays.items()}, saved.scalars
 
 
 def test_command_with_other_threads_and_a_restart(tmp_path):

@@ -23,7 +23,7 @@ from hydro2d.cli.main import app, call
 from hydro2d.deck import deck as decks
 from hydro2d.deck import templates
 from hydro2d.files import toml
-from hydro2d.study import parts
+from hydro2d.study import study_parts
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.scaling import AS_IT_IS
 from hydro2d.study.run import cluster
@@ -289,7 +289,7 @@ def test_toml_of_the_text_is_valid(page, folder):
         if "cores" in data:
             assert cluster.read_slurm(file)
         elif "part" in data:
-            assert [each.states[0] for each in parts.plans(file, (), AS_IT_IS, quiet=True)], f"{page}:{line}"
+            assert [each.states[0] for each in study_parts.plans(file, (), AS_IT_IS, quiet=True)], f"{page}:{line}"
         elif toml.is_study(data):
             assert [case.message for case in cases.plan(file, quiet=True).cases if case.message] == [], f"{page}:{line}"
         else:

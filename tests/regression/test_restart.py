@@ -1,14 +1,14 @@
 """An interrupted run of the real solver continues to the same bits, and outputs change none of them."""
 
-import json
 
 import pytest
 
 from hydro2d.deck import deck as decks
-from hydro2d.output import history, snapshot
+from hydro2d.output import history
 from hydro2d.running.run import run
 from hydro2d.solver.simulation import Simulation
 from tests.decks import entry, mesh, plate, rod, stop, table
+from tests.restarts import final, restarted
 
 SHOT = (
     mesh(("12 mm", 12), ("-25 mm", "30 mm", "1 mm"))
@@ -32,11 +32,6 @@ PLATES = (
 CONTACT = ['sliding.method="contact"', 'sliding.hard=["rod"]']
 
 
-def final(directory):
-    saved = snapshot.read(directory / "restart.h5")
-    return {name: array.tobytes() for name, array in saved.arrays.items()}, saved.scalars
-
-
 @pytest.mark.parametrize("options", [[], SLIP], ids=["sticking", "slip-layer"])
 @pytest.mark.parametrize("cycles", [1, 60, 159])
 def test_restart_gives_the_same_bits(tmp_path, options, cycles):
@@ -57,15 +52,6 @@ def test_outputs_change_no_bit(tmp_path):
     run(decks.loads(SHOT, ["stop.cycles=60"]), tmp_path / "rarely", quiet=True)
     run(decks.loads(SHOT, ["stop.cycles=60", *often]), tmp_path / "often", quiet=True)
     assert final(tmp_path / "rarely") == final(tmp_path / "often")
-
-
-def restarted(whole: Simulation) -> Simulation:
-    """A second simulation that continues from the contents of a restart file of the first."""
-    arrays = {name: array.copy() for name, array in whole.restart_arrays().items()}
-    again = Simulation(whole.deck)
-    again.load_restart_arrays(arrays)
-    again.load_restart_scalars(json.loads(json.dumps(whole.restart_scalars())))
-    return again
 
 
 @pytest.mark.parametrize("options", [[], SLIP, CONTACT], ids=["sticking", "slip-layer", "contact"])

@@ -12,7 +12,7 @@ from hydro2d.output import history, vtk
 from hydro2d.results import figures
 from hydro2d.results.reading import ResultsError
 from hydro2d.running.run import run as start
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from tests import fake
 
 
@@ -141,7 +141,7 @@ def test_the_message_on_a_study_names_its_reader(simulation, tmp_path):
         start(fake.FakeDeck(), tmp_path / "folder" / name, quiet=True)
     with pytest.raises(ResultsError, match="it has no deck.toml; it holds runs: a, b$"):
         hydro2d.open_run(tmp_path / "folder")
-    (tmp_path / "folder" / layout.STUDY).write_text("{}")
+    (tmp_path / "folder" / study_directory.STUDY).write_text("{}")
     with pytest.raises(ResultsError, match="it is a study, whose runs are in .*/cases; .*hydro2d.open_study reads it"):
         hydro2d.open_run(tmp_path / "folder")
     with pytest.raises(ResultsError, match="it has no deck.toml$"):

@@ -22,7 +22,7 @@ from hydro2d.results import standing
 from hydro2d.results.reading import Results
 from hydro2d.results.viewer import page
 from hydro2d.running.run import run
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from hydro2d.study.records.table import to_csv
 from hydro2d.study.run import monitor
 from tests import fake
@@ -71,7 +71,7 @@ def looked_at(directory):
     except Error:
         return
     assert tags <= {("table",), ("caption",), ("tr",), ("th",), ("td",)}
-    (case,) = layout.gather([directory]).cases
+    (case,) = study_directory.gather([directory]).cases
     standing.lines(results, case.status, case.message, case.progress)
     monitor.row(case)
     monitor.left([case], 1)

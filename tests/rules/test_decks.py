@@ -4,7 +4,7 @@ import pytest
 
 from hydro2d.analytic.model_transition import experiments
 from hydro2d.deck import deck
-from hydro2d.study import parts
+from hydro2d.study import study_parts
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.scaling import AS_IT_IS
 from tests.rules import source
@@ -41,8 +41,8 @@ def test_resolved_deck_is_the_same_deck(file):
 
 @pytest.mark.parametrize("file", STUDIES, ids=name_of)
 def test_study_has_a_title_and_no_wrong_deck(file):
-    if parts.is_of_parts(file):
-        plans = [each.plan for each in parts.plans(file, (), AS_IT_IS, quiet=True)]
+    if study_parts.is_of_parts(file):
+        plans = [each.plan for each in study_parts.plans(file, (), AS_IT_IS, quiet=True)]
     else:
         plans = [cases.plan(file, quiet=True)]
     assert all(plan.title for plan in plans)

@@ -7,7 +7,7 @@ import pytest
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running import run as runs
 from hydro2d.running.run import COSTS, run
-from hydro2d.study.records.layout import state
+from hydro2d.study.records.study_directory import state
 from hydro2d.study.run.case import run_case
 from tests import fake
 from tests.disk import Disk

@@ -13,7 +13,7 @@ from hydro2d.files.locks import LostPlaceError, check_place, locked, remove
 from hydro2d.files.whole import replacing, write_text
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from tests import fake
 from tests.cli.test_main import DECK
 
@@ -108,11 +108,11 @@ def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
 def test_a_summary_of_another_deck_is_reported(finished):
     """As left by two runs that wrote into one directory."""
     assert Results(finished).summary["trustworthy"]
-    assert layout.state(finished, None)["message"] == ""
+    assert study_directory.state(finished, None)["message"] == ""
     text = (finished / "deck.toml").read_text()
     (finished / "deck.toml").write_text(text[text.index("\n") + 1 :].replace("courant = 0.5", "courant = 0.4"))
     assert Results(finished).summary["trustworthy"] is False
     fault = "summary.json is of another deck than deck.toml"
     assert fault in Results(finished).summary["faults"]
-    assert layout.state(finished, None)["message"] == f"not trustworthy: {fault}"
+    assert study_directory.state(finished, None)["message"] == f"not trustworthy: {fault}"
     assert json.loads((finished / "summary.json").read_text())["trustworthy"]

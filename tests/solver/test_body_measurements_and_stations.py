@@ -16,6 +16,7 @@ from hydro2d.running.run import run
 from hydro2d.solver import body_measurements, tracers
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, entry, mesh, plate, stop
+from tests.restarts import restarted
 
 DECK = (
     mesh(("20 mm", 40), ("-15 mm", "25 mm", 80))
@@ -141,10 +142,7 @@ def test_a_gauge_outside_of_a_mesh_that_travels_waits():
 
 
 def test_peaks_and_places_are_in_the_restart():
-    whole, first, second = started(40), started(20), started()
-    arrays = {name: array.copy() for name, array in first.restart_arrays().items()}
-    second.load_restart_arrays(arrays)
-    second.load_restart_scalars(first.restart_scalars())
+    whole, second = started(40), restarted(started(20))
     for _ in range(20):
         second.step()
     assert second.stations.peaks.tobytes() == whole.stations.peaks.tobytes()

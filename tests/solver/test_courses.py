@@ -7,6 +7,7 @@ from hydro2d.deck import deck
 from hydro2d.solver.courses import PARTED, PARTED_OF_WAY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, mesh, stop, table, walls
+from tests.restarts import restarted
 
 NO_FRACTURE = table("failure", tensile="none")
 PLAIN = mesh(("1 mm", 10), ("4 mm", 40)), mesh(("1 mm", 10), ("4 mm", 40), geometry="planar")
@@ -91,11 +92,10 @@ def test_how_far_a_body_may_be_off():
 
 def test_a_restart_goes_on_with_the_course():
     text = "".join((PLAIN[0], walls("r_max"), foil())) + NO_FRACTURE + stop("10 us")
-    first, second = Simulation(deck.loads(text)), Simulation(deck.loads(text))
+    first = Simulation(deck.loads(text))
     for _ in range(15):
         first.step()
-    second.load_restart_arrays(first.restart_arrays())
-    second.load_restart_scalars(first.restart_scalars())
+    second = restarted(first)
     for simulation in (first, second):
         while simulation.cycle < 40:
             simulation.step()

@@ -22,6 +22,7 @@ from hydro2d.mesh.regime import (
 )
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
 from tests.decks import box, mesh, plate, rod, stop, table
+from tests.restarts import restarted
 from tests.rules import source
 
 
@@ -382,9 +383,7 @@ def test_a_restart_remembers_the_exit():
     sim = shot(*SHORT)
     while not sim.penetrator.left:
         sim.step()
-    again = shot(*SHORT)
-    again.load_restart_arrays({name: array.copy() for name, array in sim.restart_arrays().items()})
-    again.load_restart_scalars(json.loads(json.dumps(sim.restart_scalars())))
+    again = restarted(sim)
     assert again.diagnostics() == sim.diagnostics()
     assert again.restart_scalars() == sim.restart_scalars()
 

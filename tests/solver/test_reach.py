@@ -1,6 +1,5 @@
 """Energies that a body can reach: against Hugoniots and isentropes in closed form, and for gases next to metals."""
 
-import json
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ from hydro2d.solver.sanity import doubts
 from hydro2d.solver.simulation import Simulation
 from strength import SHEAR
 from tests.decks import box, entry, mesh, plate, stop, table, walls
+from tests.restarts import restarted
 
 SHOT = (
     mesh(("1 mm", 4), ("-4 mm", "8 mm", "0.25 mm"), geometry="planar")
@@ -241,10 +241,7 @@ def test_a_doubt_is_not_forgotten(tmp_path):
     simulation.refuse_nonsense()
     (doubt,) = simulation.doubts()
     assert doubt.startswith('cycle 0, time 0 s: body "flyer" is too hot')
-    again = Simulation(simulation.deck)
-    again.load_restart_arrays(simulation.restart_arrays())
-    again.load_restart_scalars(json.loads(json.dumps(simulation.restart_scalars())))
-    assert again.doubts() == [doubt]
+    assert restarted(simulation).doubts() == [doubt]
 
 
 def test_a_film_of_air_that_is_crushed_is_not_called_done(tmp_path):

@@ -7,6 +7,7 @@ from hydro2d.deck import deck
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
 from tests.decks import box, entry, mesh, plate, rod, stop
+from tests.restarts import restarted
 
 TEXT = (
     mesh(("9 mm", 18), ("-12 mm", "12 mm", 48))
@@ -80,13 +81,11 @@ def test_a_run_stops_at_the_same_cycle_after_a_restart():
     assert expected[0] > WATCH_EVERY
     assert expected[0] % WATCH_EVERY == 0
     for at in (7, WATCH_EVERY, expected[0] - 1):
-        first, second = Simulation(deck.loads(TEXT)), Simulation(deck.loads(TEXT))
+        first = Simulation(deck.loads(TEXT))
         while first.cycle < at:
             first.stop_reason()
             first.step()
-        second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
-        second.load_restart_scalars(first.restart_scalars())
-        assert run_on(second) == expected
+        assert run_on(restarted(first)) == expected
 
 
 def test_a_rod_that_perforates_ends_the_run():

@@ -1,6 +1,5 @@
 """Several targets, one behind the other: which they are, and measurements of the rod behind each and of its hole."""
 
-import json
 
 import h5py
 import numpy as np
@@ -17,6 +16,7 @@ from hydro2d.running.run import run
 from hydro2d.solver.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, contact, mesh, plate, stop, table
+from tests.restarts import restarted
 
 TEXT = (
     mesh(("12 mm", 12), ("-13 mm", "31 mm", 44))
@@ -140,10 +140,7 @@ def test_a_restart_keeps_what_was_passed():
     assert set(first) == set(PASSAGE)
     assert set(second.values()) == {None}
     assert sim.stop_reason() is None
-    again = Simulation(decks.loads(TEXT))
-    again.load_restart_arrays(sim.restart_arrays())
-    again.load_restart_scalars(json.loads(json.dumps(sim.restart_scalars())))
-    assert again.penetrator.passages() == [first, second]
+    assert restarted(sim).penetrator.passages() == [first, second]
 
 
 def test_a_mirrored_shot_does_the_same(tmp_path, shot):

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from strength import STRENGTH_MODELS
 from strength.dispatch import flow_stress, shear_modulus
 from strength.radial_return import plastic_increment
+from tests.strength.test_flow_stress import TUNGSTEN
 
 ROWS = {
     "elastic-plastic": {
@@ -26,19 +27,7 @@ ROWS = {
         "rate_coefficient": 0.016,
         "melt_temperature": 1723.0,
     },
-    "steinberg-guinan": {
-        "shear_modulus": 145e9,
-        "yield_stress": 1.87e9,
-        "max_yield_stress": 4e9,
-        "hardening_coefficient": 7.7,
-        "hardening_exponent": 0.13,
-        "pressure_coefficient": 1.03e-11,
-        "temperature_coefficient": 1.52e-4,
-        "melt_temperature": 2263.0,
-        "melt_exponent": 1.3,
-        "grueneisen": 1.67,
-        "reference_density": 18167.0,
-    },
+    "steinberg-guinan": TUNGSTEN,
     "power-law": {"youngs_modulus": 70.3e9, "poisson_ratio": 1 / 3, "yield_stress": 276e6, "hardening_exponent": 0.084},
 }
 MODELS = {name: (STRENGTH_MODELS[name].ID, STRENGTH_MODELS[name].row(values)) for name, values in ROWS.items()}

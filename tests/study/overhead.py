@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from hydro2d.study.records.layout import load
+from hydro2d.study.records.study_directory import load
 from tests.study import tubes
 
 STUDY = """

@@ -18,7 +18,7 @@ from hydro2d.files.checksums import verified_text
 from hydro2d.jit import compilation
 from hydro2d.output import history, snapshot
 from hydro2d.output.directory import deck_hash
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from hydro2d.study.run.case import kernels, run_case
 from tests.cli.test_main import DECK
 from tests.locks import held
@@ -151,11 +151,11 @@ def test_a_case_that_is_done_is_done(text, place, reason):
     assert run_case(place, text).status == "done"
     (place / "failed.json").write_text(json.dumps({"reason": reason}))
     sha256 = deck_hash(text)
-    assert layout.state(place, sha256)["status"] == "done"
+    assert study_directory.state(place, sha256)["status"] == "done"
     assert (run_case(place, text).status, run_case(place, text).fresh) == ("done", False)
-    assert layout.state(place, deck_hash("another deck"))["status"] == "failed"
+    assert study_directory.state(place, deck_hash("another deck"))["status"] == "failed"
     (place / "summary.json").unlink()
-    assert layout.state(place, sha256) == {"status": "failed", "message": reason, "summary": {}}
+    assert study_directory.state(place, sha256) == {"status": "failed", "message": reason, "summary": {}}
 
 
 def test_a_worker_that_is_still_ending_is_waited_for(text, place):

@@ -12,7 +12,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.study.ensemble import convergence, extrapolation
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.plan import members, meshes
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from tests.study import fake
 
 SHOT = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
@@ -89,7 +89,7 @@ def study(folder, regimes=("rigid",) * 3, scatter=0.001):
 
 def test_scatter_and_change_are_distinguished(tmp_path):
     place = study(tmp_path)
-    depth, _ = convergence.sequences(collect(layout.load(place)))
+    depth, _ = convergence.sequences(collect(study_directory.load(place)))
     assert [each.cells for each in depth.levels] == [5.5, 8.5, 12.5]
     assert depth.levels[0].mean == pytest.approx(30.0 + 10.0 / 5.5)
     assert depth.levels[0].scatter == pytest.approx(0.01 * np.std([-1.5, -0.5, 0.5, 1.5], ddof=1))
@@ -101,13 +101,13 @@ def test_scatter_and_change_are_distinguished(tmp_path):
 
 
 def test_a_mean_of_several_ends_is_not_extrapolated(tmp_path):
-    sequences = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
+    sequences = convergence.sequences(collect(study_directory.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
     assert sequences.limit.value is None
     assert "end in 2 ways (eroding, rigid)" in sequences.limit.words
 
 
 def test_meshes_without_a_value_are_one_line(tmp_path):
-    sequences = convergence.sequences(collect(layout.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
+    sequences = convergence.sequences(collect(study_directory.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
     title, _, said = dataclasses.replace(sequences, levels=[], regimes=[]).lines()
     assert title == sequences.response.title
     assert "does not extrapolate" in said

@@ -14,7 +14,7 @@ from hydro2d.files.whole import write_json
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.velocities import Velocities
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from hydro2d.study.run import monitor, sweep
 from tests.locks import held
 from tests.study import tubes
@@ -27,8 +27,8 @@ def plan(tmp_path):
 
 @pytest.fixture
 def written(plan, tmp_path):
-    layout.make(tmp_path / "out")
-    layout.write(plan, tmp_path / "out")
+    study_directory.make(tmp_path / "out")
+    study_directory.write(plan, tmp_path / "out")
     return tmp_path / "out"
 
 
@@ -108,7 +108,7 @@ def test_status_command(plan, written, tmp_path, capsys):
 
 def test_time_left():
     def case(status, **told):
-        return layout.Case("a", Path("a"), status=status, **told)
+        return study_directory.Case("a", Path("a"), status=status, **told)
 
     done, waiting = case("done", summary={"wall_s": 100.0}), case("waiting")
     running = case("running", progress={"left_s": 40.0, "wall_s": 60.0})
@@ -133,7 +133,7 @@ def test_an_existing_study_is_kept_without_overwrite(plan, written, tmp_path):
     with pytest.raises(StudyError, match="is a file"):
         sweep.changes(plan, tmp_path / "tube.toml", resume=False, overwrite=False)
     with pytest.raises(NotADirectoryError):
-        layout.make(tmp_path / "tube.toml" / "out")
+        study_directory.make(tmp_path / "tube.toml" / "out")
 
 
 def test_a_changed_study_is_reported(plan, written, tmp_path):
@@ -146,7 +146,7 @@ def test_a_changed_study_is_reported(plan, written, tmp_path):
     ]
     search = Velocities("body.rod.velocity", ("100 m/s",), 1.0)  # it may draw unfinished velocities again
     assert sweep.changes(replace(wider, search=search), written, resume=True, overwrite=False) == changes[:1]
-    layout.write(wider, written)
+    study_directory.write(wider, written)
     other = cases.plan(tubes.write(tmp_path), ["numerics.courant=0.3"])
     with pytest.raises(StudyError, match=r"1 case \(ke_0.1\) had a different deck.*--overwrite"):
         sweep.changes(other, written, resume=True, overwrite=False)
@@ -186,7 +186,7 @@ def test_the_live_table_fits_the_terminal(plan, written):
 
 def test_the_board_says_how_far_compilation_is(tmp_path):
     """The cases wait meanwhile."""
-    board = monitor.Board(layout.Study(tmp_path, "", "a", (), ()), io.StringIO(), quiet=True)
+    board = monitor.Board(study_directory.Study(tmp_path, "", "a", (), ()), io.StringIO(), quiet=True)
     board.compiling = lambda: "compiling kernels: 14 of 23, 21 s"
     assert board.summary() == "0 of 0 done; compiling kernels: 14 of 23, 21 s"
     board.compiling = lambda: ""

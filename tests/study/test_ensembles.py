@@ -11,7 +11,7 @@ from hydro2d.cli.main import call
 from hydro2d.study.ensemble import agreement, ensembles
 from hydro2d.study.ensemble.chance import wilson
 from hydro2d.study.ensemble.contents import collect
-from hydro2d.study.records import layout, responses
+from hydro2d.study.records import responses, study_directory
 from hydro2d.study.report import charts, panels, rods
 from hydro2d.study.report.report import report
 from tests.study import fake
@@ -27,7 +27,7 @@ def study(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def contents(study):
-    return collect(layout.load(study))
+    return collect(study_directory.load(study))
 
 
 def drawn(contents, **options):
@@ -48,7 +48,7 @@ def test_median_and_spread_of_a_case(contents):
 def test_unfinished_members_do_not_count(study, tmp_path, contents):
     shutil.copytree(study, tmp_path / "copy")
     (tmp_path / "copy" / "cases" / "1086m-s_m4" / "summary.json").unlink()
-    first = collect(layout.load(tmp_path / "copy")).ensembles[0]
+    first = collect(study_directory.load(tmp_path / "copy")).ensembles[0]
     assert first.spread("penetration_depth_m") == pytest.approx((0.365, 0.353, 0.377, 4))
     assert first.regimes["rigid"] == wilson(4, 4)
 
@@ -59,10 +59,10 @@ def test_members_that_are_all_cut_are_compared_at_their_end_time(study, tmp_path
     for member in ("", "_m1", "_m2", "_m3", "_m4"):
         file = tmp_path / "copy" / "cases" / f"1086m-s{member}" / "summary.json"
         fake.edit_json(file, stop_reason="end time", rod_core_velocity_m_s=500.0)
-    first = collect(layout.load(tmp_path / "copy")).ensembles[0]
+    first = collect(study_directory.load(tmp_path / "copy")).ensembles[0]
     assert (len(first.ended), first.cut) == (5, True)
     fake.edit_json(file, stop_reason="speed of rod below 5 m/s", rod_core_velocity_m_s=4.0)
-    first = collect(layout.load(tmp_path / "copy")).ensembles[0]
+    first = collect(study_directory.load(tmp_path / "copy")).ensembles[0]
     assert (len(first.ended), first.cut) == (1, False)
 
 
@@ -93,7 +93,7 @@ def test_members_are_dots_behind_the_mark_of_their_median(contents):
 def test_members_make_no_series_of_their_own(tmp_path):
     """Decks of members differ; without an axis they are still one series."""
     place = fake.write_study(tmp_path / "study", {}, repeats=3)
-    collected = collect(layout.load(place))
+    collected = collect(study_directory.load(place))
     choice = responses.choose(collected.study, collected.records)
     assert len(panels.panels(collected, choice)[0].series) == 1
 
@@ -147,8 +147,8 @@ def test_histories_and_outlines_of_members_are_thin(contents):
 def test_a_damaged_ensemble_is_one_message(study, tmp_path, entry):
     shutil.copytree(study, tmp_path / "copy")
     fake.edit_json(tmp_path / "copy" / "study.json", **entry)
-    with pytest.raises(layout.StudyError, match="is not a valid study file"):
-        layout.load(tmp_path / "copy")
+    with pytest.raises(study_directory.StudyError, match="is not a valid study file"):
+        study_directory.load(tmp_path / "copy")
 
 
 def test_a_damaged_change_of_a_member_is_one_message(study, tmp_path):
@@ -156,8 +156,8 @@ def test_a_damaged_change_of_a_member_is_one_message(study, tmp_path):
     file = tmp_path / "copy" / "study.json"
     entries = json.loads(file.read_text())["cases"]
     fake.edit_json(file, cases=[{**entries[0], "changed": {"first step": "much"}}, *entries[1:]])
-    with pytest.raises(layout.StudyError, match="is not a valid study file"):
-        layout.load(tmp_path / "copy")
+    with pytest.raises(study_directory.StudyError, match="is not a valid study file"):
+        study_directory.load(tmp_path / "copy")
 
 
 def test_the_status_has_the_ensembles(study, capsys):
@@ -182,7 +182,7 @@ def several(tmp_path_factory):
 
 
 def test_the_ensembles_of_several_studies_are_kept(several):
-    contents = collect(layout.gather(several))
+    contents = collect(study_directory.gather(several))
     assert [(each.name, len(each.members)) for each in contents.ensembles] == [
         ("ke/cases/1086m-s_ke", 5), ("ke/cases/1200m-s_ke", 5),
         ("momentum/cases/1086m-s_momentum", 3), ("momentum/cases/1200m-s_momentum", 3),
@@ -193,7 +193,7 @@ def test_the_ensembles_of_several_studies_are_kept(several):
 
 def test_members_of_several_studies_are_dots_of_the_series_of_their_case(several):
     """Series are distinguished by the differences between studies, not by those between members."""
-    contents = collect(layout.gather(several))
+    contents = collect(study_directory.gather(several))
     choice = responses.choose(contents.study, contents.records)
     panel = panels.panels(contents, choice)[0]
     assert [(each.label, len(each.records)) for each in panel.series] == [
@@ -225,7 +225,7 @@ def test_ensembles_of_bodies_without_a_projectile_are_not_split_by_member(tmp_pa
     """If the velocity does not vary, each case has one place on the x axis."""
     for name in ("one", "other"):
         fake.write_study(tmp_path / name, {}, repeats=3)
-    collected = collect(layout.gather([tmp_path / "one", tmp_path / "other"]))
+    collected = collect(study_directory.gather([tmp_path / "one", tmp_path / "other"]))
     for record in collected.records:
         record.velocity = None
     cases = responses.choose(collected.study, collected.records).x

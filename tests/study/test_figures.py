@@ -7,8 +7,8 @@ import pytest
 
 from hydro2d.output.outlines import Filling
 from hydro2d.study.ensemble.contents import collect
-from hydro2d.study.records import layout, responses
-from hydro2d.study.report import charts, panels, rods, series, theory
+from hydro2d.study.records import responses, study_directory
+from hydro2d.study.report import charts, panels, rods, run_series, theory
 from tests.study import fake
 
 
@@ -18,7 +18,7 @@ def contents(tmp_path_factory):
         "velocity": fake.velocities(1086, 1200, 1296),
         "advection": {"ke": ("numerics.advection=ke",), "momentum": ("numerics.advection=momentum",)},
     }
-    return collect(layout.load(fake.write_study(tmp_path_factory.mktemp("figures") / "study", axes)))
+    return collect(study_directory.load(fake.write_study(tmp_path_factory.mktemp("figures") / "study", axes)))
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def choose(contents, **options):
 
 
 def grouped(contents, axes, **options):
-    return series.grouped(contents.records, axes, choose(contents, **options))
+    return run_series.grouped(contents.records, axes, choose(contents, **options))
 
 
 def drawn(contents, panel, y="penetration_depth_m", curves=(), **options):
@@ -58,13 +58,13 @@ def test_a_variant_for_each_velocity_makes_no_series(tmp_path):
     study = fake.write_study(tmp_path / "study", {"shot": shots, "courant": {"0.5": (), "0.4": ("numerics.courant=0.4",)}})
     for case, speed in (("shot4345_0.5", 1200), ("shot4345_0.4", 1200)):
         (study / "cases" / case / "deck.toml").write_text(fake.deck_text(f"body.rod.velocity={speed} m/s"))
-    collected = collect(layout.load(study))
+    collected = collect(study_directory.load(study))
     groups = grouped(collected, collected.study.axes)
     assert [each.label for each in groups] == ["courant 0.5", "courant 0.4"]
 
 
 def test_styles_differ_in_colour_and_in_marker():
-    styles = [series.style(number) for number in range(24)]
+    styles = [run_series.style(number) for number in range(24)]
     assert len({(style.colour, style.marker) for style in styles}) == 24
     for one, two in zip(styles, styles[1:], strict=False):
         assert one.colour != two.colour
@@ -79,7 +79,7 @@ def luminance(colour):
 
 
 def test_colours_are_seen_on_light_and_on_dark():
-    for colour in series.COLOURS:
+    for colour in run_series.COLOURS:
         for paper in ("#ffffff", "#14181c"):
             low, high = sorted((luminance(colour), luminance(paper)))
             assert (high + 0.05) / (low + 0.05) > 3.0, (colour, paper)
@@ -109,7 +109,7 @@ def test_unfinished_runs_are_open_and_bounds_stand_in_a_triangle(tmp_path):
     fake.write_run(runs / "a", 1086.0, 0.30)
     fake.write_run(runs / "b", 1200.0, 0.31, stop_reason="end time", rod_core_velocity_m_s=80.0)
     fake.write_run(runs / "c", 1296.0, 0.54)
-    collected = collect(layout.load(runs))
+    collected = collect(study_directory.load(runs))
     assert [each.unfinished for each in collected.records] == ["", CUT, ""]
     traces = drawn(collected, panels.panels(collected, choose(collected))[0])
     assert list(traces["hydro2d"].x) == [1086, 1296]

@@ -10,7 +10,7 @@ from hydro2d.files.whole import write_json
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
-from hydro2d.study.records import keeping, layout
+from hydro2d.study.records import keeping, study_directory
 from hydro2d.study.run.choice import Choice
 from hydro2d.study.search import transition
 from tests.study import fake, tubes
@@ -41,9 +41,9 @@ def ended(plan, folder, **summary):
     """The cases of a plan with runs in a folder, as a sweep reads them."""
     for case in plan.cases:
         fake.write_run(folder / "cases" / case.name, text=case.text, **summary)
-    layout.make(folder)
-    layout.write(plan, folder)
-    return layout.read(folder).cases
+    study_directory.make(folder)
+    study_directory.write(plan, folder)
+    return study_directory.read(folder).cases
 
 
 def rows(plan):
@@ -86,7 +86,7 @@ def test_another_deck_or_method_makes_rows_stale(study, tmp_path):
     study.keep.write_text(text)
     assert Choice(study).kept().endswith("0 runs up to date, 4 stale, 0 not made")
     choice = Choice(study)
-    choice.keep(layout.read(tmp_path / "out").cases)
+    choice.keep(study_directory.read(tmp_path / "out").cases)
     assert len(rows(study)) == 4, "new rows take the places of stale ones"
     assert Choice(study).complete
 
@@ -186,7 +186,7 @@ def test_an_older_run_in_a_directory_is_not_used(tmp_path):
     status, said = tubes.sweep(*command)
     assert status == 0, said
     place = out / "cases" / "ke_0.1" / "summary.json"
-    summary = layout.read(out).cases[0].summary
+    summary = study_directory.read(out).cases[0].summary
     assert summary["method"] == keeping.METHOD
     place.unlink()
     write_json(place, {name: value for name, value in summary.items() if name != "sha256"} | {"method": "2020-01-01"})
@@ -195,4 +195,4 @@ def test_an_older_run_in_a_directory_is_not_used(tmp_path):
     assert "ran with another version of the method" in said
     status, said = tubes.sweep(*command, "--resume", "--overwrite")
     assert status == 0, said
-    assert layout.read(out).cases[0].summary["method"] == keeping.METHOD
+    assert study_directory.read(out).cases[0].summary["method"] == keeping.METHOD

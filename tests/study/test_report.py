@@ -14,7 +14,7 @@ from hydro2d.cli.main import call
 from hydro2d.results import movies
 from hydro2d.results.scales import FigureError
 from hydro2d.study.ensemble.contents import collect
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from hydro2d.study.report import page as report_page
 from hydro2d.study.report import pictures
 from hydro2d.study.report.report import report
@@ -312,7 +312,8 @@ def test_a_run_that_was_cut_has_no_error(study):
 def test_why_a_run_is_not_at_its_end(study, reason, speed, said):
     case = study / "cases" / "1086m-s_ke"
     fake.edit_json(case / "summary.json", stop_reason=reason, rod_core_velocity_m_s=speed)
-    assert next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke").unfinished == said
+    records = collect(study_directory.load(study)).records
+    assert next(each for each in records if each.case.name == "1086m-s_ke").unfinished == said
 
 
 @pytest.mark.parametrize("ending", ["gif", "mp4"])
@@ -340,7 +341,7 @@ def test_cases_that_have_not_begun_are_no_films_that_are_missing(tmp_path):
     shutil.rmtree(study / "cases" / "1200m-s")
     lines = []
     with pytest.raises(FigureError, match="no film could be made"):
-        list(pictures.films(collect(layout.load(study)), "pressure", tmp_path, lines.append))
+        list(pictures.films(collect(study_directory.load(study)), "pressure", tmp_path, lines.append))
     assert lines == ["warning: 1086m-s has no film: no dump was written"]
 
 
@@ -420,7 +421,7 @@ def test_without_plotly_the_extra_is_named_and_nothing_is_written(study, tmp_pat
 
 def test_reading_leaves_a_study_as_it_is(study):
     before = {path: path.read_bytes() for path in study.rglob("*") if path.is_file()}
-    collect(layout.load(study))
+    collect(study_directory.load(study))
     assert {path: path.read_bytes() for path in study.rglob("*") if path.is_file()} == before
 
 

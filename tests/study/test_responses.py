@@ -7,8 +7,8 @@ import pytest
 
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.plan.definition import StudyError
-from hydro2d.study.records import layout, responses, table
-from hydro2d.study.report import charts, panels, residual, series, theory
+from hydro2d.study.records import responses, study_directory, table
+from hydro2d.study.report import charts, panels, residual, run_series, theory
 from tests.study import fake
 
 SPHERE = "problems/shapes/sphere.toml"
@@ -17,7 +17,7 @@ LAWS = {name: (f"numerics.courant={number}",) for name, number in (("soft", 0.4)
 
 
 def study(folder, axes):
-    return collect(layout.load(fake.write_study(folder / "study", axes)))
+    return collect(study_directory.load(fake.write_study(folder / "study", axes)))
 
 
 def chosen(contents, **options):
@@ -26,8 +26,8 @@ def chosen(contents, **options):
 
 def label(axis):
     """An axis of a study as a variable."""
-    cases = tuple(layout.Case(value, None, {axis.name: value}) for value in axis.values)
-    return responses.of_axis(axis, layout.Study(None, "", "", (axis,), cases))
+    cases = tuple(study_directory.Case(value, None, {axis.name: value}) for value in axis.values)
+    return responses.of_axis(axis, study_directory.Study(None, "", "", (axis,), cases))
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,7 @@ def label(axis):
     ],
 )
 def test_labels_are_numbers_where_all_of_them_are_of_one_quantity(values, title, numbers):
-    variable = label(layout.Axis("size", None, values))
+    variable = label(study_directory.Axis("size", None, values))
     assert variable.title == title
     assert variable.order == (values if numbers is None else None)
     assert list(variable.values.values()) == (list(values) if numbers is None else pytest.approx(numbers))
@@ -79,7 +79,7 @@ def test_names_choose(tmp_path):
     assert choice.y[0].value(first) == pytest.approx(fake.LENGTH * 0.99 * 100)
     assert choice.y[1].value(first) == pytest.approx(0.99)
     assert chosen(contents, x="cycles").x.values["1086m-s_soft"] == 1000
-    assert [each.label for each in series.grouped(contents.records, contents.study.axes, choice)] == ["soft", "hard"]
+    assert [each.label for each in run_series.grouped(contents.records, contents.study.axes, choice)] == ["soft", "hard"]
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_a_wrong_name_is_said_with_the_nearest(tmp_path, options, said):
 def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_path):
     for name, depth in (("a", 0.30), ("b", 0.31), ("c", 0.28)):
         fake.write_run(tmp_path / "runs" / name, 1086.0, depth)
-    contents = collect(layout.load(tmp_path / "runs"))
+    contents = collect(study_directory.load(tmp_path / "runs"))
     choice = chosen(contents)
     assert (choice.x.name, choice.x.order) == ("case", ("a", "b", "c"))
     (panel,) = panels.panels(contents, choice)
@@ -117,7 +117,7 @@ def test_runs_at_one_velocity_are_a_strip_with_the_models_at_that_velocity(tmp_p
     assert level.x == ("a", "b", "c")
     assert level.y == pytest.approx([100 * tate.depth[0]] * 3, rel=1e-4)
     single = fake.write_run(tmp_path / "alone" / "a", 1086.0, 0.3)
-    assert chosen(collect(layout.load(single.parent))).x.impact, "one run alone stays at its velocity"
+    assert chosen(collect(study_directory.load(single.parent))).x.impact, "one run alone stays at its velocity"
 
 
 def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
@@ -146,7 +146,7 @@ def test_combinations_of_axes_at_one_velocity_have_a_strip_of_depths(tmp_path):
 
 def test_a_strip_of_ensembles_has_bars_across(tmp_path):
     fake.write_study(tmp_path / "study", {"law": LAWS, "mesh": {"a": (), "b": ()}}, repeats=3)
-    contents = collect(layout.load(tmp_path / "study"))
+    contents = collect(study_directory.load(tmp_path / "study"))
     (panel,) = panels.panels(contents, choice := chosen(contents))
     figure = charts.strip(panel.series, panels._rows(contents, choice, panel), choice.y[0], contents.belonging, ())
     medians = [trace for trace in figure.data if trace.error_x.array is not None]
@@ -166,7 +166,7 @@ def test_no_second_strip(tmp_path, axes):
 def test_the_motions_of_models_are_drawn_with_the_histories(tmp_path):
     for name, velocity in (("a", 1086.0), ("b", 1086.0), ("c", 1200.0)):
         fake.write_run(tmp_path / "runs" / name, velocity, 0.3, text=fake.deck_text(f"body.rod.velocity={velocity} m/s"))
-    contents = collect(layout.load(tmp_path / "runs"))
+    contents = collect(study_directory.load(tmp_path / "runs"))
     (panel,) = panels.panels(contents, chosen(contents))
     motions = panels._motions(panel, panel.members)
     assert list(motions) == [1086.0, 1200.0]
@@ -190,7 +190,7 @@ def test_the_motions_of_models_are_drawn_with_the_histories(tmp_path):
 def test_a_motion_is_drawn_only_where_its_model_applies(tmp_path):
     """No rigid rod for one that erodes; no motion beyond the rear of the target."""
     fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3, regime="eroding")
-    (panel,) = panels.panels(contents := collect(layout.load(tmp_path / "runs")), chosen(contents))
+    (panel,) = panels.panels(contents := collect(study_directory.load(tmp_path / "runs")), chosen(contents))
     _, by = panels._motions(panel, panel.members)[1086.0]
     assert list(by) == ["Tate-Alekseevskii", "Walker-Anderson"]
     assert ": 1 run, " in list(panels.draw(contents, chosen(contents)))[-1].caption
@@ -208,7 +208,7 @@ def test_an_unfinished_run_has_the_last_of_its_history(tmp_path):
     run = fake.write_run(tmp_path / "runs" / "a", 1086.0, 0.3)
     (run / "summary.json").unlink()
     (run / "restart.h5").touch()
-    collected = collect(layout.load(tmp_path / "runs")).records[0]
+    collected = collect(study_directory.load(tmp_path / "runs")).records[0]
     assert collected.unfinished == "interrupted"
     assert responses.raw(collected, "rod_tail_velocity_m_s") == pytest.approx(0.0)
     assert responses.raw(collected, "rod_residual_velocity_m_s") is None
@@ -221,7 +221,7 @@ def perforations(folder, shots, **summary):
         text = fake.resolved(SPHERE, f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
         through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5, "stop_reason": "perforation of plate"}
         fake.write_run(folder / f"{velocity:g}", velocity, 0.003, text=text, **(through if left else {}), **summary)
-    return collect(layout.load(folder))
+    return collect(study_directory.load(folder))
 
 
 def lambert_jonas(velocity, a=0.9, p=2.5, limit=500.0):
@@ -263,7 +263,7 @@ def test_measured_residual_velocities_are_drawn_with_those_of_the_runs(tmp_path)
                      f"experiment.residual_velocity={measured} m/s"]
         through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5, "stop_reason": "perforation of plate"}
         fake.write_run(runs / f"{velocity}", velocity, 0.003, text=fake.resolved(SPHERE, *shot), **(through if left else {}))
-    contents = collect(layout.load(runs))
+    contents = collect(study_directory.load(runs))
     rows = {row["velocity_m_s"]: (row["experiment_residual_m_s"], row["residual_error_m_s"]) for row in contents.rows}
     assert rows == {600: (470.0, 30.0), 900: (835.0, -15.0), 400: (0.0, 0.0), 700: (None, None)}
     choice = chosen(contents)
@@ -305,7 +305,7 @@ def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
     shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm"), "long": ("body.rod.velocity=1000 m/s",)}
     for name, overrides in shots.items():
         fake.write_run(tmp_path / "runs" / name, 950.0, text=fake.deck_text(*overrides))
-    contents = collect(layout.load(tmp_path / "runs"))
+    contents = collect(study_directory.load(tmp_path / "runs"))
     drawn = panels.panels(contents, chosen(contents, by=["numerics.courant"]))
     assert [len(panel.members) for panel in drawn] == [1, 1]
 
@@ -315,7 +315,7 @@ def test_runs_without_a_projectile_are_drawn_by_their_first_body(tmp_path):
     for number in (1, 2):
         text = fake.resolved("problems/verification/sod_z.toml", f"numerics.courant=0.{number}")
         fake.write_run(tmp_path / "runs" / str(number), text=text, stop_reason="end time", **bodies)
-    contents = collect(layout.load(tmp_path / "runs"))
+    contents = collect(study_directory.load(tmp_path / "runs"))
     assert [each.unfinished for each in contents.records] == ["", ""]
     choice = chosen(contents)
     assert (choice.x.name, [y.name for y in choice.y]) == ("case", ["bodies.gas.velocity_m_s", "bodies.gas.z_max_m"])

@@ -10,7 +10,7 @@ import pytest
 from hydro2d.results import reading
 from hydro2d.results.summaries import plausible
 from hydro2d.study.ensemble.contents import collect
-from hydro2d.study.records import layout, responses, table
+from hydro2d.study.records import responses, study_directory, table
 from hydro2d.study.report import panels
 from hydro2d.study.report.page import page
 from tests.study import fake
@@ -50,7 +50,7 @@ def test_a_report_of_any_summary(place, path):
                 inner = inner[key]
             inner[path[-1]] = wrong
             (place / "summary.json").write_text(json.dumps(summary))
-            study = layout.gather([place])
+            study = study_directory.gather([place])
             contents = collect(study)
             choice = responses.choose(study, contents.records)
             drawn = list(panels.draw(contents, choice)) if wrong in DRAWN else []  # they take a fifth of a second each
@@ -64,7 +64,7 @@ def test_a_report_of_any_summary(place, path):
 def test_values_of_the_wrong_kind_are_left_out_and_reported(place):
     text = (place / "summary.json").read_text()
     fake.edit_json(place / "summary.json", rod_length_m="long", cycles=[3], wall_s=None)
-    (case,) = layout.gather([place]).cases
+    (case,) = study_directory.gather([place]).cases
     (place / "summary.json").write_text(text)
     assert case.message == "summary.json has values of the wrong kind in cycles, rod_length_m"
     assert "rod_length_m" not in case.summary

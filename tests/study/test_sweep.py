@@ -4,7 +4,6 @@ import functools
 import json
 import os
 import random
-import shutil
 import signal
 import subprocess
 import sys
@@ -17,6 +16,7 @@ import hydro2d
 from hydro2d.deck import deck as decks
 from hydro2d.running.run import run
 from hydro2d.study.plan import cases
+from tests.disk import can_mount
 from tests.study import tubes
 
 
@@ -206,12 +206,7 @@ def test_some_cases_run_and_the_others_later(tmp_path):
     assert (out / "cases" / "ke_0.1" / "summary.json").stat().st_mtime_ns == before
 
 
-def _can_mount():
-    probe = ["unshare", "--mount", "--map-root-user", "mount", "-t", "tmpfs", "none", "/mnt"]
-    return shutil.which("unshare") is not None and subprocess.run(probe, capture_output=True, check=False).returncode == 0
-
-
-@pytest.mark.skipif(not _can_mount(), reason="no small file system can be mounted here")
+@pytest.mark.skipif(not can_mount(), reason="no small file system can be mounted here")
 def test_a_disk_that_fills_up(tmp_path, undisturbed):
     """All cases on a file system that is too small: one clear message each; with more room the sweep continues."""
     file, out = tubes.write(tmp_path), tmp_path / "disk" / "out"

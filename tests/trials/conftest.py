@@ -30,11 +30,11 @@ def finished(tmp_path_factory):
     assert spoil.judge(["run", str(folder / "shot.toml"), *FEW, "--quiet", "--out", str(folder / "run")])[0] == 0
     (folder / "study.toml").write_text(STUDY)
     from hydro2d.study.plan import cases
-    from hydro2d.study.records import layout
+    from hydro2d.study.records import study_directory
 
     plan = cases.plan(folder / "study.toml")
-    layout.make(folder / "study")
-    layout.write(plan, folder / "study")
+    study_directory.make(folder / "study")
+    study_directory.write(plan, folder / "study")
     for case in plan.cases[:2]:
-        shutil.copytree(folder / "run", folder / "study" / layout.CASES / case.name)
+        shutil.copytree(folder / "run", folder / "study" / study_directory.CASES / case.name)
     return folder

@@ -7,7 +7,6 @@ there were by fault. Decks that already have a line are not run again.
 from __future__ import annotations
 
 import collections
-import json
 import sys
 import tomllib
 
@@ -18,6 +17,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.files import toml
 from hydro2d.mesh.fields import RHO, SRZ, E
 from hydro2d.solver.simulation import Simulation
+from tests import restarts
 from tests.solver import audited
 from tests.solver.test_audit import unexplained_by_sound
 from tests.trials.campaign import kept
@@ -109,10 +109,7 @@ def sums(simulation: Simulation) -> dict[str, float]:
 
 def restarted(text: str) -> Simulation:
     """The simulation of a deck stored halfway, as JSON where a restart file uses it, and continued from there."""
-    first = advanced(text, CYCLES // 2)
-    second = Simulation(decks.loads(text))
-    second.load_restart_arrays({name: array.copy() for name, array in first.restart_arrays().items()})
-    second.load_restart_scalars(json.loads(json.dumps(first.restart_scalars())))
+    second = restarts.restarted(advanced(text, CYCLES // 2))
     while second.cycle < CYCLES:
         second.step()
     return second

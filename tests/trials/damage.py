@@ -18,7 +18,7 @@ import numpy as np
 from hydro2d.base.errors import Error
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results import export, reading
-from hydro2d.study.records import layout, record
+from hydro2d.study.records import record, study_directory
 
 #: bytes of a block that is zeroed
 BLOCKS = (64, 512, 4096)
@@ -70,9 +70,9 @@ def _exported(file: Path):
     return (out / "vtk" / file.name).read_bytes()
 
 
-def _case(directory: Path) -> layout.Case:
-    (case,) = layout.load(directory).cases
-    if case.status == layout.FAILED_STATUS:
+def _case(directory: Path) -> study_directory.Case:
+    (case,) = study_directory.load(directory).cases
+    if case.status == study_directory.FAILED_STATUS:
         raise Error(case.message)
     return case
 
@@ -95,7 +95,7 @@ READERS: dict[str, tuple[Callable, ...]] = {
     "run/vtk/dump_000001.vtr": (_grid, _pyvista),
     "run/vtk/interfaces_000000.vtp": (vtk.read_lines, lambda file: _record(file.parent)),
     "run/vtk/tracers_000001.vtp": (_exported,),
-    "study/study.json": (lambda file: layout.read(file.parent).entries,),
+    "study/study.json": (lambda file: study_directory.read(file.parent).entries,),
 }
 
 

@@ -29,6 +29,13 @@ def finish(deck, watch=None) -> Simulation:
     return simulation
 
 
+def to_the_end(simulation: Simulation) -> Simulation:
+    """Steps until a condition of the deck ends the run."""
+    while simulation.stop_reason() is None:
+        simulation.step()
+    return simulation
+
+
 @functools.cache
 def run(name: str, *overrides: str) -> Simulation:
     """A shipped verification deck at its end; each combination of overrides, in SI units, runs once. Not to be modified."""

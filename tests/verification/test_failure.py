@@ -8,7 +8,7 @@ from hydro2d.deck import deck
 from hydro2d.mesh.fields import FAILED, SRR, SRZ
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, plate, rod, stop, table, walls
-from tests.verification.running import finish
+from tests.verification.running import finish, to_the_end
 from tests.verification.test_translation import ROD
 
 STRAIN_FAILURE = """
@@ -136,12 +136,6 @@ RING = (
            flow={"pattern": "cylindrical", "speed": "150 m/s", "radius": "40 mm", "exponent": 0})
     + stop("40 us")
 )  # fmt: skip
-
-
-def to_the_end(simulation: Simulation) -> Simulation:
-    while simulation.stop_reason() is None:
-        simulation.step()
-    return simulation
 
 
 def share_failed(simulation: Simulation) -> float:

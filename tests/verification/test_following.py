@@ -8,7 +8,8 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, contact, material, mesh, plate, rod, stop, table, walls
-from tests.verification.running import ADVECTION, Line, advection, between
+from tests.restarts import restarted
+from tests.verification.running import ADVECTION, Line, advection, between, to_the_end
 
 FLIGHT = (
     mesh(("4 mm", 8), ("-8 mm", "8 mm", 32), follow="rod")
@@ -119,16 +120,10 @@ def following(*options: str) -> Simulation:
     return Simulation(decks.loads(SHOT, list(options)))
 
 
-def finish(simulation: Simulation) -> Simulation:
-    while simulation.stop_reason() is None:
-        simulation.step()
-    return simulation
-
-
 @functools.cache
 def on_both_meshes():
     """A rod through two plates, on the mesh that follows it and on a fixed one. Not to be modified."""
-    return finish(following()), finish(standing())
+    return to_the_end(following()), to_the_end(standing())
 
 
 def test_two_plates_take_as_much_from_the_rod_on_either_mesh():
@@ -224,8 +219,6 @@ def test_a_restart_forgets_where_bodies_began():
     simulation = Simulation(deck)
     while simulation.time < 6e-6:
         simulation.step()
-    again = Simulation(deck)
-    again.load_restart_arrays(simulation.restart_arrays())
-    again.load_restart_scalars(simulation.restart_scalars())
+    again = restarted(simulation)
     np.testing.assert_array_equal(again.state.mass, simulation.state.mass)
     assert again.conservation() == simulation.conservation()

@@ -209,7 +209,7 @@ def test_a_rod_flies_through_air_and_meets_a_plate(speed, tip):
 @pytest.mark.parametrize("speed", [1088, pytest.param(1090, marks=pytest.mark.xfail(
     reason="the crushed film of air takes rod with it", raises=UnphysicalState, strict=True)), 1100])
 def test_a_fast_rod_flies_through_air(speed):
-    """Chance decides when the air between rod and plate is crushed: of 1080 to 1100 m/s, five of eleven were unphysical."""
+    """Chance decides when the air between rod and plate is crushed: of 1080 to 1100 m/s, six of eleven are unphysical."""
     through_air(speed, -3)
 
 

@@ -6,6 +6,7 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, mesh, rod, stop, table
+from tests.verification.running import to_the_end
 
 
 def bodies(sign: int) -> dict[str, str]:
@@ -31,12 +32,6 @@ def impact(order=("rod", "plate", "cover"), sign=1, geometry="cylindrical", opti
         + stop("1 s", cycles=40)
     )  # fmt: skip
     return Simulation(deck.loads(text, options))
-
-
-def run(simulation: Simulation) -> Simulation:
-    while simulation.stop_reason() is None:
-        simulation.step()
-    return simulation
 
 
 SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_factor=1.5"
@@ -78,7 +73,7 @@ def test_mirrored_in_z(geometry, options):
         mirrored = sign * inside(up, name)[..., ::-1, :]
         np.testing.assert_allclose(inside(down, name), mirrored, rtol=1e-13, atol=1e-12, err_msg=name)
     take_mirror_image(down, up)
-    run(up), run(down)
+    to_the_end(up), to_the_end(down)
     assert inside(up, "ep").max() > 0.2
     assert up.time == down.time
     for name in (*BODY_FIELDS, "u", "v"):
@@ -100,7 +95,7 @@ def test_contact_of_mirror_images():
     """
     up, down = (impact(sign=sign, options=CONTACT) for sign in (1, -1))
     take_mirror_image(down, up)
-    run(up), run(down)
+    to_the_end(up), to_the_end(down)
     mass = up.grid.interior_vertices(up.state.mass)
     apart = max(np.abs(np.where(mass > 1e-6 * mass.max(), x - sign * y[:, ::-1], 0.0)).max()
                 for sign, x, y in ((1.0, *(up.grid.interior_vertices(one.state.u) for one in (up, down))),
@@ -126,15 +121,15 @@ def compared(first: Simulation, second: Simulation, order: list[int]) -> dict[st
 def test_order_of_the_bodies_in_the_deck(options):
     """With a stated nesting of interfaces, the order in which a deck lists its bodies changes nothing."""
     order = ["rod", "plate", "cover"]
-    first = run(impact(options=options, interface_order=order))
-    second = run(impact(("cover", "rod", "plate"), options=options, interface_order=order))
+    first = to_the_end(impact(options=options, interface_order=order))
+    second = to_the_end(impact(("cover", "rod", "plate"), options=options, interface_order=order))
     assert max(compared(first, second, [1, 2, 0]).values()) < 1e-12
 
 
 def test_nesting_changes_little():
     """The order of the interfaces is a choice of the method; it matters where three materials meet."""
-    first = run(impact())
-    second = run(impact(("cover", "plate", "rod")))
+    first = to_the_end(impact())
+    second = to_the_end(impact(("cover", "plate", "rod")))
     difference = compared(first, second, [2, 1, 0])
     assert difference["vof"] < 0.01
     assert difference["v"] < 0.03

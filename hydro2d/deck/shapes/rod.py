@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from pydantic import Field, create_model, model_validator
+from pydantic import Field, model_validator
 
 from hydro2d.base import units
-from hydro2d.base.keys import Length, PositiveLength, optional
+from hydro2d.base.keys import Length, PositiveLength, optional, with_keys
 from hydro2d.deck.shapes.body import Body
 from hydro2d.deck.shapes.outlines import Arc, Line, Outline, solid
 from hydro2d.noses import profile
@@ -125,4 +125,4 @@ def _nose_keys() -> dict:
 if TYPE_CHECKING:
     Rod = _Rod
 else:
-    Rod = create_model("Rod", __base__=_Rod, __doc__=_Rod.__doc__, __module__=__name__, **_nose_keys())
+    Rod = with_keys(_Rod, _nose_keys())

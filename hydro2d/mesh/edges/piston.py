@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from hydro2d.base.parameters import ANY, REQUIRED, Parameter
+from hydro2d.base.tables import OVER_TIME, at
 from hydro2d.mesh.edges.velocity import Velocity
 
 
@@ -14,14 +13,13 @@ class Piston(Velocity):
     name = "piston"
     in_words = "a piston"
     meaning = "the normal velocity is a table over time; material crosses the edge as at a constant velocity"
-    keys = (Parameter("piston", "m/s", REQUIRED, "normal velocity over time", sign=ANY,
-                      example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]], over_time=True),)  # fmt: skip
+    keys = (Parameter("piston", "s, m/s", REQUIRED, "normal velocity over time", sign=ANY, table=OVER_TIME,
+                      example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]]),)  # fmt: skip
     sink = "piston"
     sink_meaning = "momentum that pistons take, and the work that they do (negative)"
 
     def constrain(self, time: float) -> float:
-        times, velocities = np.array(self.values["piston"]).T
-        return float(np.interp(time, times, velocities))
+        return at(self.values["piston"], time)
 
     def fastest(self, start: float, end: float) -> float:
         between = [velocity for time, velocity in self.values["piston"] if start < time < end]

@@ -1,8 +1,8 @@
 """Numbers packed for a page: integers of few bits between the smallest and largest value, differences, deflate, base64.
 
 `assets/data.js` unpacks them. Values of a field at a time are stored as levels, 0 for the smallest and `last_level` for the
-largest, so that no value is off by more than `largest_error`. Levels are replaced by their differences along r and
-along z, modulo 2^16, which are small where a field is smooth, and split into their high and low bytes.
+largest, so that no value is off by more than half a level. Levels are replaced by their differences along r and along z, modulo
+2^16, which are small where a field is smooth, and split into their high and low bytes.
 """
 
 from __future__ import annotations
@@ -24,11 +24,6 @@ STRENGTH = 6
 def last_level(bits: int) -> int:
     """The level of the largest value; the one above it stands for non-finite values."""
     return (1 << bits) - 2
-
-
-def largest_error(low: float, high: float, bits: int) -> float:
-    """Largest difference of an unpacked value from the original."""
-    return 0.5 * (high - low) / last_level(bits)
 
 
 def levels_of(values: np.ndarray, low: float, high: float, bits: int) -> np.ndarray:

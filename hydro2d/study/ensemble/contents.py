@@ -8,9 +8,9 @@ from functools import cached_property
 from hydro2d.study.ensemble.ensembles import Ensemble, grouped, rows
 from hydro2d.study.records import experiments, record, table
 from hydro2d.study.records.experiments import Measurement
-from hydro2d.study.records.layout import Study
 from hydro2d.study.records.record import Record, Setup
 from hydro2d.study.records.responses import Choice
+from hydro2d.study.records.study_directory import Study
 from hydro2d.study.search import regimes
 
 

@@ -10,9 +10,9 @@ from functools import cached_property
 from hydro2d.study.ensemble import agreement
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson
 from hydro2d.study.records.experiments import Measurement
-from hydro2d.study.records.layout import DONE, Study
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, Choice, Response, raw, response
+from hydro2d.study.records.study_directory import DONE, Study
 from hydro2d.study.records.table import LENGTH_RATIO, RESULTS, Row
 from hydro2d.study.run.monitor import lines
 

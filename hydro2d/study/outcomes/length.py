@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydro2d.mesh.regime import LEAST_KEPT
+from hydro2d.mesh.regime import LEAST_KEPT_LENGTH
 from hydro2d.study.outcomes.base import BY_DEPTH, Outcome, Verdict, lost
 
 KEPT, USED_UP = "kept", "used up"
@@ -22,5 +22,5 @@ class Length(Outcome):
     def judge(cls, record, depth):
         if verdict := lost(record):
             return verdict
-        kept = record.value("rod_length_m") >= LEAST_KEPT * record.value("rod_initial_length_m")
+        kept = record.value("rod_length_m") >= LEAST_KEPT_LENGTH * record.value("rod_initial_length_m")
         return Verdict(KEPT if kept else USED_UP)

@@ -25,8 +25,8 @@ from hydro2d.output.directory import DECK
 from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.members import cells_across, projectile
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import DONE, UNPHYSICAL, Case
+from hydro2d.study.records import study_directory
+from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case
 from hydro2d.study.records.table import ratio
 
 #: statuses of runs that have a row
@@ -150,7 +150,7 @@ def read(path: Path) -> list[KeptRow]:
 
 def _of_directory(directory: Path) -> list[KeptRow]:
     """The rows of the ended runs of a study directory. Raises StudyError, DeckError."""
-    study = layout.read(directory)
+    study = study_directory.read(directory)
     axes = tuple(axis.name for axis in study.axes)
     rows = []
     for case in study.cases:

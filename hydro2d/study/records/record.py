@@ -23,7 +23,7 @@ from hydro2d.output.directory import DECK, HISTORY, check_own
 from hydro2d.solver import targets
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.records.differences import flatten
-from hydro2d.study.records.layout import DONE, Case
+from hydro2d.study.records.study_directory import DONE, Case
 
 #: columns of the history to draw: of a projectile, and of the first body in other decks; largest number of points of a line
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")

@@ -14,8 +14,8 @@ from hydro2d.results.summaries import NUMBERS, UNITS
 from hydro2d.running.columns import SUMMARY
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.records.differences import flatten, text
-from hydro2d.study.records.layout import Axis, Study
 from hydro2d.study.records.record import Record, is_number
+from hydro2d.study.records.study_directory import Axis, Study
 
 DEPTH, RESIDUAL, IMPACT = "penetration_depth_m", "rod_residual_velocity_m_s", "velocity"
 #: responses of decks without a projectile, of their first body

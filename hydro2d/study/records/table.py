@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from hydro2d.base.terminal import cell
 from hydro2d.mesh.measured import unit
 from hydro2d.study.records.experiments import Measurement
-from hydro2d.study.records.layout import DONE, Axis, Study
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
+from hydro2d.study.records.study_directory import DONE, Axis, Study
 
 #: largest number of sinks named on the page, and the smallest fraction of the start energy of one that is named
 NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6

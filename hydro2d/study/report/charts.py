@@ -18,7 +18,7 @@ from hydro2d.study.records.record import Record, Setup
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Response, Variable, readers, title
 from hydro2d.study.report import residual, theory
 from hydro2d.study.report.marks import SIZE, ensembles, points, verbatim
-from hydro2d.study.report.series import Series, style
+from hydro2d.study.report.run_series import Series, style
 
 #: stand-ins for text and experiments, for models and axes, for the grid, and for the paper
 INK, MUTED, GRID, PAPER = "rgb(1, 2, 3)", "rgb(90, 91, 92)", "rgb(221, 222, 223)", "rgb(254, 254, 254)"

@@ -9,7 +9,7 @@ from hydro2d.base.terminal import shown
 from hydro2d.study.ensemble.ensembles import Ensemble, grouped
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, Response, Variable
-from hydro2d.study.report.series import Series
+from hydro2d.study.report.run_series import Series
 
 #: sizes of marks and of dots in pixels; opacity of the dots
 SIZE, DOT, FAINT = 9, 7, 0.4

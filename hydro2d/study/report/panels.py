@@ -14,7 +14,7 @@ from hydro2d.study.records import experiments, record, responses
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record, Setup
 from hydro2d.study.records.responses import CASE, DEPTH, RESIDUAL, Choice, Response, Variable
-from hydro2d.study.report import charts, residual, series, theory
+from hydro2d.study.report import charts, residual, run_series, theory
 
 #: fraction by which lines of models extend beyond the velocities of runs and experiments
 BEYOND = 0.05
@@ -45,7 +45,7 @@ class Panel:
     """
 
     members: list[Record]
-    series: list[series.Series]
+    series: list[run_series.Series]
     heading: str
     words: str
     setup: Setup | None
@@ -91,7 +91,7 @@ def panels(contents: Contents, choice: Choice) -> list[Panel]:
         common = next(iter(groups)) if len(groups) == 1 else None
         shots = contents.measurements[common] if common else []
         members = contents.records
-        return [Panel(members, series.grouped(members, axes, choice), common.short if common else title,
+        return [Panel(members, run_series.grouped(members, axes, choice), common.short if common else title,
                       common.words if common else title, common, shots)]  # fmt: skip
     alike: dict[tuple, list[Setup]] = {}
     for setup in groups:
@@ -112,7 +112,7 @@ def _tells_setups_apart(panel: Panel, setups: Sequence[Setup]) -> bool:
 
 def _panel(contents: Contents, choice: Choice, setups: Sequence[Setup]) -> Panel:
     members = [each for each in contents.records if each.setup in setups]
-    grouped = series.grouped(members, contents.study.axes, choice)
+    grouped = run_series.grouped(members, contents.study.axes, choice)
     shots = list(dict.fromkeys(shot for setup in setups for shot in contents.measurements[setup]))
     first = setups[0]
     rods, sizes = len({setup.rod for setup in setups}), len({setup[3:] for setup in setups})
@@ -265,7 +265,7 @@ def _motions(panel: Panel, drawn: Sequence[Record]) -> dict[float, tuple[float, 
 
 def _histories(contents: Contents, choice: Choice, panel: Panel, name: str) -> Chart:
     drawn = [each for each in panel.members if each.history]
-    lines = series.grouped(drawn, contents.study.axes, choice)
+    lines = run_series.grouped(drawn, contents.study.axes, choice)
     motions = _motions(panel, drawn)
     figure = charts.histories(lines, motions)
     ends = [each.history["time"][-1] * 1e6 for each in drawn]

@@ -14,8 +14,8 @@ from hydro2d.output.vtk import VtkError
 from hydro2d.results import figures, movies, reading
 from hydro2d.results.scales import FigureError
 from hydro2d.study.ensemble.contents import Contents
-from hydro2d.study.records.layout import INVALID, WAITING
 from hydro2d.study.records.record import Record
+from hydro2d.study.records.study_directory import INVALID, WAITING
 from hydro2d.study.report import rods
 from hydro2d.study.search import chance_figure
 from hydro2d.study.search.regimes import Transitions

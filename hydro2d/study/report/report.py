@@ -18,7 +18,7 @@ from hydro2d.results.viewer.field_arrays import ViewError
 from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.study.ensemble import ensembles
 from hydro2d.study.ensemble.contents import Contents, collect
-from hydro2d.study.records import layout, responses, table
+from hydro2d.study.records import responses, study_directory, table
 from hydro2d.study.report import panels, pictures
 from hydro2d.study.report.page import PAGE, TABLE, charts_script, page
 
@@ -55,10 +55,10 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     Returns the path of the page. Raises MissingPackage, StudyError, FigureError, OSError.
     """
     charts_script()  # refuses charts that cannot be drawn, before the pictures are made
-    study = layout.load(directories[0]) if len(directories) == 1 else layout.gather(directories)
+    study = study_directory.load(directories[0]) if len(directories) == 1 else study_directory.gather(directories)
     folder = Path(out or own(Path(directories[0]) / "report"))
     if folder.exists() and not folder.is_dir():
-        raise layout.StudyError(f"{folder} is a file; --out must name a folder")
+        raise study_directory.StudyError(f"{folder} is a file; --out must name a folder")
     if movie:
         pictures.check_field(movie)
     contents = collect(study, trust)

@@ -24,7 +24,7 @@ from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compile_all, run
 from hydro2d.solver.first_cycle import kernels
-from hydro2d.study.records.layout import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
+from hydro2d.study.records.study_directory import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
 
 #: exceptions that are reported in one line, without a traceback
 TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeFile, VtkError, RunError,

@@ -12,7 +12,7 @@ from hydro2d.base.errors import unknown
 from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.records.keeping import Keeper
-from hydro2d.study.records.layout import ENDED, Case, Study
+from hydro2d.study.records.study_directory import ENDED, Case, Study
 
 
 def _matching(plan: Plan, only: Sequence[str], skip: Sequence[str]) -> list[Planned]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from hydro2d.base.terminal import duration, number, one_line, say, several, shown, width
 from hydro2d.files.strange import opened
-from hydro2d.study.records.layout import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
+from hydro2d.study.records.study_directory import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
 
 #: seconds between lines, and between refreshes of the table
 LINE_SECONDS, TABLE_SECONDS = 5.0, 1.0

@@ -29,10 +29,11 @@ from hydro2d.output.directory import SUMMARY, clear
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study.plan.cases import Plan
 from hydro2d.study.plan.definition import StudyError
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import (
+from hydro2d.study.records import study_directory
+from hydro2d.study.records.study_directory import (
     CASES,
     DONE,
+    ENDED,
     FAILED,
     FAILED_STATUS,
     INTERRUPTED,
@@ -41,6 +42,8 @@ from hydro2d.study.records.layout import (
     STUDY,
     UNPHYSICAL,
     WAITING,
+    Case,
+    Study,
 )
 from hydro2d.study.run import monitor
 from hydro2d.study.run.case import Outcome, is_older
@@ -63,7 +66,7 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
     if (directory / SUMMARY).exists():
         raise StudyError(f"{directory} holds a run; give the study a directory of its own")
     if (directory / STUDY).exists():
-        before = layout.read(directory)
+        before = study_directory.read(directory)
         if not (resume or overwrite) and any(case.directory.exists() for case in before.cases):
             raise StudyError(
                 f"{directory} already holds a study ({monitor.counts(before.cases)}); {plan.again} continues it, "
@@ -75,7 +78,7 @@ def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> li
     return notices
 
 
-def _changes(plan: Plan, before: layout.Study, overwrite: bool) -> list[str]:
+def _changes(plan: Plan, before: Study, overwrite: bool) -> list[str]:
     """Cases that have come, gone, or changed."""
     old = {case.name: case for case in before.cases}
     new = {case.name: case for case in plan.cases}
@@ -117,16 +120,16 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
             say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
         return ALL_DONE
     notices, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
-    layout.make(directory)
+    study_directory.make(directory)
     with locked(directory / LOCK):
         if overwrite:
-            cases = layout.of_plan(choice.plan, directory).cases
+            cases = study_directory.of_plan(choice.plan, directory).cases
             _clear(case for case in cases if case.name not in choice.left_out and (not resume or is_older(case.summary)))
-        layout.write(choice.begin(directory), directory)
-        return _sweep(choice, layout.read(directory), notices, connect, interrupt, threads, overwrite, quiet)
+        study_directory.write(choice.begin(directory), directory)
+        return _sweep(choice, study_directory.read(directory), notices, connect, interrupt, threads, overwrite, quiet)
 
 
-def _sweep(choice: Choice, study: layout.Study, notices: list[str], connect: AbstractContextManager, interrupt: Interrupt,
+def _sweep(choice: Choice, study: Study, notices: list[str], connect: AbstractContextManager, interrupt: Interrupt,
            threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
     with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
         board.line(choice.heading(study))
@@ -138,7 +141,7 @@ def _sweep(choice: Choice, study: layout.Study, notices: list[str], connect: Abs
         return _end(board, interrupt, time.perf_counter() - started, spent, choice.plan.again)
 
 
-def _clear(cases: Iterable[layout.Case]) -> None:
+def _clear(cases: Iterable[Case]) -> None:
     """Removes the files of runs from the cases."""
     for case in cases:
         if case.directory.is_dir():
@@ -154,7 +157,7 @@ class _Sweep:
         self.threads, self.overwrite = threads, overwrite
         self.texts = {case.name: case.text for case in choice.plan.cases}
         self.name = uuid.uuid4().hex[:12]
-        self.tasks: dict[str, layout.Case] = {}
+        self.tasks: dict[str, Case] = {}
         self.compiling = False
         self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
@@ -194,7 +197,7 @@ class _Sweep:
         while names := self.choice.wanted(self.board.cases, self.board.moving, self._room()):
             if not set(names) <= set(self.board.numbers):
                 self._enlarge(names)
-            todo = [case for name in names if (case := self.board.look(name)).status not in layout.ENDED]
+            todo = [case for name in names if (case := self.board.look(name)).status not in ENDED]
             if todo and not self.compiling:
                 self.compiling = True
                 key = kernels(decks.loads(self.texts[todo[0].name]))
@@ -214,12 +217,12 @@ class _Sweep:
         plan = self.choice.enlarged(names)
         self.texts |= {case.name: case.text for case in plan.cases}
         try:
-            layout.write(plan, self.board.study.directory)
+            study_directory.write(plan, self.board.study.directory)
         except OSError as error:
             self.board.line(f"{self.board.study.directory}: the study cannot be written: {error.strerror or error}")
-        self.board.watch(layout.of_plan(plan, self.board.study.directory))
+        self.board.watch(study_directory.of_plan(plan, self.board.study.directory))
 
-    def _give(self, case: layout.Case) -> None:
+    def _give(self, case: Case) -> None:
         from hydro2d.study.run import worker
 
         key = f"{case.name}-{self.name}"
@@ -243,16 +246,16 @@ class _Sweep:
         except queue.Empty:
             return None
 
-    def _take(self, future) -> layout.Case:
+    def _take(self, future) -> Case:
         """The case that has ended. Its worker is free for the next case before this one is examined."""
         case = self.tasks.pop(future.key)
         self.board.moving.discard(case.name)
         return self.board.look(case.name)
 
-    def _finish(self, case: layout.Case, outcome: Outcome) -> None:
+    def _finish(self, case: Case, outcome: Outcome) -> None:
         """Reports the outcome of a case."""
         self.spent += outcome.wall_s
-        if outcome.status == FAILED_STATUS and case.status not in layout.ENDED:  # its worker may die as it ends
+        if outcome.status == FAILED_STATUS and case.status not in ENDED:  # its worker may die as it ends
             self._record(case, outcome)
             case = self.board.look(case.name)
         elif outcome.status == FAILED_STATUS:
@@ -269,14 +272,14 @@ class _Sweep:
         self.board.line(self.choice.news(self.board.cases, case.name))
         self._keep([case])
 
-    def _keep(self, cases: Sequence[layout.Case]) -> None:
+    def _keep(self, cases: Sequence[Case]) -> None:
         """Adds rows to the file that the study keeps. If it cannot be written, the cases run all the same."""
         try:
             self.choice.keep(cases)
         except OSError as error:
             self.board.line(f"{self.choice.plan.keep} cannot be written: {error.strerror or error}")
 
-    def _record(self, case: layout.Case, outcome: Outcome) -> None:
+    def _record(self, case: Case, outcome: Outcome) -> None:
         """Writes failed.json; if that is impossible, the log has the reason."""
         try:
             case.directory.mkdir(exist_ok=True)

@@ -16,7 +16,7 @@ import distributed
 from hydro2d.base.interrupt import Interrupt
 from hydro2d.base.version import __version__
 from hydro2d.materials import outside
-from hydro2d.study.records.layout import FAILED_STATUS, WAITING
+from hydro2d.study.records.study_directory import FAILED_STATUS, WAITING
 from hydro2d.study.run.case import Outcome, run_case
 
 #: seconds that an ending worker waits for its case to write a restart file

@@ -14,7 +14,7 @@ from hydro2d.results import figures
 from hydro2d.results.figures import verbatim
 from hydro2d.study.plan import draws
 from hydro2d.study.records import table
-from hydro2d.study.records.layout import Study
+from hydro2d.study.records.study_directory import Study
 from hydro2d.study.search import v50
 from hydro2d.study.search.regimes import Transitions
 

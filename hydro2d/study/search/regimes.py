@@ -18,8 +18,8 @@ from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
 from hydro2d.study.records import experiments, record
-from hydro2d.study.records.layout import Interval, Study
 from hydro2d.study.records.record import Record
+from hydro2d.study.records.study_directory import Interval, Study
 from hydro2d.study.search import bisection, v50
 
 FILE = "transition.json"

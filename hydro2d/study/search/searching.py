@@ -8,7 +8,7 @@ from functools import cached_property
 
 from hydro2d.study.plan.cases import Plan
 from hydro2d.study.records import record
-from hydro2d.study.records.layout import DONE, Case
+from hydro2d.study.records.study_directory import DONE, Case
 from hydro2d.study.run.choice import Choice
 from hydro2d.study.search import regimes
 

@@ -17,9 +17,9 @@ from hydro2d.files import toml
 from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import draws, velocities
 from hydro2d.study.plan.cases import Plan, Planned, distinct, short
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
-from hydro2d.study.records.layout import DONE, ENDED, WAITING, Case
+from hydro2d.study.records.study_directory import DONE, ENDED, WAITING, Case
 from hydro2d.study.search import regimes, sequence, v50
 from hydro2d.study.search.bisection import MOST_FAILED
 from hydro2d.study.search.searching import Searching
@@ -69,7 +69,7 @@ class Shots(Searching):
 
     def begin(self, directory: Path) -> Plan:
         """The shots that were made or begun, and the first one of every combination."""
-        before = layout.read(directory).cases if (directory / layout.STUDY).exists() else ()
+        before = study_directory.read(directory).cases if (directory / study_directory.STUDY).exists() else ()
         for group in self.groups:
             self._adopt(group, [case for case in before if self._belongs(case, group)])
             if group.valid and not group.shots:
@@ -142,7 +142,7 @@ class Shots(Searching):
 
     # ------------------------------------------------------------------------------------------------ the search
 
-    def heading(self, study: layout.Study) -> str:
+    def heading(self, study: study_directory.Study) -> str:
         budget, number = self.search.budget, len(self.groups)
         combined = f" for each of {number} combinations of the axes" if number > 1 else ""
         return (

@@ -11,8 +11,8 @@ from hydro2d.base.terminal import say, wrapped
 from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
 from hydro2d.study.plan.cases import Plan, Planned
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
+from hydro2d.study.records import study_directory
+from hydro2d.study.records.study_directory import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
 from hydro2d.study.run import sweep
 from hydro2d.study.search import chance_figure, regimes
 from hydro2d.study.search.bisection import Search
@@ -37,11 +37,12 @@ class Bisection(Searching):
 
     def compared(self, directory: Path) -> Plan:
         """The cases that have been begun, and the ends of every combination."""
-        return self._only({case.name for case in layout.of_plan(self.plan, directory).cases if case.directory.exists()})
+        cases = study_directory.of_plan(self.plan, directory).cases
+        return self._only({case.name for case in cases if case.directory.exists()})
 
     def begin(self, directory: Path) -> Plan:
         """The cases that have already ended, and the ends. Other begun cases are added when the search needs them."""
-        before = layout.of_plan(self.plan, directory).cases
+        before = study_directory.of_plan(self.plan, directory).cases
         self.begun = {case.name for case in before if case.status == INTERRUPTED}
         self.chosen = {case.name for case in before if case.status in (DONE, UNPHYSICAL)}
         return self._only(self.chosen)
@@ -61,7 +62,7 @@ class Bisection(Searching):
 
     # ------------------------------------------------------------------------------------------------ the search
 
-    def heading(self, study: layout.Study) -> str:
+    def heading(self, study: study_directory.Study) -> str:
         search, number = self.plan.search, len(self.groups)
         combined = f", {number} combinations of the axes" if number > 1 else ""
         return (
@@ -125,7 +126,7 @@ def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, thread
     status = sweep.sweep(choice, directory, connect, threads=threads, resume=resume, overwrite=overwrite, quiet=quiet)
     if choice.complete:
         return status
-    study = layout.read(directory)
+    study = study_directory.read(directory)
     combinations = regimes.of_study(study, [choice.record(case) for case in study.cases])
     if not quiet:
         say(wrapped("\n".join(("", *regimes.lines(study, combinations)))))

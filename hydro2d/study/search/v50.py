@@ -12,7 +12,7 @@ from hydro2d.analytic.model_transition import Bracket
 from hydro2d.files.whole import plain
 from hydro2d.study.outcomes.base import Outcome
 from hydro2d.study.plan.velocities import Velocities
-from hydro2d.study.records.layout import Interval
+from hydro2d.study.records.study_directory import Interval
 from hydro2d.study.search import logit, sequence
 
 #: of MIL-STD-662F: shots with each outcome, and the largest difference of their velocities, m/s: 60, 90 and 125 ft/s. They

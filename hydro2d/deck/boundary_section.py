@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import Field, create_model
+from pydantic import Field
 
-from hydro2d.base.keys import Section, optional
-from hydro2d.base.over_time import SpeedOverTime
+from hydro2d.base.keys import Section, optional, with_keys
 from hydro2d.mesh.edges.registry import KINDS, words
 
 if TYPE_CHECKING:
@@ -19,7 +18,7 @@ else:
     Inner, Outer, Lower, Upper = (Literal[words(edge)] for edge in ("r_min", "r_max", "z_min", "z_max"))
 
 
-class _Edges(Section):
+class _Boundaries(Section):
     """Boundary conditions at the edges of the mesh; see the table of boundary conditions."""
 
     r_min: Inner | None = Field(
@@ -33,13 +32,12 @@ class _Edges(Section):
 def _edge_keys() -> dict[str, tuple[Any, Any]]:
     """Type and field of the keys that each kind of edge brings, for every edge that can be of that kind."""
     return {
-        f"{edge}_{key.name}": optional(
-            key, f'{key.description} at {edge} = "{kind.name}"', SpeedOverTime if key.over_time else None)
+        f"{edge}_{key.name}": optional(key, f'{key.description} at {edge} = "{kind.name}"')
         for kind in KINDS for key in kind.keys for edge in kind.edges
     }  # fmt: skip
 
 
 if TYPE_CHECKING:
-    Boundaries = _Edges
+    Boundaries = _Boundaries
 else:
-    Boundaries = create_model("Boundaries", __base__=_Edges, __doc__=_Edges.__doc__, **_edge_keys())
+    Boundaries = with_keys(_Boundaries, _edge_keys())

@@ -7,8 +7,8 @@ import socket
 
 import pytest
 
-from hydro2d.study.records import layout
-from hydro2d.study.records.layout import StudyError
+from hydro2d.study.records import study_directory
+from hydro2d.study.records.study_directory import StudyError
 from tests.locks import held
 from tests.study import fake
 
@@ -21,11 +21,11 @@ def study(tmp_path):
 
 
 def statuses(directory):
-    return {case.name: (case.status, case.message) for case in layout.load(directory).cases}
+    return {case.name: (case.status, case.message) for case in study_directory.load(directory).cases}
 
 
 def test_a_study(study):
-    read = layout.load(study)
+    read = study_directory.load(study)
     assert read.title == "A study"
     assert [(axis.name, axis.key, axis.values) for axis in read.axes] == [
         ("velocity", "body.rod.velocity", ("1086 m/s", "1200 m/s")), ("advection", None, ("ke",))]  # fmt: skip
@@ -65,27 +65,27 @@ def test_a_broken_file_is_the_message_of_its_case(study, file):
 
 def test_a_folder_and_several_runs(study, tmp_path):
     cases = study / "cases"
-    folder, one = layout.load(cases), layout.load(cases / "1200m-s_ke")
+    folder, one = study_directory.load(cases), study_directory.load(cases / "1200m-s_ke")
     assert (folder.title, folder.axes) == ("cases", ())
     assert [case.name for case in folder.cases] == ["1086m-s_ke", "1200m-s_ke"]
     assert [case.name for case in one.cases] == ["1200m-s_ke"]
     shutil.copytree(cases, tmp_path / "other")
-    both = layout.gather([cases, tmp_path / "other" / "1086m-s_ke", cases / "1086m-s_ke"])
+    both = study_directory.gather([cases, tmp_path / "other" / "1086m-s_ke", cases / "1086m-s_ke"])
     assert [case.name for case in both.cases] == ["figure/cases/1086m-s_ke", "figure/cases/1200m-s_ke", "other/1086m-s_ke"]
-    assert len(layout.gather([study, tmp_path / "other"]).cases) == 4
+    assert len(study_directory.gather([study, tmp_path / "other"]).cases) == 4
 
 
 def test_a_folder_that_is_no_study(study, tmp_path):
     with pytest.raises(StudyError, match='no such directory; did you mean "figure"'):
-        layout.load(tmp_path / "figur")
+        study_directory.load(tmp_path / "figur")
     (tmp_path / "empty").mkdir()
     with pytest.raises(StudyError, match="holds no runs"):
-        layout.load(tmp_path / "empty")
+        study_directory.load(tmp_path / "empty")
     with pytest.raises(StudyError, match="is a file"):
-        layout.load(study / "study.json")
+        study_directory.load(study / "study.json")
     (study / "study.json").write_text('{"title": "A study"}')
     with pytest.raises(StudyError, match="is not a valid study file"):
-        layout.load(study)
+        study_directory.load(study)
     (study / "study.json").write_text('{"name": "x", "axes": [], "cases": []}')
     with pytest.raises(StudyError, match="no cases"):
-        layout.load(study)
+        study_directory.load(study)

@@ -5,10 +5,10 @@ import signal
 
 import pytest
 
-from hydro2d.study import parts
+from hydro2d.study import study_parts
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
-from hydro2d.study.records import layout
+from hydro2d.study.records import study_directory
 from tests.study import tubes
 
 PARTS = """
@@ -38,7 +38,7 @@ def test_parts_run_in_turn_and_once(tmp_path):
     status, said = tubes.sweep(file, "--workers", 2)
     assert status == 0, said
     assert said.index("part 1 of 2: first") < said.index("ke_0.1: done") < said.index("part 2 of 2: tubes")
-    assert {case.name: case.status for case in layout.read(out / "first").cases} == {
+    assert {case.name: case.status for case in study_directory.read(out / "first").cases} == {
         "ke_0.1": "done", "ke_0.2": "done", "momentum_0.1": "waiting", "momentum_0.2": "waiting"}  # fmt: skip
     with open(tmp_path / "rows.csv", encoding="utf-8", newline="") as rows:
         assert [row["advection"] for row in csv.DictReader(rows)] == ["ke", "ke", "momentum", "momentum"]
@@ -52,9 +52,9 @@ def test_parts_run_in_turn_and_once(tmp_path):
 
 def test_the_cost_of_a_study(tmp_path, capsys):
     file = write(tmp_path)
-    plans = parts.plans(file, (), AS_IT_IS, quiet=True)
+    plans = study_parts.plans(file, (), AS_IT_IS, quiet=True)
     assert [each.states for each in plans] == [(2, 0, 0), (2, 0, 0)]
-    assert parts.show(plans, 2) == 0
+    assert study_parts.show(plans, 2) == 0
     said = capsys.readouterr().out
     assert [line.split()[:5] for line in said.splitlines()[1:4]] == [
         ["first", "2", "0", "0", "2"], ["tubes", "2", "0", "0", "2"], ["all", "4", "0", "0", "4"]]  # fmt: skip
@@ -64,19 +64,19 @@ def test_the_cost_of_a_study(tmp_path, capsys):
 
 def test_members_of_all_parts(tmp_path):
     file = write(tmp_path, '[ensemble]\nrepeats = 2\nby = ["first step"]\n')
-    numbers = {size: [each.states[0] for each in parts.plans(file, (), Size(members=size), quiet=True)]
+    numbers = {size: [each.states[0] for each in study_parts.plans(file, (), Size(members=size), quiet=True)]
                for size in (None, 1, 3)}  # fmt: skip
     assert numbers == {None: [4, 4], 1: [2, 2], 3: [6, 6]}
 
 
 def test_parts_by_name(tmp_path):
-    assert [each.name for each in parts.plans(write(tmp_path), (), AS_IT_IS, ["fir*"], quiet=True)] == ["first"]
+    assert [each.name for each in study_parts.plans(write(tmp_path), (), AS_IT_IS, ["fir*"], quiet=True)] == ["first"]
     with pytest.raises(StudyError, match="matches no part; parts: first, tubes"):
-        parts.plans(write(tmp_path), (), AS_IT_IS, ["last"], quiet=True)
+        study_parts.plans(write(tmp_path), (), AS_IT_IS, ["last"], quiet=True)
 
 
 def test_overrides_reach_all_parts(tmp_path):
-    plans = parts.plans(write(tmp_path), ["stop.time=0.02"], AS_IT_IS, quiet=True)
+    plans = study_parts.plans(write(tmp_path), ["stop.time=0.02"], AS_IT_IS, quiet=True)
     assert all("time = 0.02" in case.text for each in plans for case in each.plan.cases)
 
 
@@ -92,7 +92,7 @@ def test_mistakes(tmp_path, text, message):
     file = tmp_path / "both.toml"
     file.write_text(text)
     with pytest.raises(StudyError, match=message):
-        [each.states for each in parts.plans(file, (), AS_IT_IS, quiet=True)]
+        [each.states for each in study_parts.plans(file, (), AS_IT_IS, quiet=True)]
 
 
 def test_a_study_of_parts_is_no_sweep(tmp_path):
@@ -116,4 +116,4 @@ def test_in_the_background(tmp_path):
     tubes.wait_for(lambda: not os.path.exists(f"/proc/{process}") or open(f"/proc/{process}/stat").read().split()[2] == "Z")
     status, said = tubes.sweep(file, "--workers", 2, "--resume", *tubes.LONG)
     assert status == 0, said
-    assert {case.status for case in layout.read(out / "tubes").cases} == {"done", "waiting"}
+    assert {case.status for case in study_directory.read(out / "tubes").cases} == {"done", "waiting"}

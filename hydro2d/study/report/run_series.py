@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hydro2d.study.records.differences import compare
-from hydro2d.study.records.layout import Axis
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import Choice, Variable, is_velocity
+from hydro2d.study.records.study_directory import Axis
 
 #: colours that colour-blind readers can distinguish (after Okabe and Ito) on light and dark; markers and dashes for print
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#b0538a", "#7d7d7d", "#b8860b")
