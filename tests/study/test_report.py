@@ -102,7 +102,7 @@ def test_experience_of_all_runs_has_no_number_of_runs():
 
 def test_unfinished_runs_have_no_experience(study):
     fake.edit_json(study / "cases" / "1086m-s_ke" / "summary.json", status="unphysical")
-    record = next(each for each in collect(layout.load(study)).records if each.case.name == "1086m-s_ke")
+    record = next(each for each in collect(study_directory.load(study)).records if each.case.name == "1086m-s_ke")
     assert (record.experience, bool(record.unfinished)) == ([], True)
 
 
