@@ -64,6 +64,7 @@ wrong: int = hydro2d.Simulation(deck).run(until=1e-6)
 """
 
 
+@pytest.mark.thorough
 def test_a_type_checker_finds_hydro2d_from_any_folder(tmp_path):
     """In an editable install as well: the mistake is found, and no name is missing."""
     (tmp_path / "program.py").write_text(TYPED)
@@ -472,6 +473,7 @@ def test_an_interrupted_run_raises_and_goes_on(tmp_path, deck, shot, monkeypatch
 # ---------------------------------------------------------------------------------------------------- sweeps
 
 
+@pytest.mark.thorough
 def test_a_sweep_of_a_deck_is_a_table(tmp_path):
     file = tmp_path / "tube.toml"
     file.write_text(tubes.TUBE)
@@ -489,6 +491,7 @@ def test_a_sweep_of_a_deck_is_a_table(tmp_path):
     assert again.equals(table)
 
 
+@pytest.mark.thorough
 def test_a_sweep_of_a_deck_object_and_of_a_study_file(tmp_path):
     tube = hydro2d.Deck.from_toml(tubes.TUBE, {"stop.time": 0.005})
     table = hydro2d.sweep(tube, {"body.low.pressure": [0.1]}, directory=tmp_path / "one", workers=1)

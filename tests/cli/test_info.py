@@ -29,6 +29,7 @@ def test_a_word_says_what_it_is_called_here(word, capsys):
     assert SAID[word] in shown
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("word", words.WORDS)
 def test_targets_of_words_exist(word):
     entry = words.WORDS[word]

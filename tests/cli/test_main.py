@@ -100,6 +100,7 @@ def test_kernels_are_compiled_before_they_are_needed(simulation, deck, monkeypat
     assert all(file.is_file() for file in files)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["[1]", '["a", "b"]', '{"a": 1}', "null"])
 def test_a_directory_may_have_a_name_that_json_would_read(simulation, deck, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
@@ -146,6 +147,7 @@ def test_unphysical_is_status_3(simulation, deck, tmp_path, capsys):
     assert "density -1 kg/m3" in capsys.readouterr().out
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -250,6 +252,7 @@ def test_help_is_light():
     subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True, capture_output=True)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129)])
 def test_signals_write_a_restart_file(deck, tmp_path, number, status):
     code = """

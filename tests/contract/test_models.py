@@ -139,7 +139,10 @@ def cases_of(part):
             for name, values in STRENGTH_CASES.items()]
 
 
-CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}{'-over-table' * (len(case.base) > 1)}-{check.__name__}")
+#: models whose pressure takes an iteration, so that pressure_rises takes half a minute
+ITERATED = ("jwl", "p-alpha")
+CASES = [pytest.param(case, check, id=f"{part}-{case.module.NAME}{'-over-table' * (len(case.base) > 1)}-{check.__name__}",
+                      marks=[pytest.mark.thorough] * (case.module.NAME in ITERATED and check is contract.pressure_rises))
          for part, checks in contract.CHECKS.items() for case in cases_of(part) for check in checks]
 
 

@@ -41,6 +41,7 @@ def test_mass_energy_and_the_jump(j):
     assert blast.time(radius) == pytest.approx(time, rel=1e-12)
 
 
+@pytest.mark.thorough
 def test_particles_keep_their_entropy():
     """Along a path dr/dt = u the ratio p/rho^gamma is constant."""
     blast, r, time, step = Sedov(), 0.6, 1.0, 1e-4

@@ -300,6 +300,7 @@ def test_turns_are_taken(tmp_path):
     assert count.read_text() == "100"
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not can_mount(), reason="no file system can be mounted here")
 def test_a_cache_that_cannot_be_written_is_read(tmp_path):
     """One of a site, on a file system that is mounted read-only."""

@@ -44,6 +44,7 @@ def ship(site: Path, home: Path) -> None:
     subprocess.run([sys.executable, "-c", about], env={**os.environ, "PYTHONPATH": str(site)}, cwd=site, check=True)
 
 
+@pytest.mark.thorough
 def test_code_that_the_package_brings_is_used_at_another_path(tmp_path):
     site, home = installed(tmp_path / "site"), tmp_path / "home"
     assert runs(site, home)[:2] == ("6.0", [])

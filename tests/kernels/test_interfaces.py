@@ -79,6 +79,7 @@ def by_stream_function(engine, stream, dt: float):
     return flow
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "n"), list(YOUNGS))
 def test_circle_in_a_flow(name, n):
     stream, period, fastest = FLOWS[name]

@@ -56,6 +56,7 @@ def bits_as_python(case: str) -> str:
         jit.profiling(False)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", DECKS)
 def test_phases_do_what_their_source_says_with_any_number_of_parts(case):
     code = ("from tests.kernels.test_phases import bits, bits_as_python\n"
@@ -116,6 +117,7 @@ class Turns:
 ORDERS = {"upward": range, "downward": lambda number: range(number)[::-1], "at random": np.random.default_rng(0).permutation}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", DECKS)
 @pytest.mark.parametrize("order", ORDERS)
 def test_parts_run_in_any_order_between_barriers(monkeypatch, case, order):

@@ -97,6 +97,7 @@ def test_files_that_are_no_models(tmp_path):
 CHECK = "from hydro2d.cli.main import call; print(call(['check-model', 'model.py']))"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("text", [VOCE, GAS, STRAIN])
 def test_check_model_passes_a_good_one(tmp_path, text):
     (tmp_path / "model.py").write_text(text)
@@ -105,6 +106,7 @@ def test_check_model_passes_a_good_one(tmp_path, text):
     assert "FAILED" not in output
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("text", "old", "new", "said"),
     [

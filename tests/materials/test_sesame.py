@@ -260,6 +260,7 @@ def test_the_commands_write_and_check_a_table(tmp_path, capsys):
     assert "FAILED    the temperature is consistent with the pressure" in capsys.readouterr().out
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("arguments", "words"), [
     (["tabulate", "Al_tillotson", "-o", "x", "--density", "1:2"], "expected LOW:HIGH:NUMBER, with a NUMBER from 3 to 1000"),
     (["tabulate", "Al_tillotson", "-o", "x", "--density", "3 g/cm^3:4 g/cm^3:9"], "must have 2700, the density at rest"),

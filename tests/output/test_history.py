@@ -114,6 +114,7 @@ def test_xarray_opens_thousands_of_stations(tmp_path):
         assert float(value) == names.index("gauge_p2999_pressure_Pa") + 0.25
 
 
+@pytest.mark.thorough
 def test_more_columns_than_an_attribute_of_64_kib_refers_to(tmp_path):
     history = History(tmp_path / "history.h5")
     history.append({"time": 0.0, **{f"mine_{n}": float(n) for n in range(4200)}})

@@ -141,6 +141,7 @@ for write in (lambda: vtk.write_grid(Path("a.vtr"), edges, edges, [("a", values)
 """
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("most", [0, 10, 1000, 10_000])
 def test_a_lack_of_space_is_reported_in_one_line_and_not_by_vtk(tmp_path, most):
     """A limit on the size of a file acts like a full disk; printed output goes through pipes."""

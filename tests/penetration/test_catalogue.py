@@ -191,6 +191,7 @@ def survives(model: Model, numbers: tuple[float, ...]) -> int:
     return len(names) * len(numbers)
 
 
+@pytest.mark.thorough
 @by_name(MODELS)
 def test_absurd_numbers_give_numbers_or_one_message(model):
     assert survives(model, SOME) >= 8

@@ -247,6 +247,7 @@ def test_oblique_to_its_axis_but_not_to_its_flight_stays_on_the_axis_to_round_of
     assert np.linalg.norm(torque) < 1e-9 * np.linalg.norm(force) * LENGTH
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 @pytest.mark.parametrize("angles", [{"pitch": 0.05}, {"obliquity": 0.6, "yaw": -0.1}, {"pitch": 1.2, "spin": 3000.0},
                                     {"obliquity": 1.45}])

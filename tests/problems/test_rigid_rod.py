@@ -138,6 +138,7 @@ def test_runs_of_a_directory_read_as_their_rows_do(tmp_path):
     assert [run.member for run in rigid_rod.read(plan.keep)] == [0, 1, 0, 1]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("file", KEPT, ids=lambda file: file.stem)
 def test_kept_rows_are_those_of_their_study(file):
     plan = cases.plan(file.parent.parent / f"{file.stem}.toml", quiet=True)

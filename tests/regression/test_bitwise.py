@@ -70,6 +70,7 @@ def assert_same(one: Simulation, two: Simulation) -> None:
         np.testing.assert_array_equal(a, b, err_msg=name)
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(numba.config.NUMBA_NUM_THREADS < 2, reason="numba was started with one thread")
 @every_case
 def test_one_and_two_threads(options):
@@ -123,6 +124,7 @@ def command(folder, *arguments: str, threads: int) -> None:
                    capture_output=True, timeout=300)
 
 
+@pytest.mark.thorough
 def test_command_with_other_threads_and_a_restart(tmp_path):
     """`hydro2d run` with two threads; and with one, interrupted, and continued by --restart."""
     (tmp_path / "shot.toml").write_text(SHOT)

@@ -87,6 +87,13 @@ PRESUMED = {
     "docs/reference/files.md": {"runs/shot": DECK},
     "docs/explanation/penetration/transition.md": {"runs/a": DECK, "runs/b": DECK},
 }
+#: pages whose commands take longer than five seconds
+LONG = (
+    "README.md", "docs/explanation/how-sure.md", "docs/explanation/sanity.md", "docs/gallery.md", "docs/how-to/depth-curves.md",
+    "docs/how-to/find-a-transition.md", "docs/how-to/index.md", "docs/how-to/report.md", "docs/how-to/run-a-shot.md",
+    "docs/how-to/run-a-study.md", "docs/tutorials/first-study.md", "problems/ceramics/README.md",
+    "problems/cth_nose_shape/README.md", "problems/verification/README.md",
+)  # fmt: skip
 #: decks under which keys are laid, in addition to those of the nose shapes
 BASES = {
     "docs/how-to/perforate-a-plate.md": "../perforation/two_plates.toml",
@@ -248,7 +255,8 @@ def run(command: str) -> int:
     return subprocess.run([sys.executable, *words], stdout=subprocess.DEVNULL).returncode
 
 
-@pytest.mark.parametrize("page", with_kind("sh", "python"))
+@pytest.mark.parametrize("page", [pytest.param(page, marks=[pytest.mark.thorough] * (page in LONG))
+                                  for page in with_kind("sh", "python")])  # fmt: skip
 def test_examples_run(page, folder, capsys):
     folder(page)
     names = {"__name__": page}

@@ -42,6 +42,7 @@ def kinds():
     return sorted(file.stem for file in (source.PROBLEMS / "templates").glob("*.toml"))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", kinds())
 def test_a_kind_runs_is_drawn_and_has_its_numbers(name, docs, tmp_path):
     """Thirty cycles of it, by the commands of the page."""
@@ -55,6 +56,7 @@ def test_a_kind_runs_is_drawn_and_has_its_numbers(name, docs, tmp_path):
     assert f"hydro2d new {name}\n" in kind.section(numbers)
 
 
+@pytest.mark.thorough
 def test_the_page_is_that_of_its_numbers_and_has_every_kind_and_study(docs):
     numbers = json.loads((DOCS / "gallery.json").read_text(encoding="utf-8"))
     text = (DOCS / "gallery.md").read_text(encoding="utf-8")
@@ -77,6 +79,7 @@ def test_the_ballistic_limit_of_the_whipple_shield_is_that_of_the_page(docs):
     assert limit < 200 * to_si(ball["radius"], "m")  # so the wall is perforated
 
 
+@pytest.mark.thorough
 def test_the_charts_of_studies_are_those_of_the_kept_results(docs, tmp_path):
     """One of each kind of table: measured depths with the runs, and numbers relative to their median."""
     drawn = {study.name: study for study in docs["_pages.studies"].studies() if study.results}

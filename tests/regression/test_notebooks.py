@@ -55,6 +55,7 @@ def test_a_notebook_is_stored_as_it_ran(file):
     assert file.stat().st_size < HEAVY
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
 def test_a_notebook_runs(file, tmp_path):
     """On a shot of microseconds, in a folder of its own; the output of every cell is of the stored kind."""

@@ -90,6 +90,7 @@ def test_any_value_in_the_deck_of_a_stranger(finished, running):
                 looked_at(finished)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["progress.json", "summary.json"])
 def test_any_value_in_what_a_stranger_says_of_the_run(finished, name):
     summary = {"time_s": 1e-6, "cycles": 3, "fraction": 0.5, "left_s": 3.0, "wall_s": 2.0, "penetration_depth_m": 0.1,

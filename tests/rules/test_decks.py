@@ -39,6 +39,7 @@ def test_resolved_deck_is_the_same_deck(file):
     assert deck.loads(loaded.to_toml()).to_toml() == loaded.to_toml()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("file", STUDIES, ids=name_of)
 def test_study_has_a_title_and_no_wrong_deck(file):
     if study_parts.is_of_parts(file):

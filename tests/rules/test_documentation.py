@@ -327,6 +327,7 @@ def test_fetched_addresses_are_distinguished_from_links():
     assert not FETCHED.search('<a href="https://www.sphinx-doc.org/">Sphinx</a> <script src="_static/doctools.js">')
 
 
+@pytest.mark.thorough
 def test_pages_fetch_nothing_from_another_host(built):
     files = [*built.rglob("*.html"), *built.rglob("*.css")]
     assert [str(file) for file in files if FETCHED.search(file.read_text(encoding="utf-8"))] == []

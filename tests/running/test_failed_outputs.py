@@ -34,6 +34,7 @@ def deck(tmp_path):
     return str(file)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("error", RAISED, ids=lambda error: type(error).__name__)
 def test_a_history_that_cannot_be_written_at_the_end(simulation, deck, tmp_path, monkeypatch, capsys, error):
     """The run is not done before everything is written, and then continues to the results of an undisturbed one."""

@@ -82,6 +82,7 @@ def test_a_run_ends_where_its_directory_is_lost(simulation, tmp_path, monkeypatc
         assert not place.exists()
 
 
+@pytest.mark.thorough
 def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
     """As on a laptop that sleeps: a run is suspended, its directory removed, and another one runs there to its end."""
     (tmp_path / "shot.toml").write_text(DECK)

@@ -182,6 +182,7 @@ def test_bodies_at_rest_add_up(source, sliding):
 # ------------------------------------------------------------------------------------------------ all of them together
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("edge", "sliding"), sorted({(each.edge, each.sliding) for each in audited.all_choices()}))
 def test_every_choice_with_every_other(edge, sliding):
     """Edges of all kinds, sliding, advection, sources, a mesh that follows."""

@@ -136,6 +136,7 @@ THIN = ['body.plate.thickness="6 mm"']
 THIN_BACK = [*BACK, *THIN, 'body.plate.z_front="-6 mm"']
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
 @pytest.mark.parametrize("depth", [0.2e-3, 1.4e-3, 4.9e-3])
 def test_a_dish_is_no_hole(depth, options):
@@ -148,6 +149,7 @@ def test_a_dish_is_no_hole(depth, options):
     assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
 @pytest.mark.parametrize("depth", [0.0, 0.2e-3, 1.4e-3, 4.9e-3])
 def test_a_hole_through_a_dish_is_the_hole(depth, options):
@@ -221,6 +223,7 @@ def test_debris_and_the_rod_are_part_of_the_hole():
     assert sim.craters[0].measure() == expected
 
 
+@pytest.mark.thorough
 def test_smooth_in_time():
     """As the bottom moves through a cell, volume and depth grow in proportion, with no jump where the cell is half full."""
     volumes, bottoms = [], np.linspace(10e-3, 11e-3, 41)
@@ -265,6 +268,7 @@ def radius_at(depth):
     return 4e-3 - 0.1 * depth
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [(), BACK], ids=["to +z", "to -z"])
 def test_rows_that_leave_the_mesh_are_kept(options):
     """The mesh follows the hole until its trailing edge is 9 mm below the surface: the profile is that of the whole hole."""
@@ -285,6 +289,7 @@ def test_rows_that_leave_the_mesh_are_kept(options):
     assert hole["entrance_diameter_m"] == pytest.approx(8e-3, rel=0.01)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
 @pytest.mark.parametrize("end", [11.3e-3, *(
     pytest.param(far, marks=pytest.mark.xfail(strict=True, reason="6 % too wide once the mouth is far behind; cause not known"))

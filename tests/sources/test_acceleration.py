@@ -168,6 +168,7 @@ axial = {G}
     return text
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("names", [["Al5083"] * N, ["Al5083"] * (N // 2) + ["copper_OFHC"] * (N // 2)])
 def test_a_column_at_rest_keeps_its_hydrostatic_pressure(names):
     """Ten transit times of sound, to round-off; walls take the impulse that gravity gives."""

@@ -137,6 +137,7 @@ def page(tmp_path_factory):
     return report([study], say=lambda line: None)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("width", [PHONE, DESK])
 def test_the_page_is_whole_alone_and_legible(browser, page, width, scheme):
@@ -264,6 +265,7 @@ TICKS = """
 """
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("speeds", "shown"), [((1500,), ["1500"]), ((1500, 1500.5), ["1500", "1500.5"]),
                                                ((9000, 12000), ["9000", "12000"])])  # fmt: skip
 def test_ticks_are_numbers_as_decks_write_them(browser, tmp_path, speeds, shown):

@@ -87,6 +87,7 @@ def test_every_shot_is_another_draw(whole):
     assert {row["outcome"] for row in rows} == {"eroding", "not eroding"}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("workers", [2, 3, 7])
 def test_the_same_seed_gives_the_same_search_with_any_number_of_workers(tmp_path, whole, workers):
     client = made_up.Client(chancy, workers=workers)
@@ -311,6 +312,7 @@ def test_bad_input_gets_one_message(tmp_path, capsys, old, new, said):
 # ------------------------------------------------------------------------------------------------ a real shot
 
 
+@pytest.mark.thorough
 def test_a_real_shot_whose_outcome_is_rough_in_velocity(tmp_path):
     """The short rod of test_transition.py: rigid at 1000 m/s and below, eroding at 1400 m/s and above; 1180, 1240: either."""
     (tmp_path / "shot.toml").write_text(test_transition.SHOT)

@@ -35,6 +35,7 @@ def others():
         each.close()
 
 
+@pytest.mark.thorough
 def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys):
     file, address = tubes.write(tmp_path), others(1)
     assert call(["sweep", str(file), "--scheduler", address, "--out", str(tmp_path / "a")]) == 0
@@ -47,6 +48,7 @@ def test_joins_a_running_cluster_and_leaves_it_running(tmp_path, others, capsys)
     assert all(file.stat().st_mtime_ns > then for file, then in zip(files, before, strict=True))
 
 
+@pytest.mark.thorough
 def test_members_on_a_cluster_have_the_bits_of_those_on_this_machine(tmp_path, others):
     ensemble = '[ensemble]\nrepeats = 2\nby = ["first step"]\n'
     file = tubes.write(tmp_path, tubes.STUDY + ensemble)
@@ -59,6 +61,7 @@ def test_members_on_a_cluster_have_the_bits_of_those_on_this_machine(tmp_path, o
     assert here[0] != here[1]
 
 
+@pytest.mark.thorough
 def test_a_second_sweep_leaves_the_cases_of_the_first_alone(tmp_path, others):
     out, address = tmp_path / "out", others(1)
     process = tubes.start(tubes.write(tmp_path), "--scheduler", address, "--out", out, "--set", "stop.time=0.3")
@@ -91,6 +94,7 @@ class Fake(distributed.LocalCluster):
         super().__init__(n_workers=1, threads_per_worker=arguments["cores"] // arguments["processes"], dashboard_address=None)
 
 
+@pytest.mark.thorough
 def test_slurm(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Fake))
     (tmp_path / "job.toml").write_text(JOB)

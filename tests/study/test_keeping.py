@@ -179,6 +179,7 @@ def test_a_label_that_a_spreadsheet_would_compute(tmp_path):
     assert keeping._text(-1.5) == "-1.5"
 
 
+@pytest.mark.thorough
 def test_an_older_run_in_a_directory_is_not_used(tmp_path):
     """Only the version of the method is changed in a finished run of this deck."""
     file, out = tubes.write(tmp_path), tmp_path / "out"

@@ -16,6 +16,7 @@ def searched(v50, width, seed, runs=40):
     return coverage.searched(coverage.Transition(v50, width, ENDS), seed, runs)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("v50", "width"), [(1210.0, 60.0), (1065.0, 15.0)])
 def test_a_known_transition_is_within_its_interval_in_nine_of_ten_searches(v50, width):
     fitted = [logit.fit_transition(*searched(v50, width, seed)) for seed in range(10)]

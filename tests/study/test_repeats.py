@@ -31,11 +31,13 @@ def serially(tube):
     return {case.name: tubes.bits(tube.parent / case.name) for case in plan.cases}
 
 
+@pytest.mark.thorough
 def test_members_differ(serially):
     first, second, third = serially.values()
     assert first != second != third != first
 
 
+@pytest.mark.thorough
 def test_one_member_again_on_two_threads(tube, serially, tmp_path):
     command = [tube, *tubes.LONG, "--by", "first step", "--member", 2, "--threads", 2, "--out", tmp_path / "one"]
     status, said = tubes.sweep(*command, command="run")
@@ -43,6 +45,7 @@ def test_one_member_again_on_two_threads(tube, serially, tmp_path):
     assert tubes.bits(tmp_path / "one") == serially["m2"]
 
 
+@pytest.mark.thorough
 def test_killed_in_the_middle_and_resumed_on_workers(tube, serially, tmp_path):
     out, command = tmp_path / "out", [tube, *ENSEMBLE, *tubes.LONG, "--out", tmp_path / "out", "--workers", 2]
     process = tubes.start(*command, command="run", start_new_session=True)
@@ -59,6 +62,7 @@ def test_killed_in_the_middle_and_resumed_on_workers(tube, serially, tmp_path):
     assert {name: tubes.bits(out / "cases" / name) == bits for name, bits in serially.items()} == dict.fromkeys(serially, True)
 
 
+@pytest.mark.thorough
 def test_an_ensemble_can_be_enlarged(tube, tmp_path):
     """The members that are there stay, and the new ones are run."""
     short = ["--set", "stop.time=0.01", "--by", "first step", "--workers", 1, "--out", tmp_path / "out"]

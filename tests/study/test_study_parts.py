@@ -33,6 +33,7 @@ def write(folder, more=""):
     return file
 
 
+@pytest.mark.thorough
 def test_parts_run_in_turn_and_once(tmp_path):
     file, out = write(tmp_path), tmp_path / "out"
     status, said = tubes.sweep(file, "--workers", 2)
@@ -102,6 +103,7 @@ def test_a_study_of_parts_is_no_sweep(tmp_path):
         cases.plan(write(tmp_path))
 
 
+@pytest.mark.thorough
 def test_in_the_background(tmp_path):
     import os
 

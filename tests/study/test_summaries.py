@@ -39,7 +39,8 @@ SUMMARY = json.loads(json.dumps(fake._summary(0.31, 0.02, fake.deck_text()))) | 
     "targets": {"plate": {"exit_time_s": 1e-4, "crater": {"depth_m": 0.3}}}}  # fmt: skip
 
 
-@pytest.mark.parametrize("path", list(paths(SUMMARY)), ids=".".join)
+@pytest.mark.parametrize("path", [pytest.param(path, id=".".join(path), marks=[pytest.mark.thorough] * (number % 8 > 0))
+                                  for number, path in enumerate(paths(SUMMARY))])  # fmt: skip
 def test_a_report_of_any_summary(place, path):
     text = (place / "summary.json").read_text()
     try:

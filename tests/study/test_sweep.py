@@ -56,6 +56,7 @@ def all_equal(directory, undisturbed):
     return {name: tubes.bits(directory / "cases" / name) == found for name, found in undisturbed.items()}
 
 
+@pytest.mark.thorough
 def test_all_cases_are_done_and_stay(tmp_path):
     file, out = tubes.write(tmp_path), tmp_path / "out"
     status, said = tubes.sweep(file, "--workers", 2, "--out", out)
@@ -77,6 +78,7 @@ def test_all_cases_are_done_and_stay(tmp_path):
     assert "--resume continues it" in said
 
 
+@pytest.mark.thorough
 def test_killed_workers_lose_nothing(tmp_path, undisturbed):
     """kill -9 three times at random moments."""
     out, moments = tmp_path / "out", random.Random(os.urandom(8))

@@ -386,6 +386,7 @@ tolerance = "200 m/s"
 """
 
 
+@pytest.mark.thorough
 def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
     """Rigid at 300 m/s, eroding from about 1500 m/s on; SIGINT while the third case runs."""
     (tmp_path / "shot.toml").write_text(SHOT)

@@ -70,6 +70,7 @@ def refused(arguments):
     return said
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", BOMBS)
 def test_decks(name, tmp_path):
     (tmp_path / "deck.toml").write_text(BOMBS[name])

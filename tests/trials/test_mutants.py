@@ -80,6 +80,7 @@ def test_states_out_of_reach_are_found(bound, spoil):
     assert bound in screen.beyond()
 
 
+@pytest.mark.thorough
 def test_a_process_that_hangs_is_replaced(monkeypatch):
     watched = campaign.Watched()
     try:
@@ -92,6 +93,7 @@ def test_a_process_that_hangs_is_replaced(monkeypatch):
         watched.end()
 
 
+@pytest.mark.thorough
 def test_mutants():
     count, failed = failures(range(20))
     assert failed == [], "\n".join(failed)

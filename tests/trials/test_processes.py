@@ -91,6 +91,7 @@ def stopped_runs(seeds, shot, folder):
     return count
 
 
+@pytest.mark.thorough
 def test_stopped_runs_go_on_to_the_same_bits(shot, tmp_path):
     assert stopped_runs(range(4), shot, tmp_path) > 0
 
@@ -132,6 +133,7 @@ def stopped_commands(seeds, finished, folder):
     return count
 
 
+@pytest.mark.thorough
 def test_stopped_commands(finished, tmp_path):
     assert stopped_commands(range(8), finished, tmp_path) > 0
 
@@ -161,6 +163,7 @@ def without_room(seeds, shot, finished, folder):
     return count
 
 
+@pytest.mark.thorough
 def test_without_room(shot, finished, tmp_path):
     assert without_room(range(8), shot, finished, tmp_path) > 0
 
@@ -172,6 +175,7 @@ def test_two_hundred_without_room(shot, finished, tmp_path, tell):
     assert count > 50
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["plot", "export", "report", "check", "info", "model", "sweep"])
 def test_a_reader_that_is_gone(finished, tmp_path, name):
     arguments = others(finished, tmp_path)[name]
@@ -182,6 +186,7 @@ def test_a_reader_that_is_gone(finished, tmp_path, name):
     assert b"Traceback" not in process.stderr.read()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
 def test_closed_streams(finished, tmp_path, closed):
     """As when a program starts hydro2d without them: output is lost, and nothing else."""
@@ -197,6 +202,7 @@ def shot_arguments(folder):
     return ["run", str(folder / "shot.toml"), "--set", "stop.cycles=3", "--threads", "1"]
 
 
+@pytest.mark.thorough
 def test_an_output_that_is_full(finished, tmp_path):
     for arguments in ([*shot_arguments(tmp_path), "--out", str(tmp_path / "out")], ["status", str(finished / "run")]):
         with open("/dev/full", "w") as full:

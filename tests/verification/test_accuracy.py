@@ -66,6 +66,7 @@ BANDS = [
 ]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "cells", "quantity", "low", "high"), BANDS, ids=lambda value: str(value))
 def test_errors_of_today(errors, name, cells, quantity, low, high):
     assert low <= errors(name, cells)[quantity] <= high
@@ -87,6 +88,7 @@ def test_wishes(errors, name, cells, quantity, limit):
     assert abs(errors(name, cells)[quantity]) < limit
 
 
+@pytest.mark.thorough
 def test_a_blast_that_keeps_momentum_alone_loses_half_its_energy(errors):
     """Finer cells do not help: the front is 11 % behind on 50 cells, and further on 100."""
     coarse, fine = (errors("sedov", cells, "momentum") for cells in (50, 100))

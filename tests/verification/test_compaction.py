@@ -48,6 +48,7 @@ def deck_of(velocity, number=None, **changes):
     return decks.loads(Path(DECK).read_text(encoding="utf-8"), given)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("number", [None, 41], ids=["model", "table"])
 @pytest.mark.parametrize("velocity", [100.0, 200.0, 458.0])
 def test_both_waves(velocity, number):
@@ -94,6 +95,7 @@ def exact(velocity, number=None):
     return compacted(library.resolve(deck_of(velocity, number)).eos_par[0], velocity)[0]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("velocity", [200.0, 458.0])
 @pytest.mark.parametrize("number", [11, 21, 41])
 def test_a_run_over_a_table_misses_that_over_the_model_by_what_the_interpolation_does(velocity, number):

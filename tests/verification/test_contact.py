@@ -105,6 +105,7 @@ def test_a_single_velocity_holds_parting_bodies():
 # ---------------------------------------------------------------------------------------------------- level blocks
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("choice", ADVECTION)
 def test_level_blocks_keep_their_momentum(choice):
     """Without load, without friction: over eight cells slid 1e-7 to 4e-7 of the slider's momentum goes to the base.
@@ -180,6 +181,7 @@ def drift(simulation) -> tuple[float, float]:
     return float(work) / (slider.pressure * length * slip), float(departure)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("angle", [15, 30, 45])
 def test_slip_along_an_inclined_interface_does_no_work(angle):
     """One cell slid under 1 GPa: the energy drifts by less than 1e-4 of p L s."""
@@ -191,6 +193,7 @@ def test_slip_along_an_inclined_interface_keeps_the_pressure(angle):
     assert drift(run(f"block_inclined_{angle}"))[1] < 1e-2
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("angle", [15, 30, 45])
 def test_a_single_velocity_does_work(angle):
     assert drift(run(f"block_inclined_{angle}", *SINGLE))[0] > 1e-3
@@ -199,6 +202,7 @@ def test_a_single_velocity_does_work(angle):
 # ---------------------------------------------------------------------------------------------------- a rod and its hole
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("choice", ADVECTION)
 def test_rod_leaves_its_hole_without_drag(choice):
     simulation = run("rod_leaving_hole", advection(choice))

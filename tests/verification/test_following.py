@@ -34,6 +34,7 @@ def closes(simulation: Simulation, tolerance: float = 1e-11) -> None:
     assert abs(balance["total_energy"]) < tolerance
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [(), CONTACT], ids=["one velocity", "contact"])
 def test_ten_thousand_cycles_of_free_flight_change_nothing(options):
     """On a fixed mesh the rod's volume fractions change by 0.1 within its own length."""
@@ -126,6 +127,7 @@ def on_both_meshes():
     return to_the_end(following()), to_the_end(standing())
 
 
+@pytest.mark.thorough
 def test_two_plates_take_as_much_from_the_rod_on_either_mesh():
     """57.9 and 68.1 m/s on 5.5 cells, where 5 % of difference are wanted; 50.5 and 54.1 on 8.8, 55.9 and 52.3 on 11.
 
@@ -189,6 +191,7 @@ def test_a_rod_that_flies_down_is_the_mirror_image():
     assert down.penetrator.velocity() == pytest.approx(-up.penetrator.velocity(), rel=1e-4)
 
 
+@pytest.mark.thorough
 def test_a_plate_that_hits_a_resting_rod_is_the_same_shot():
     """Galilean invariance: rod into resting plates on a following mesh, and the plates into a resting rod on a fixed one.
 

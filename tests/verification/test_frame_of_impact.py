@@ -48,6 +48,7 @@ def outcome(velocity: float, shift: float, *options: str) -> tuple[float, float,
 FOLLOWS = ('mesh.follow="rod"',)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("velocity", "options"), [(1000.0, FOLLOWS), (0.0, ())], ids=["mesh follows", "plate moves"])
 @pytest.mark.parametrize("shift", SHIFTS)
 def test_a_rod_at_rest_in_its_mesh(velocity, options, shift):
@@ -58,6 +59,7 @@ def test_a_rod_at_rest_in_its_mesh(velocity, options, shift):
     assert strain == pytest.approx(0.050, rel=0.22)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("velocity", [1000.0, 500.0], ids=["rod moves", "both move"])
 @pytest.mark.parametrize("shift", SHIFTS)
 def test_a_rod_that_crosses_a_mesh(velocity, shift):

@@ -101,6 +101,7 @@ def test_spherical_converges(wedge):
     assert 0 < fine.front() * fine.dx < coarse.front() * coarse.dx < 0.03
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("choice", ["ke", "momentum"])
 def test_spherical_does_not_converge_without_conservation(choice):
     """The density behind the shock grows beyond the exact one with the number of cells."""

@@ -170,6 +170,7 @@ def test_a_hemisphere_under_pressure_keeps_its_shape():
     assert np.abs(simulation.state.v).max() < 1e-6
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("sliver", [1e-3, 1e-2, 1e-1])
 def test_a_sliver_neither_heats_nor_holds_up(sliver):
     """Slip of 150 cells at 1 km/s next to a sliver of aluminium: the time step stays, and next to the block nothing melts.

@@ -84,6 +84,7 @@ def pulled(material, choice):
     return top, lowest, velocity[time > time[velocity == lowest][0]], depth
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("material", CASES)
 @pytest.mark.parametrize("choice", ["ke", "both"])
 def test_pull_back(material, choice):
@@ -105,6 +106,7 @@ def test_the_wave_of_the_spall_catches_the_surface(material, choice):
     assert depth == pytest.approx(LENGTH * p_cut / (2 * p_peak), abs=3 * CELL)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("choice", ADVECTION)
 def test_open_cell_carries_no_tension(choice):
     """No cell is below the threshold, and a crack that has opened by a tenth of a cell is free of pressure."""

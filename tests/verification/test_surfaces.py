@@ -187,12 +187,14 @@ def held(around: str, share: float, angle: int, law: str, cycles: int, force: fl
     assert measured.cut == pytest.approx(measured.inner, rel=stress)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar(share):
     """Along z in void: force E A eps within 0.03 %, stress of the cut row and of the outermost full one within 0.25 %."""
     held("void", share, 0, "elastic", 10, 0.001, 0.005)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("share", SHARES)
 def test_elastic_bar_in_a_tube(share):
     """Along z in a tube without friction: 0.04 % and 0.02 %, but 0.55 % in the cut row with a share of 0.05."""
@@ -246,6 +248,7 @@ def test_inclined_bar_in_gas(angle):
     held("gas", 0.25, angle, "elastic", 0, 0.002, 0.008)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("angle", "law"), INCLINED)
 def test_inclined_bar_in_a_tube(angle, law):
     """In a tube without friction: force within 0.06 %, stress within 0.13 %, and 0.5 % of a plastic bar at 45 degrees."""
@@ -318,6 +321,7 @@ def braked(share: float, transits: int = 20, length: float = 20.0, strain: float
     return np.mean(sums[len(sums) // transits:], axis=0)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("share", [*SHARES[:-1], pytest.param(SHARES[-1], marks=pytest.mark.xfail(
     strict=True, reason="1.33 % of the pressure"))])
 def test_no_checkerboard_in_a_braked_bar(share):
