@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
     from hydro2d.study.records.layout import Case
+    from hydro2d.study.samples.objective import Objective
+    from hydro2d.study.samples.results import Samples
     from hydro2d.study.search.logit import fit_transition
 
 #: modules of the public names, imported on first use, so that `import hydro2d` costs nothing
@@ -45,6 +47,8 @@ _PLACES = {
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
     "Case": "hydro2d.study.records.layout",
+    "Samples": "hydro2d.study.samples.results",
+    "Objective": "hydro2d.study.samples.objective",
     "kept_rows": "hydro2d.study.records.keeping",
     "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
@@ -70,9 +74,11 @@ __all__ = [
     "DeckError",
     "Error",
     "KeptRow",
+    "Objective",
     "Results",
     "ResultsError",
     "RunError",
+    "Samples",
     "Simulation",
     "Study",
     "StudyError",
