@@ -65,7 +65,7 @@ def _results(case: Case, kept: keeping.Row, more: Sequence[str]) -> Row:
         return {STATUS: case.status} if not kept else _of_kept(kept)
     summary = case.summary
     found = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
-    perforated = perforates(summary)
+    perforated = None if found["depth_m"] is None else perforates(summary)
     found[PERFORATED] = None if perforated is None else YES if perforated else NO
     if perforated is False and case.status == DONE and found["stop_reason"] not in CUT:
         found[RESIDUAL] = 0.0

@@ -28,8 +28,8 @@ from hydro2d.study.records.layout import DONE
 from hydro2d.study.run.case import run_case
 from hydro2d.study.samples import results, surrogates
 
-#: letters of the hash of a deck in the name of its directory; points among which a suggestion is chosen
-LETTERS, CANDIDATES = 16, 2048
+#: letters of the hash of a deck in the name of its directory; fewest points among which a suggestion is chosen
+LETTERS, CANDIDATES = 16, 2047
 #: the key of a point's name in the standard for generators
 ID = "_id"
 GOALS = ("minimize", "maximize", "explore")
@@ -124,13 +124,12 @@ class Objective:
             raise ValueError(f"num_points = {number}: at least one is needed")
         from scipy.stats import qmc
 
+        first, self._given = self._given, self._given + number
+        explores = self.goal == "explore" or len(self.data) < len(self.inputs) + surrogates.FEWEST
         engine = qmc.Sobol(len(self.inputs), scramble=True, seed=np.random.default_rng(self.seed))
-        if self._given:
-            engine.fast_forward(self._given)
-        self._given += number
-        if self.goal == "explore" or len(self.data) < len(self.inputs) + surrogates.FEWEST:
-            return [self._point(point) for point in engine.random(number)]
-        candidates = engine.random(CANDIDATES)
+        candidates = engine.random_base2(max(CANDIDATES, self._given - 1).bit_length())
+        if explores:
+            return [self._point(point) for point in candidates[first : self._given]]
         cube = np.column_stack([each.points([each_point[each.head] if each.kind != CHOICE else label(each_point[each.head])
                                              for each_point in self.data]) for each in self.inputs])  # fmt: skip
         made = surrogates.fit(self.inputs, cube, np.array([float(point[self.result]) for point in self.data]))

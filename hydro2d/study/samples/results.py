@@ -12,6 +12,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from hydro2d.base.errors import unknown
+from hydro2d.mesh.regime import REGIMES
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError
@@ -21,11 +22,13 @@ from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.keeping import MEMBER
 from hydro2d.study.records.layout import DONE, Study
 from hydro2d.study.records.record import is_number
-from hydro2d.study.records.sample_table import PERFORATED, REGIME, RESIDUAL, STATUS, YES
+from hydro2d.study.records.sample_table import NO, PERFORATED, REGIME, RESIDUAL, STATUS, YES
 from hydro2d.study.samples import sobol, surrogates
 
 #: results in words that have a fraction of each word
 OUTCOMES = (REGIME, PERFORATED)
+#: their words, whether or not a run has them
+WORDS = {REGIME: REGIMES, PERFORATED: (YES, NO)}
 #: results that the summary of a sample shows, if they vary; most of them with indices
 USUAL, MOST_USUAL = ("depth_m", RESIDUAL, "length_ratio"), 3
 #: points of the cube at which the effect of an input is taken: 10 % and 90 % of its values
@@ -133,7 +136,7 @@ class Samples:
         if sign == "=":
             if column.dtype.kind != "U":
                 raise StudyError(f"{name} = {limit}: {name} is a number; compare it by > or <")
-            words = sorted(set(column) - {""})
+            words = {*column.tolist(), *WORDS.get(name, ())} - {""}
             if limit not in words:
                 raise StudyError(f"{name} = {limit}: {unknown('outcome', limit, words)}")
             return column == limit
@@ -194,7 +197,7 @@ class Samples:
         """
         if CONDITION.fullmatch(outcome):
             numbers = self.values(outcome)
-            words = np.where(np.isnan(numbers), "", np.where(numbers == 1.0, YES, "no"))
+            words = np.where(np.isnan(numbers), "", np.where(numbers == 1.0, YES, NO))
         else:
             words = np.where(self.ended, self._column(outcome), "") if self._column(outcome).dtype.kind == "U" else None
             if words is None:

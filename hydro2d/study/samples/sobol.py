@@ -75,7 +75,7 @@ def indices(result: str, surrogate: Surrogate, seed: int = 0) -> Indices:
     found = np.take_along_axis(found, chosen[:, None, :], axis=2)
     functions = {"f_A": found[:, 0], "f_B": found[:, 1], "f_AB": found[:, 2:].transpose(1, 0, 2)}
     estimate = sobol_indices(func=functions, n=POINTS)
-    first, total = estimate.first_order, estimate.total_order
+    first, total = (each.reshape(DRAWS, inputs) for each in (estimate.first_order, estimate.total_order))
     ends = 0.5 - 0.5 * LEVEL, 0.5 + 0.5 * LEVEL
     rows = [Index(each.head, float(first[:, n].mean()), *map(float, np.quantile(first[:, n], ends)),
                   float(total[:, n].mean()), *map(float, np.quantile(total[:, n], ends)))
