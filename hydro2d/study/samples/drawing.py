@@ -1,4 +1,4 @@
-"""The figures of a sample: a result against each input, and the effects of the inputs as bars (tornado)."""
+"""The figures of a sample (results.Samples): a result against each input, and the effects of the inputs as bars (tornado)."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from hydro2d.results.figures import verbatim
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE
 from hydro2d.study.records.responses import readers, title
-from hydro2d.study.samples import results
+from hydro2d.study.samples.surrogates import along
 
 #: panels in a row; width and height of one in inches; points of a curve; places of the marks of a level beside one another
 COLUMNS, SIZE, POINTS, APART = 3, (3.6, 2.9), 60, 0.25
 
 
-def _axis(result: str) -> tuple[str, float]:
+def _axis(samples, result: str) -> tuple[str, float]:
     """The label of an axis of a result and the factor to the reader's unit; an outcome is a fraction."""
-    if results.CONDITION.fullmatch(result) or result == results.PERFORATED:
+    if samples.is_outcome(result):
         return f"fraction: {result}", 1.0
     unit, factor = readers(result)
     return title(result) + (f" [{unit}]" if unit else ""), factor
 
 
-def scatter(samples: results.Samples, result: str):
+def scatter(samples, result: str):
     """A figure with a panel for each input: the rows as dots, and the surrogate as a line if there is one."""
     rows, values = samples.by_row(result)
-    label, factor = _axis(result)
+    label, factor = _axis(samples, result)
     cube = samples.cube(rows)
     try:
         made = samples.surrogate(result)
@@ -45,7 +45,7 @@ def scatter(samples: results.Samples, result: str):
         place.plot(each.quantiles(cube[:, number]), values * factor, "o", markersize=3, alpha=0.6, color="C0")
         if made is not None:
             points = np.linspace(0.01, 0.99, POINTS)
-            curve = made(results._along(samples.inputs, number, points))
+            curve = made(along(samples.inputs, number, points))
             place.plot(each.quantiles(points), curve * factor, color="C1", linewidth=1.4)
     for place in axes[:, 0]:
         place.set_ylabel(verbatim(label), fontsize=8)
@@ -64,11 +64,11 @@ def _levels(place, each, points: np.ndarray, values: np.ndarray) -> None:
     place.set_xticks(range(len(each.levels)), [verbatim(level) for level in each.levels], rotation=20)
 
 
-def tornado(samples: results.Samples, result: str):
+def tornado(samples, result: str):
     """A figure with a bar for each input, the largest effect on top, about the result at the medians of all inputs."""
     effects, made = samples.effects(result), samples.surrogate(result)
-    label, factor = _axis(result)
-    middle = float(made(results._along(samples.inputs, 0, np.array([0.5])))[0]) * factor
+    label, factor = _axis(samples, result)
+    middle = float(made(along(samples.inputs, 0, np.array([0.5])))[0]) * factor
     figure, ((place,),) = figures.new_figure(6.4, 1.3 + 0.45 * len(effects))
     for number, each in enumerate(effects):
         ends = each.low * factor, each.high * factor

@@ -115,6 +115,10 @@ class Samples:
 
     # ------------------------------------------------------------------------------------------------ one number a run
 
+    def is_outcome(self, result: str) -> bool:
+        """Whether a result is an outcome, which is true or false for each run."""
+        return result == PERFORATED or CONDITION.fullmatch(result) is not None
+
     def values(self, result: str) -> np.ndarray:
         """A result as numbers, float64[runs], NaN for runs that are not done.
 
@@ -250,10 +254,10 @@ class Samples:
         each = self.inputs[number]
         if each.kind == CHOICE:
             at = each.points(each.levels)
-            values = made(_along(self.inputs, number, at))
+            values = made(surrogates.along(self.inputs, number, at))
             low, high = int(values.argmin()), int(values.argmax())
             return Effect(each.head, float(values[low]), float(values[high]), each.levels[low], each.levels[high])
-        low, high = map(float, made(_along(self.inputs, number, np.array([LOW, HIGH]))))
+        low, high = map(float, made(surrogates.along(self.inputs, number, np.array([LOW, HIGH]))))
         ends = [f"{value:.4g} {each.unit}".rstrip() for value in each.quantiles(np.array([LOW, HIGH]))]
         return Effect(each.head, low, high, *ends)
 
@@ -275,14 +279,6 @@ class Samples:
 
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
-
-
-def _along(inputs: Sequence[Distribution], number: int, points: np.ndarray) -> np.ndarray:
-    """Points of the cube along an input, the other ones at their medians; a choice at its most frequent level."""
-    middle = [each.points(each.levels)[int(np.argmax(each.weights))] if each.kind == CHOICE else 0.5 for each in inputs]
-    cube = np.tile(middle, (len(points), 1))
-    cube[:, number] = points
-    return cube
 
 
 def _share(successes: int, trials: int, rows: int) -> Share:

@@ -95,3 +95,11 @@ def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) ->
     return Surrogate(tuple(inputs), len(y), float(1.0 - missed @ missed / (alone @ alone)),
                      float(unit * np.sqrt(np.mean(missed**2))), float(unit * np.sqrt(process.numbers.c)), process, theta, root,
                      shift, unit)  # fmt: skip
+
+
+def along(inputs: Sequence[Distribution], number: int, points: np.ndarray) -> np.ndarray:
+    """Points of the cube along an input, the other ones at their medians; a choice at its most frequent level."""
+    middle = [each.points(each.levels)[int(np.argmax(each.weights))] if each.kind == CHOICE else 0.5 for each in inputs]
+    cube = np.tile(middle, (len(points), 1))
+    cube[:, number] = points
+    return cube
