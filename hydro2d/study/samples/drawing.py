@@ -9,7 +9,7 @@ from hydro2d.results.figures import verbatim
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE
 from hydro2d.study.records.responses import readers, title
-from hydro2d.study.samples.surrogates import along
+from hydro2d.study.samples import surrogates
 
 #: panels in a row; width and height of one in inches; points of a curve; places of the marks of a level beside one another
 COLUMNS, SIZE, POINTS, APART = 3, (3.6, 2.9), 60, 0.25
@@ -45,7 +45,7 @@ def scatter(samples, result: str):
         place.plot(each.quantiles(cube[:, number]), values * factor, "o", markersize=3, alpha=0.6, color="C0")
         if made is not None:
             points = np.linspace(0.01, 0.99, POINTS)
-            curve = made(along(samples.inputs, number, points))
+            curve = made(surrogates.along(samples.inputs, number, points))
             place.plot(each.quantiles(points), curve * factor, color="C1", linewidth=1.4)
     for place in axes[:, 0]:
         place.set_ylabel(verbatim(label), fontsize=8)
@@ -68,7 +68,7 @@ def tornado(samples, result: str):
     """A figure with a bar for each input, the largest effect on top, about the result at the medians of all inputs."""
     effects, made = samples.effects(result), samples.surrogate(result)
     label, factor = _axis(samples, result)
-    middle = float(made(along(samples.inputs, 0, np.array([0.5])))[0]) * factor
+    middle = float(made(surrogates.middle(samples.inputs)[None])[0]) * factor
     figure, ((place,),) = figures.new_figure(6.4, 1.3 + 0.45 * len(effects))
     for number, each in enumerate(effects):
         ends = each.low * factor, each.high * factor

@@ -97,9 +97,13 @@ def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) ->
                      shift, unit)  # fmt: skip
 
 
+def middle(inputs: Sequence[Distribution]) -> np.ndarray:
+    """The point of the cube with all inputs at their medians, choices at their most frequent level, float64[d]."""
+    return np.array([each.points(each.levels)[int(np.argmax(each.weights))] if each.kind == CHOICE else 0.5 for each in inputs])
+
+
 def along(inputs: Sequence[Distribution], number: int, points: np.ndarray) -> np.ndarray:
-    """Points of the cube along an input, the other ones at their medians; a choice at its most frequent level."""
-    middle = [each.points(each.levels)[int(np.argmax(each.weights))] if each.kind == CHOICE else 0.5 for each in inputs]
-    cube = np.tile(middle, (len(points), 1))
+    """Points of the cube along an input, the other ones as in `middle`."""
+    cube = np.tile(middle(inputs), (len(points), 1))
     cube[:, number] = points
     return cube
