@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
     from hydro2d.study.records.study_directory import Case
+    from hydro2d.study.samples.objective import Objective
+    from hydro2d.study.samples.results import Samples
     from hydro2d.study.search.logit import fit_transition
 
 #: modules of the public names, imported on first use, so that `import hydro2d` costs nothing
@@ -56,6 +58,8 @@ _PLACES = {
     "open_study": "hydro2d.api",
     "Study": "hydro2d.api",
     "Case": "hydro2d.study.records.study_directory",
+    "Samples": "hydro2d.study.samples.results",
+    "Objective": "hydro2d.study.samples.objective",
     "kept_rows": "hydro2d.study.records.keeping",
     "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
@@ -90,9 +94,11 @@ __all__ = [
     "Experience",
     "Impact",
     "KeptRow",
+    "Objective",
     "Results",
     "ResultsError",
     "RunError",
+    "Samples",
     "Simulation",
     "Study",
     "StudyError",

@@ -27,6 +27,8 @@ from hydro2d.study.records import study_directory
 from hydro2d.study.run import cluster
 from hydro2d.study.run import sweep as sweeps
 from hydro2d.study.run.choice import Choice
+from hydro2d.study.samples import results
+from hydro2d.study.samples.results import Samples
 
 if TYPE_CHECKING:
     import pandas
@@ -120,6 +122,24 @@ class Study(study_directory.Study):
         collected = contents.collect(self)
         repeated = self.ensembles and not members
         return pandas.DataFrame(collected.rows_of_ensembles() if repeated else collected.rows).set_index("case")
+
+
+    def samples(self, at: Mapping[str, str] | None = None) -> Samples:
+        """The runs of a study with [sample] as a table of inputs and results, with spreads, fractions and Sobol indices.
+
+        at : for a study that has axes as well, the label on each of them, such as ``{"sliding": "contact"}``
+
+        Raises StudyError if the study has no sample, has not been run, or has no such combination of labels.
+        """
+        labels = [{axis.name: case.values[axis.name] for axis in self.axes[:-1]} for case in self.cases]
+        combinations = [dict(each) for each in dict.fromkeys(tuple(each.items()) for each in labels)]
+        samples = results.of_study(self)
+        if at is None and len(samples) > 1:
+            raise StudyError(f"the study has axes: name a label on each, such as at={combinations[0]}")
+        wanted = combinations[0] if at is None else dict(at)
+        if wanted not in combinations:
+            raise StudyError(f"{wanted} is no combination of the axes; there are {', '.join(map(str, combinations))}")
+        return samples[combinations.index(wanted)]
 
 
 def open_study(directory: str | Path) -> Study:

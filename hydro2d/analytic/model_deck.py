@@ -41,6 +41,10 @@ def shot(deck: decks.Deck) -> Shot:
         raise DeckError(f'{deck.name}: the penetrator "{rod.name}" is a {rod.shape}; the models need a rod')
     if len(deck.penetration.targets) > 1:
         raise DeckError(f"{deck.name}: the rod penetrates {', '.join(deck.penetration.targets)}; the models allow one target")
+    for body in (rod, target):
+        if body.strength_factor not in (None, 1.0):
+            raise DeckError(f"{deck.name}: the models take the strength of a material as it is, and the deck scales that of "
+                            f'"{body.name}" (strength_factor = {body.strength_factor:g})')
     numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
     values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
     return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], decks.impact_velocity(deck),

@@ -103,7 +103,9 @@ def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), sk
     choice = Choice(plan, only, skip, again=workers.anew)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
                           overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
-    if plan.ensemble and not quiet and (out / study_directory.STUDY).is_file():
+    if plan.sample and not quiet and (out / study_directory.STUDY).is_file():
+        _show_samples(out)
+    elif plan.ensemble and not quiet and (out / study_directory.STUDY).is_file():
         say("")
         _show_ensembles(out)
     return status
@@ -235,6 +237,16 @@ def _show_ensembles(directory: Path) -> None:
         say(wrapped(line))
 
 
+def _show_samples(directory: Path) -> None:
+    """Prints the results of the sample of a study, for each combination of its axes."""
+    from hydro2d.study.records import study_directory
+    from hydro2d.study.samples import results, text
+
+    for samples in results.of_study(study_directory.read(directory)):
+        for line in ("", *text.report(samples)):
+            say(wrapped(line))
+
+
 def _status(study: Path, out: Path | None) -> int:
     from hydro2d.study.records import study_directory
     from hydro2d.study.run import monitor
@@ -247,7 +259,9 @@ def _status(study: Path, out: Path | None) -> int:
         lines += ["", *regimes.lines(opened, regimes.of_study(opened))]
     for line in lines:
         say(wrapped(line))
-    if opened.ensembles:
+    if opened.sample:
+        _show_samples(opened.directory)
+    elif opened.ensembles:
         say("")
         _show_ensembles(opened.directory)
     return 0

@@ -11,6 +11,7 @@ from hydro2d.deck import formulas
 from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import MeshError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
+from hydro2d.materials.material import Material
 from hydro2d.mesh.edges.base import EDGES, PUSH
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS
 from hydro2d.mesh.sinks import SINKS
@@ -77,6 +78,8 @@ def _bad_join(deck: Deck, number: int) -> Iterator[tuple[tuple, str]]:
         yield path, unknown("earlier body", entry.join, earlier)
     elif earlier[entry.join].material != entry.material:
         yield path, f'"{entry.join}" is made of {earlier[entry.join].material}, not of {entry.material}'
+    if entry.strength_factor is not None:
+        yield ("body", number, "strength_factor"), f'belongs to "{entry.join}", which the body joins'
 
 
 def _bad_contact(deck: Deck) -> Iterator[tuple[tuple, str]]:
@@ -304,6 +307,8 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
         given = [key for key in ("energy", "pressure", "temperature") if getattr(entry, key) is not None]
         if given and deck.materials[entry.material].eos.name in EXPLOSIVES:
             yield ("body", number, given[0]), "would replace the energy of the detonation; an explosive begins at rest"
+        if entry.strength_factor is not None and (wrong := _unscaled(deck.materials[entry.material])):
+            yield ("body", number, "strength_factor"), wrong
     for number, entry in enumerate(deck.source):
         if misfit := entry.misfit(deck.materials[body(deck, entry.body).material]):
             yield ("source", number, "body"), misfit
@@ -316,3 +321,13 @@ def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
     yield from formulas.problems(deck)
     if deck.output.history_interval is None or deck.output.vtk_interval is None:
         yield ("output",), "without stop.time, history_interval and vtk_interval must be given"
+
+
+def _unscaled(material: Material) -> str | None:
+    """Why a factor cannot scale the strength of a material; None if it can, or if its model is not trusted and not run."""
+    strength = material.strength
+    if not material.has_strength:
+        return f"{material.name} has no strength to scale"
+    if strength.trusted and hasattr(strength.module("strength"), "back_stress"):
+        return f"the back stress of {strength.name} would not be scaled; change the parameters of {material.name} instead"
+    return None

@@ -52,6 +52,7 @@ __all__ = [
     "schema",
     "sliding_widths",
     "slots",
+    "strength_factors",
     "surface",
     "travel",
     "warnings",
@@ -386,6 +387,11 @@ def yield_factor(deck: Deck) -> float:
     if factor == "radius":
         return (1 + width / body_radius(deck, hard.name)) ** 2
     return (1 + (width * 100) / (deck.materials[hard.material].reference_density / 1000)) ** 2
+
+
+def strength_factors(deck: Deck) -> np.ndarray:
+    """The factor on the flow stress of the material of every slot, float64[m]; 1 by default."""
+    return np.array([entry.strength_factor or 1.0 for entry in deck.body if entry.join is None])
 
 
 def surface(deck: Deck) -> float | None:

@@ -37,8 +37,8 @@ _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.
 
 
 def is_study(data: dict) -> bool:
-    """Whether parsed TOML has axes, a transition to search or parts, which only a study has."""
-    return "axis" in data or "transition" in data or "part" in data
+    """Whether parsed TOML has axes, a sample, a transition to search or parts, which only a study has."""
+    return any(key in data for key in ("axis", "sample", "transition", "part"))
 
 
 def parse(text: str, name: str) -> dict:

@@ -98,7 +98,7 @@ class Method:
             shear=sliding.SHEARS.index(slide.shear),
             friction=slide.friction,
             refresh=slide.refresh,
-            yield_factor=np.where(hard | (group == 1), factor, 1.0),
+            yield_factor=np.where(hard | (group == 1), factor, 1.0) * decks.strength_factors(deck),
             group=group,
             boundaries=BoundaryConditions.of(deck.boundaries.model_dump()),
         )

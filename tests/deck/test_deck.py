@@ -117,6 +117,7 @@ def test_a_deck_does_not_change():
         ('name = "plate"', 'name = "rod"', 19, ['the name "rod" is already used by an earlier body']),
         ('name = "plate"', 'name = "plate"\njoin = "rod"', 20, ["is made of W_alloy, not of Al5083"]),
         ('name = "plate"', 'name = "plate"\njoin = "bar"', 20, ['unknown earlier body "bar"']),
+        ('name = "plate"', 'name = "plate"\njoin = "rod"\nstrength_factor = 2', 21, ['belongs to "rod"']),
         ('z_start = "-20 mm"', 'r_start = "-1 mm"', 3, ["must start at r >= 0, not at -0.001 m"]),
         ("[stop]", '[boundaries]\nr_min = "wall"\n[stop]', 29, ["r = 0 of a cylindrical mesh is the axis"]),
         ("[mesh]", '[boundaries]\nr_min = "axis"\n[mesh]\ngeometry = "planar"', 3, ["needs a cylindrical mesh"]),

@@ -12,6 +12,7 @@ from hydro2d.base.keys import (
     Number,
     PositiveDensity,
     PositiveLength,
+    PositiveNumber,
     Pressure,
     Section,
     SpecificEnergy,
@@ -65,6 +66,11 @@ class Body(Section):
     temperature: Temperature | None = Field(
         None, description="initial temperature, instead of `energy`; without `density`, the density follows from this "
         "temperature and `pressure`, or zero pressure (a gas: its own density)", examples=["300 K"],
+    )
+
+    strength_factor: PositiveNumber | None = Field(
+        None, description="factor on the flow stress of its material, at every strain, rate, temperature and pressure; the "
+        "shear modulus stays as it is", examples=[1.05],
     )
 
     @model_validator(mode="after")

@@ -71,6 +71,15 @@ def wilson(successes: int, trials: int, level: float = LEVEL) -> Share:
     return Share(successes, trials, successes / trials, float(interval.low), float(interval.high))
 
 
+def wilson_interval(fraction: float, trials: int, level: float = LEVEL) -> tuple[float, float]:
+    """The ends of Wilson's interval of a fraction of as many independent trials, which need not be whole successes."""
+    from scipy.special import ndtri
+
+    z = float(ndtri(0.5 + 0.5 * level)) / trials**0.5
+    middle, half = fraction + 0.5 * z * z, z * (fraction * (1.0 - fraction) + 0.25 * z * z) ** 0.5
+    return max((middle - half) / (1.0 + z * z), 0.0), min((middle + half) / (1.0 + z * z), 1.0)
+
+
 def spread(values: Sequence[float]) -> Spread | None:
     """Median and 10 to 90 % of values, interpolated between neighbours (Hyndman and Fan's type 7); None without values."""
     if not len(values):

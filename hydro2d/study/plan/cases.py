@@ -1,6 +1,6 @@
 """The cases of a study: all combinations of its axes without the exclusions, each with its resolved deck.
 
-A search for a transition has one further axis, the last: all velocities that it may try.
+A search for a transition has one further axis, the last: all velocities that it may try. So has a sample: its rows.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -19,8 +20,9 @@ from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources
 from hydro2d.output.directory import deck_hash
 from hydro2d.running.progress import counted
-from hydro2d.study.plan import members, ranges, velocities
+from hydro2d.study.plan import members, ranges, sampling, velocities
 from hydro2d.study.plan.definition import DECK, Axis, Definition, Ensemble, Overrides, StudyError, of_tables, read
+from hydro2d.study.plan.distributions import Distribution
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
 
 #: longest part of the name of a case that comes from one axis
@@ -63,7 +65,10 @@ class Planned:
 
 @dataclass(frozen=True)
 class Plan:
-    """A study before it runs, with the decks of all cases resolved. ``again`` is the option that continues it."""
+    """A study before it runs, with the decks of all cases resolved. ``again`` is the option that continues it.
+
+    sample : the points of a sample, whose rows are the last axis
+    """
 
     name: str
     title: str
@@ -75,6 +80,12 @@ class Plan:
     ensemble: Ensemble | None = None
     again: str = "--resume"
     keep: Path | None = None
+    sample: sampling.Points | None = None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Remarks for the user, before the runs."""
+        return self.sample.notes if self.sample else ()
 
 
 def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False,
@@ -120,13 +131,14 @@ class _Planner:
         self._distinct_axes()
         self._free_of_axes(axes)
         speeds = self._labels()
+        sample = self._points()
         self._raise()
-        self._number([*axes, speeds or [""]])
+        self._number([*axes, speeds or [""], sample.rows if sample else [""]])
         combinations = self._without_excluded(axes)
         self._raise()
         bare = [self._case(combination) for combination in combinations]
         files = self._files(bare)
-        self._known_keys(files)
+        self._known_keys(files, sample)
         self._raise()
         described = [{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
                      for axis, choices in zip(self.definition.axis, axes, strict=True)]  # fmt: skip
@@ -134,10 +146,15 @@ class _Planner:
         if interval is not None:
             combinations = self._at_velocities(combinations, interval)
             described.append({"name": velocities.AXIS, "key": interval.key, "values": list(interval.labels)})
+        if sample is not None:
+            combinations = self._at_points(combinations, sample)
+            described.append({"name": sampling.AXIS, "key": None, "values": [str(n) for n in range(1, len(sample.rows) + 1)]})
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
         planned = [self._repeated(name, *self._case(each), files)
                    for name, each in zip(names, counted(combinations, "decks read", quiet), strict=True)]
         self.wrong = list(dict.fromkeys(self.wrong))
+        if sample is not None:
+            self._check_rows(planned, sample)
         self._raise()
         cases = [case for group in planned for case in group]
         if interval is not None:
@@ -145,7 +162,7 @@ class _Planner:
         return Plan(
             name=self.path.stem, title=self.definition.title, text=self.text,
             out=Path(self.definition.out or f"runs/{self.path.stem}"), axes=described, cases=cases, search=interval,
-            ensemble=self.ensemble, keep=self.path.parent / keep if (keep := self.definition.keep) else None,
+            ensemble=self.ensemble, keep=self.path.parent / keep if (keep := self.definition.keep) else None, sample=sample,
         )  # fmt: skip
 
     def _of_the_kind(self, search: bool | None) -> None:
@@ -203,8 +220,10 @@ class _Planner:
     def _number(self, axes: list[list[Option]]) -> None:
         ensemble = self.ensemble
         count, of = math.prod(len(choices) for choices in axes), "the axes make"
+        if self.definition.sample:
+            of = "the axes and the sample make"
         if ensemble:
-            count, of = count * ensemble.repeats, f"the axes and {ensemble.repeats} repeats make"
+            count, of = count * ensemble.repeats, f"{of.removesuffix(' make')} and {ensemble.repeats} repeats make"
         if count > ranges.MOST:
             raise StudyError(f"{self.path}: {of} {count} cases; at most {ranges.MOST} are allowed")
 
@@ -256,6 +275,85 @@ class _Planner:
         choices = [Option(label, short(label), {interval.key: label}) for label in interval.labels]
         return [(*combination, choice) for combination in combinations for choice in choices]
 
+    # ------------------------------------------------------------------------------------------------ rows of a sample
+
+    def _points(self) -> sampling.Points | None:
+        """The points of the sample; None without one, or if its section or its table is wrong, which `wrong` then says."""
+        given, inputs = self.definition.sample, []
+        if given is None:
+            return None
+        for key, entry in given.input.items():
+            try:
+                inputs.append(Distribution.of_input(key, entry))
+            except ValueError as error:
+                self._say(self._place_of(key), f"{_spelled_input(key)}: {error}")
+        self._distinct_inputs(given.input)
+        if self.wrong:
+            return None
+        try:
+            sample = sampling.points(given, inputs, self.path.parent)
+        except StudyError as error:
+            self.wrong.append(str(error))
+            return None
+        if given.table is not None:
+            self._distinct_inputs([each.key for each in sample.inputs])
+        return sample
+
+    def _place_of(self, key: str) -> tuple:
+        """Place of an input of the sample in the study file; that of the table for one of its columns."""
+        if self.definition.sample.table is not None:
+            return ("sample", "table")
+        return _place(("sample", "input"), key, self.data.get("sample", {}).get("input", {}))
+
+    def _distinct_inputs(self, keys: Iterable[str]) -> None:
+        """Checks that each uncertain key is set by nothing else: by another one, an axis, or the members of an ensemble."""
+        others: dict[tuple, str] = {}
+        for number, axis in enumerate(self.definition.axis):
+            if axis.name == sampling.AXIS:
+                self._say(("axis", number), (f'axis[{number}].name: "{sampling.AXIS}" '
+                                             "is the name of the axis that [sample] adds"))
+            own = {axis.key} if axis.key else {key for settings in axis.variants.values() for key in settings}
+            others |= {tuple(toml.key_parts(key)): f'the axis "{axis.name}"' for key in own}
+        for key in keys:
+            parts = tuple(toml.key_parts(key))
+            for other, owner in others.items():
+                if _share(parts, other):
+                    shared = ".".join(min(parts, other, key=len))
+                    self._say(self._place_of(key), f"sample: {key}: {owner} sets {shared} as well")
+            others[parts] = f"the sample ({key})"
+            if clash := self.ensemble and members.conflict(self.ensemble.by, [key]):
+                self._say(self._place_of(key), f'sample: {key}: the ensemble changes {clash[1]} by "{clash[0]}"; leave out one')
+
+    def _at_points(self, combinations: list[tuple], sample: sampling.Points) -> list[tuple]:
+        """Every combination at every point."""
+        rows = [Option(str(row), sampling.NAME.format(row), sample.settings(row - 1)) for row in range(1, len(sample.rows) + 1)]
+        return [(*combination, row) for combination in combinations for row in rows]
+
+    def _check_rows(self, planned: list[list[Planned]], sample: sampling.Points) -> None:
+        """Refuses a sample with rows that make a deck invalid: each of them is said once, with its column where it is known."""
+        said: dict[str, None] = {}
+        for case in (group[0] for group in planned if group and not group[0].text):
+            row = int(case.values[sampling.AXIS])
+            for line in case.message.splitlines():
+                said[self._row_in_words(row, line, sample)] = None
+        self.wrong += said
+
+    def _row_in_words(self, row: int, line: str, sample: sampling.Points) -> str:
+        """The message of a deck for a row of a sample: file, row and column, then what is wrong."""
+        settings = sample.settings(row - 1)
+        said = {f"--set {toml.assigned(each.key, settings[each.key])}: ": each for each in sample.inputs}
+        start, of = next(((start, each) for start, each in said.items() if line.startswith(start)), ("", None))
+        wrong = line.removeprefix(start)
+        if sample.table:
+            file = self.path.parent / self.definition.sample.table
+            return f"{sampling.place(file, row, of.head)}: {wrong}" if of else f"{file}: row {row}: {wrong}"
+        if of is None:
+            return f"{self.sources.where(('sample',), self.data)}: sample: row {row}: {wrong}"
+        where = self.sources.where(self._place_of(of.key), self.data)
+        return f"{where}: {_spelled_input(of.key)}: row {row} has {settings[of.key]}: {wrong}"
+
+    # ------------------------------------------------------------------------------------------------ the velocity of impact
+
     def _check_impacts(self, cases: list[Planned], interval: velocities.Velocities) -> None:
         """Raises StudyError if the velocity of the search is not the impact velocity."""
         for case in cases[:: len(interval.labels)]:
@@ -303,7 +401,8 @@ class _Planner:
         base = settings.pop(DECK, self.definition.deck)
         if not isinstance(base, str):
             raise StudyError(f"{self.path}: deck: " + ("is missing" if base is None else f"expected a file name, is {base!r}"))
-        names = [*(axis.name for axis in self.definition.axis), velocities.AXIS]
+        last = velocities.AXIS if self.definition.transition else sampling.AXIS
+        names = [*(axis.name for axis in self.definition.axis), last]
         labels = {name: choice.label for name, choice in zip(names, combination, strict=False)}
         placed = {key: toml.placed_value(key, value, self.path.parent) for key, value in settings.items()}
         return labels, base, [toml.assigned(key, value) for key, value in placed.items()]
@@ -319,7 +418,7 @@ class _Planner:
                 self._say((DECK,), str(error))
         return files
 
-    def _known_keys(self, files: dict[str, Path]) -> None:
+    def _known_keys(self, files: dict[str, Path], sample: sampling.Points | None) -> None:
         """Checks that at least one base deck has each key. A base deck without it makes its own cases invalid."""
         tables = []
         for file in files.values():
@@ -331,9 +430,16 @@ class _Planner:
             problems = [key_messages.key_problem(table, key) for table in tables]
             if problems and all(problems):
                 self._say(place, f"no deck has the key {key}: {problems[0]}")
+        for column in sample.inputs if sample and sample.table else ():
+            problems = [key_messages.key_problem(table, column.key) for table in tables]
+            if problems and all(problems):
+                file = self.path.parent / self.definition.sample.table
+                self.wrong.append(f'{file}: column "{column.head}": no deck has the key {column.key}: {problems[0]}')
 
     def _keys(self):
         """Every deck key of the study, and its place in the study file."""
+        if self.definition.sample:
+            yield from ((self._place_of(key), key) for key in self.definition.sample.input)
         if self.definition.transition and self.definition.transition.key:
             yield ("transition", "key"), self.definition.transition.key
         yield from ((_place(("set",), key, self.data.get("set", {})), key) for key in self.definition.set if key != DECK)
@@ -382,6 +488,11 @@ def _changed(case: Planned, deck: decks.Deck, file: Path) -> Planned:
     overrides = [*case.overrides, *members.overrides(deck, case.changed)]
     changed, message = _read(file, overrides)
     return replace(case, overrides=overrides, text=changed.to_toml() if changed else "", message=message)
+
+
+def _spelled_input(key: str) -> str:
+    """An input of a sample in messages."""
+    return f'sample.input."{key}"'
 
 
 def _place(table: tuple, key: str, given: dict) -> tuple:

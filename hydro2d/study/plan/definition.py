@@ -16,6 +16,7 @@ from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain, read_text
 from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.outcomes.registry import BY_NAME, KINDS
+from hydro2d.study.plan.sample_section import Input, Sample
 
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
@@ -194,7 +195,7 @@ class Part(Section):
 
 
 class Definition(Section):
-    """A study file: a sweep with axes, an ensemble, or both; a search for a transition, with or without axes; or parts."""
+    """A study file: a sweep with axes, a sample or an ensemble; a search for a transition, with or without axes; or parts."""
 
     title: str = Field("", description="title for tables and reports")
     deck: str | None = Field(None, description="base deck: in the folder of the study file, or as `hydro2d run` finds decks")
@@ -202,6 +203,7 @@ class Definition(Section):
     set: Keys = Field({}, description="deck keys and values for every case; `remove` lists keys to take out")
     axis: Annotated[tuple[Axis, ...], AfterValidator(_filled)] = Field((), description="axes, the first one slowest")
     transition: Transition | None = Field(None, description="the search of `hydro2d transition`")
+    sample: Sample | None = Field(None, description="points of uncertain inputs, at each of which every case runs")
     ensemble: Ensemble | None = Field(None, description="repeats of every case")
     exclude: tuple[dict[str, Any], ...] = Field((), description="combinations to leave out")
     keep: str | None = Field(
@@ -221,7 +223,7 @@ class Definition(Section):
 
 _TABLES: dict[tuple, type[Section]] = {
     (): Definition, ("axis",): Axis, ("axis", "range"): Range, ("transition",): Transition,
-    ("ensemble",): Ensemble, ("part",): Part,
+    ("sample",): Sample, ("sample", "input"): Input, ("ensemble",): Ensemble, ("part",): Part,
 }  # fmt: skip
 
 
@@ -286,8 +288,11 @@ def _validated(data: dict, sources: Sources) -> Definition:
         study = Definition.model_validate(data if in_si else {**data, **units.bare({k: data[k] for k in data if k == SEARCH})})
     except ValidationError as error:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
-    if not (study.axis or study.transition or study.ensemble or study.part):
+    if not (study.axis or study.sample or study.transition or study.ensemble or study.part):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
+    if study.transition and study.sample:
+        raise StudyError(f"{sources.where(('sample',), data)}: sample: a search takes no [sample], because its velocities "
+                         "follow from earlier runs; sample the velocity as well, without [transition]")
     if study.transition and study.ensemble:
         raise StudyError(f"{sources.where(('ensemble',), data)}: ensemble: {_instead(study.transition)}")
     return study
@@ -312,6 +317,7 @@ def _explained(entry: dict, data: dict, sources: Sources, tables: dict[tuple, ty
     path = tuple(entry["loc"])
     where = f"{sources.where(path, data)}: {spelled(path)}: "
     if entry["type"] == "extra_forbidden":
-        table = tables[tuple(part for part in path[:-1] if isinstance(part, str))]
+        place = tuple(part for part in path[:-1] if isinstance(part, str))
+        table = tables[place] if place in tables else tables[place[:-1]]  # the table of an input is named by its deck key
         return where + unknown("key", str(path[-1]), [f.alias or name for name, f in table.model_fields.items()])
     return where + in_words(entry)

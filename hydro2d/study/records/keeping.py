@@ -99,15 +99,16 @@ class Wanted:
         summary = case.summary
         origin = summary.get("provenance") or {}
         commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
-        entries = {**_results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
+        entries = {**results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
                    "date": (origin.get("written") or "")[:10]}  # fmt: skip
         return self.about | {name: _text(value) for name, value in entries.items()}
 
 
-def _results(summary: Mapping) -> dict[str, object]:
+def results(summary: Mapping) -> dict[str, object]:
+    """The results of a summary by the names of RESULTS, SI; None for those that it does not have."""
     audit = summary.get("conservation") or {}
     dropped = (audit.get("sinks") or {}).get("advection", {}).get("energy_J")
-    results = {
+    found = {
         "status": summary["status"], "stop_reason": summary.get("stop_reason"), "trustworthy": summary.get("trustworthy"),
         "depth_m": summary.get("penetration_depth_m"), "tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
         "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"), "regime": summary.get("regime"),
@@ -118,7 +119,7 @@ def _results(summary: Mapping) -> dict[str, object]:
         "radius_ratio": ratio(summary.get("rod_max_radius_m"), summary.get("rod_initial_radius_m")),
         "mass_ratio": ratio(summary.get("rod_mass_kg"), summary.get("rod_initial_mass_kg")),
     }  # fmt: skip
-    return {name: results[name] for name in RESULTS}
+    return {name: found[name] for name in RESULTS}
 
 
 def _text(value) -> str:
@@ -197,6 +198,12 @@ class Keeper:
         known = {row[SETUP] for row in self.rows if row[OF_METHOD] == METHOD}
         wanted = (self.wanted.get(case.name) or Wanted(case, self.axes) for case in cases)
         return {each.case.name for each in wanted if each.setup in known} if known else set()
+
+    def rows_of(self, names: Iterable[str]) -> dict[str, Row]:
+        """The up to date rows of those cases of the plan that have one."""
+        known = {row[SETUP]: row for row in self.rows if row[OF_METHOD] == METHOD}
+        return {name: known[self.wanted[name].setup] for name in names
+                if name in self.wanted and self.wanted[name].setup in known} if known else {}  # fmt: skip
 
     def stale(self, names: Sequence[str]) -> int:
         """The number of cases that have a row, but none that is up to date."""

@@ -31,6 +31,8 @@ DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
 #: stop reasons of runs that were cut short; fraction of the impact velocity above which a projectile still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
+#: beginnings of the stop reasons of projectiles at rest
+RESTED = ("speed of", "rebound of")
 #: speed above which it is given in whole m/s
 WHOLE_SPEED = 10.0
 
@@ -207,9 +209,9 @@ class Record:
 
         Not if it came to rest or reversed with its nose beyond the rear face, in a bulge or stuck in its hole.
         """
-        if "exit_time_s" in self.case.summary:
-            rested = (self.case.summary.get("stop_reason") or "").startswith(("speed of", "rebound of"))
-            return self.case.summary["exit_time_s"] is not None and not rested
+        known = perforates(self.case.summary)
+        if known is not None:
+            return known
         thickness = self.setup.thickness if self.setup else None
         return thickness is not None and max(self.deepest, self.value("penetration_depth_m") or 0.0) >= thickness
 
@@ -238,6 +240,14 @@ class Record:
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
         result = self.case.summary.get(name)
         return result if result is not None else self.last.get(name)
+
+
+def perforates(summary: dict) -> bool | None:
+    """Whether the projectile of a run with this summary is through its target and not at rest; None if it does not say so."""
+    if "exit_time_s" not in summary:
+        return None
+    rested = (summary.get("stop_reason") or "").startswith(RESTED)
+    return summary["exit_time_s"] is not None and not rested
 
 
 def is_number(value) -> bool:

@@ -191,7 +191,8 @@ def _cases(records: Sequence[Record]) -> Variable:
 
 def combinations(study: Study, records: Sequence[Record]) -> Variable | None:
     """The combinations of the axes of a study in words, in the order of its cases; None if no axis varies among the runs."""
-    axes = [axis for axis in study.axes if len({record.case.values.get(axis.name) for record in records}) > 1]
+    axes = [axis for axis in study.axes if not axis.is_of_points
+            and len({record.case.values.get(axis.name) for record in records}) > 1]  # fmt: skip
     if not axes:
         return None
     words = {record.case.name: ", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in axes)

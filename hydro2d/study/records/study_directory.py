@@ -8,6 +8,7 @@
     transition.json     the results of a search for a transition
     transition.csv, transition.png   the shots of a search with a budget, and the fitted curve
     convergence.json    the results of `hydro2d converge`
+    samples.csv         the inputs and results of a sample
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from hydro2d.output.directory import LOCK as RUN_LOCK
 from hydro2d.results.summaries import progress_of, summary_of, table_of
 from hydro2d.study.plan import velocities
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.sampling import Points
 
 TEXT, CASES, LOG, LOCK = "study.toml", "cases", "sweep.log", "study.lock"
 FAILED = "failed.json"
@@ -45,11 +47,15 @@ STATUSES = (WAITING, RUNNING, DONE, INTERRUPTED, UNPHYSICAL, FAILED_STATUS, INVA
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis of a study: its name, the deck key (None for named variants), and its labels in order."""
+    """An axis of a study: its name, the deck key (None for named variants), and its labels in order.
+
+    is_of_points : whether it has the rows of a sample
+    """
 
     name: str
     key: str | None
     values: tuple[str, ...]
+    is_of_points: bool = False
 
     def said(self, label: str) -> str:
         """A label that can be read alone: with the name of the axis if one of its labels begins like a number."""
@@ -133,6 +139,7 @@ class Study:
 
     title, name : of the study;  axes, cases : in the order of the file;  entries : the cases in study.json
     search : for a search for a transition, whose last axis is the velocity and whose cases are those that were run
+    sample : the points of a sample, whose rows are the last axis
     """
 
     directory: Path
@@ -142,6 +149,7 @@ class Study:
     cases: tuple[Case, ...]
     entries: tuple[dict, ...] = ()
     search: Interval | None = None
+    sample: Points | None = None
 
     def __repr__(self) -> str:
         ended = sum(bool(case.summary) for case in self.cases)
@@ -195,6 +203,7 @@ def _data(plan) -> dict:
         "cases": [_entry(case) for case in plan.cases],
         "search": search,
         "ensemble": plan.ensemble and plan.ensemble.model_dump(mode="json"),
+        **({"sample": plan.sample.data()} if plan.sample else {}),
     }
 
 
@@ -236,13 +245,16 @@ def read(directory: Path | str) -> Study:
 def _study(directory: Path, data: dict) -> Study:
     """The study in study.json, with the state of every case."""
     axes = tuple(Axis(entry["name"], entry["key"], tuple(map(str, entry["values"]))) for entry in data["axes"])
+    if data.get("sample"):
+        axes = (*axes[:-1], replace(axes[-1], is_of_points=True))
     entries = tuple(data["cases"])
     repeated = data.get("ensemble")
     ensemble = Ensemble(repeated["repeats"], tuple(repeated["by"]), repeated["seed"]) if repeated else None
     cases = tuple(_case(directory, entry, ensemble) for entry in entries)
     stored = data.get("search")
     search = _interval(stored) if stored else None
-    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search)
+    sample = Points.of_data(data["sample"]) if data.get("sample") else None
+    return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search, sample)
 
 
 def _interval(stored: dict) -> Interval:

@@ -21,6 +21,7 @@ from hydro2d.study.records.responses import Choice
 from hydro2d.study.records.table import columns_of_audit, columns_of_results, to_csv
 from hydro2d.study.report.panels import Chart
 from hydro2d.study.report.pictures import Picture, is_drawn
+from hydro2d.study.report.uncertain import Part
 from hydro2d.study.search import regimes
 
 PAGE, TABLE = "report.html", "cases.csv"
@@ -30,8 +31,11 @@ BREAKS = re.compile(r"(?<=_)(?=[^\s._])|(?<=\.)(?=[^\s._\d])")
 
 def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: Sequence[Picture],
          films: Sequence[Picture] = (), fitted: Sequence[Picture] = (),
-         views: Mapping[str, str] | None = None) -> str:  # fmt: skip
-    """The whole file; ``fitted``: curves of a search with a budget; ``views``: links to the pages of runs, by case."""
+         views: Mapping[str, str] | None = None, uncertain: Sequence[Part] = ()) -> str:  # fmt: skip
+    """The whole file.
+
+    fitted : curves of a search with a budget;  views : links to the pages of runs, by case;  uncertain : parts on a sample
+    """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     env = Environment(loader=PackageLoader(__package__), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
@@ -41,7 +45,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(
         contents=contents, study=contents.study, table=TABLE, csv=to_csv(contents.rows), charts=charts, pictures=pictures,
-        films=films, fitted=fitted, views=views or {}, plotly=charts_script() if charts else "",
+        films=films, fitted=fitted, views=views or {}, uncertain=uncertain, plotly=charts_script() if charts else "",
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,

@@ -19,7 +19,7 @@ from hydro2d.results.viewer.packing import DEFAULT_BITS
 from hydro2d.study.ensemble import ensembles
 from hydro2d.study.ensemble.contents import Contents, collect
 from hydro2d.study.records import responses, study_directory, table
-from hydro2d.study.report import panels, pictures
+from hydro2d.study.report import panels, pictures, uncertain
 from hydro2d.study.report.page import PAGE, TABLE, charts_script, page
 
 
@@ -71,15 +71,17 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     folder.mkdir(parents=True, exist_ok=True)
     drawn = list(pictures.draw(contents, folder))
     fitted = list(pictures.fitted(contents, folder))
+    parts = uncertain.parts(study, folder)
     films = list(pictures.films(contents, movie, folder, say)) if movie else []
     views = _views(contents, folder, view, say)
-    files = {picture.file for picture in (*drawn, *fitted, *films)}
+    of_sample = [picture for part in parts for picture in part.pictures]
+    files = {picture.file for picture in (*drawn, *fitted, *of_sample, *films)}
     for old in folder.iterdir():
         if pictures.NAMES.fullmatch(old.name) and old not in files:
             old.unlink()
     write_text(folder / TABLE, table.to_csv(contents.rows))
     write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films, fitted,
-                                    views=views))
+                                    views=views, uncertain=parts))
     written = [folder / PAGE, folder / TABLE, *sorted(files)]
     if study.ensembles:
         write_text(folder / ensembles.FILE, table.to_csv(contents.rows_of_ensembles(choice)))

@@ -73,7 +73,7 @@ def _said(variable: Variable, record: Record) -> str:
 
 def _tells_apart(axis: Axis, records: Sequence[Record], x: Variable) -> bool:
     """Whether an axis adds to the x axis: it is not that axis, not constant, and not a variant for each of its values."""
-    if axis.name == x.name or (x.impact and is_velocity(axis)):
+    if axis.name == x.name or (x.impact and is_velocity(axis)) or axis.is_of_points:
         return False
     pairs = {(x.value(record), record.case.values.get(axis.name)) for record in records}
     values, labels = ({pair[side] for pair in pairs} for side in (0, 1))

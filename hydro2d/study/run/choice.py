@@ -11,6 +11,7 @@ from pathlib import Path
 from hydro2d.base.errors import unknown
 from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.records import sample_table
 from hydro2d.study.records.keeping import Keeper
 from hydro2d.study.records.study_directory import ENDED, Case, Study
 
@@ -73,6 +74,13 @@ class Choice:
         """Adds the ended ones to the rows that the study keeps. Raises OSError."""
         if self.keeper is not None:
             self.keeper.add(cases, self.plan.cases)
+
+    def tabulate(self, study: Study, cases: Sequence[Case]) -> None:
+        """Writes the table of a sample into the directory of its study; nothing for other studies. Raises OSError."""
+        if self.plan.sample is not None:
+            kept = self.keeper.rows_of(self.fresh) if self.keeper else {}
+            axes = [axis.name for axis in study.axes[:-1]]
+            sample_table.write(study.directory, self.plan.sample, axes, cases, kept)
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """Names of cases to run now, at most `room`, in addition to those in `busy`. They need not be in the study yet."""

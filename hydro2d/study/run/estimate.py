@@ -19,6 +19,8 @@ def show(plan: Plan, workers: int) -> int:
     """Prints the table of the cases and their mistakes. Returns 0, or 2 if a case is invalid."""
     estimates = _table(plan, plan.cases)
     total = sum(seconds for _, seconds, _ in estimates)
+    for note in plan.notes:
+        say(wrapped(note))
     say(f"\n{len(estimates)} cases, about {duration(total / min(workers, len(estimates)))} on {workers} workers (a guess)")
     return _wrong(estimates)
 

@@ -52,6 +52,8 @@ from hydro2d.study.run.choice import Choice
 ALL_DONE, SOME_FAILED = 0, 3
 #: seconds between checks for a finished case, a signal, and the table
 BEAT = 0.5
+#: seconds between two tables of a sample while it runs
+TABLE_SECONDS = 5.0
 
 
 def changes(plan: Plan, directory: Path, *, resume: bool, overwrite: bool) -> list[str]:
@@ -118,6 +120,7 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
     if choice.complete:
         if not quiet:
             say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
+        _from_kept(choice, directory)
         return ALL_DONE
     notices, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
     study_directory.make(directory)
@@ -129,11 +132,21 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
         return _sweep(choice, study_directory.read(directory), notices, connect, interrupt, threads, overwrite, quiet)
 
 
+def _from_kept(choice: Choice, directory: Path) -> None:
+    """Makes the directory of a sample whose results are all in the rows that its study keeps, with its table."""
+    if choice.plan.sample is not None:
+        study_directory.make(directory)
+        with locked(directory / LOCK):
+            study_directory.write(choice.plan, directory)
+            study = study_directory.read(directory)
+            choice.tabulate(study, study.cases)
+
+
 def _sweep(choice: Choice, study: Study, notices: list[str], connect: AbstractContextManager, interrupt: Interrupt,
            threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
     with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
         board.line(choice.heading(study))
-        for text in (*notices, choice.kept()):
+        for text in (*choice.plan.notes, *notices, choice.kept()):
             board.line(text)
         started = time.perf_counter()
         with connect as client:
@@ -162,6 +175,7 @@ class _Sweep:
         self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
         self.counted, self.count = -BEAT, 0
+        self.tabulated = time.monotonic()
         board.workers, board.left_out = self.workers, choice.left_out
 
     def workers(self) -> int:
@@ -174,6 +188,7 @@ class _Sweep:
         """Runs until every case has ended and no more are wanted. Returns the seconds that they took in their workers."""
         announced = False
         self._keep(self.board.cases)
+        self._tabulate()
         self._begin()
         while self.tasks:
             if interrupt.reason:
@@ -189,7 +204,10 @@ class _Sweep:
                 outcome = _outcome(future)
                 future.release()
                 self._finish(case, outcome)
+                if time.monotonic() - self.tabulated > TABLE_SECONDS:
+                    self._tabulate()
             self.board.update()
+        self._tabulate()
         return self.spent
 
     def _begin(self) -> None:
@@ -278,6 +296,15 @@ class _Sweep:
             self.choice.keep(cases)
         except OSError as error:
             self.board.line(f"{self.choice.plan.keep} cannot be written: {error.strerror or error}")
+
+    def _tabulate(self) -> None:
+        """Writes the table of a sample. If it cannot be written, the cases run all the same."""
+        try:
+            self.choice.tabulate(self.board.study, self.board.cases)
+        except OSError as error:
+            self.board.line(f"{self.board.study.directory}: the table of the sample cannot be written: "
+                            f"{error.strerror or error}")
+        self.tabulated = time.monotonic()
 
     def _record(self, case: Case, outcome: Outcome) -> None:
         """Writes failed.json; if that is impossible, the log has the reason."""

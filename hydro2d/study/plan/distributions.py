@@ -1,0 +1,176 @@
+"""The distribution of an uncertain input: its values at points between 0 and 1, and the point of a value.
+
+A point is the cumulative probability of a value, so that independent inputs fill the unit cube evenly. A choice has levels: its
+point lies within the level's share of 0 to 1. An input of a table has the empirical distribution of its column.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from hydro2d.files import toml
+from hydro2d.study.plan.sample_section import Input
+
+#: significant digits of a value in a deck; the last bits of a quantile may differ between machines
+DIGITS = 9
+#: no point is nearer to 0 or 1: the quantiles there are infinite
+CLOSEST = 2.0**-31
+CHOICE, TABLE = "choice", "table"
+#: smallest probability between the bounds of a distribution
+LEAST = 1e-6
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """An uncertain input: a deck key and the distribution of its values.
+
+    key : the deck key
+    kind : normal, lognormal, uniform, choice, or table for a column of points
+    unit : of the values, as it was written; empty for plain numbers and words
+    numbers, within : parameters and bounds in this unit
+    levels, weights : of a choice: its values as text, in order, and the probability of each
+    column : of a table, its numbers, sorted
+    """
+
+    key: str
+    kind: str
+    unit: str = ""
+    numbers: tuple[float, ...] = ()
+    within: tuple[float, float] | None = None
+    levels: tuple[str, ...] = ()
+    weights: tuple[float, ...] = ()
+    column: tuple[float, ...] = ()
+
+    @property
+    def head(self) -> str:
+        """The key with its unit, as the head of a column."""
+        return f"{self.key} [{self.unit}]" if self.unit else self.key
+
+    @property
+    def words(self) -> str:
+        """The distribution in words."""
+        unit = f" {self.unit}" if self.unit else ""
+        if self.kind == CHOICE:
+            return ", ".join(f"{level} ({100 * weight:.3g} %)" for level, weight in zip(self.levels, self.weights, strict=True))
+        if self.kind == TABLE:
+            return f"{len(self.column)} values from {self.column[0]:.6g} to {self.column[-1]:.6g}{unit}"
+        first, second = self.numbers
+        bounds = f", within {self.within[0]:.6g} to {self.within[1]:.6g}{unit}" if self.within else ""
+        return {
+            "normal": f"normal, mean {first:.6g}{unit}, standard deviation {second:.6g}{unit}",
+            "lognormal": f"lognormal, median {first:.6g}{unit}, factor {second:.6g}",
+            "uniform": f"uniform from {first:.6g} to {second:.6g}{unit}",
+        }[self.kind] + bounds
+
+    def data(self) -> dict[str, Any]:
+        """The contents as plain data, for JSON."""
+        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items() if value}
+
+    @classmethod
+    def of_data(cls, data: dict[str, Any]) -> Distribution:
+        """The inverse of `data`."""
+        return cls(**{name: tuple(value) if isinstance(value, list) else value for name, value in data.items()})
+
+    @classmethod
+    def of_input(cls, key: str, given: Input) -> Distribution:
+        """The distribution of an input of a study file. Raises ValueError if its bounds leave almost nothing of it."""
+        if given.choice is not None:
+            weights = given.weights or (1.0,) * len(given.choice)
+            shares = tuple(weight / sum(weights) for weight in weights)
+            return cls(key, CHOICE, levels=tuple(map(label, given.choice)), weights=shares)
+        numbers, within, unit = given.numbers()
+        made = cls(key, given.kind, unit, numbers, within)
+        low, high = made._ends()
+        if high - low < LEAST:
+            raise ValueError(f"within: only {high - low:.1g} of the distribution lies between the bounds")
+        return made
+
+    @classmethod
+    def of_column(cls, key: str, unit: str, values: Sequence[Any]) -> Distribution:
+        """The distribution of a column of a table: numbers, or words, each as often as it occurs."""
+        if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
+            return cls(key, TABLE, unit, column=tuple(sorted(map(float, values))))
+        levels = tuple(dict.fromkeys(map(label, values)))
+        counts = [sum(label(value) == level for value in values) for level in levels]
+        return cls(key, CHOICE, levels=levels, weights=tuple(count / len(values) for count in counts))
+
+    def values(self, points: np.ndarray) -> list[float] | list[str]:
+        """The values at points between 0 and 1, float64[n]: numbers with nine digits in the unit, or labels of levels."""
+        if self.kind == CHOICE:
+            return [self.levels[level] for level in self.level_of(points)]
+        return [float(f"{value:.{DIGITS}g}") for value in self.quantiles(points)]
+
+    def level_of(self, points: np.ndarray) -> np.ndarray:
+        """The number of the level of a choice at points between 0 and 1, int64[n]."""
+        ends = np.cumsum(self.weights)[:-1]
+        return np.searchsorted(ends, np.asarray(points), side="right")
+
+    def quantiles(self, points: np.ndarray) -> np.ndarray:
+        """The values of a distribution of numbers at points between 0 and 1, float64[n], in the unit."""
+        u = np.clip(np.asarray(points, dtype=float), CLOSEST, 1.0 - CLOSEST)
+        if self.kind == TABLE:
+            return np.interp(u, self._ranks(), self.column)
+        if self.kind == "uniform":
+            low, high = self.numbers
+            return low + u * (high - low)
+        from scipy.special import ndtri
+
+        low, high = self._ends()
+        z = ndtri(np.clip(low + u * (high - low), CLOSEST, 1.0 - CLOSEST))
+        first, second = self.numbers
+        found = first + second * z if self.kind == "normal" else first * np.exp(math.log(second) * z)
+        return found if self.within is None else np.clip(found, *self.within)
+
+    def points(self, values: Sequence[Any]) -> np.ndarray:
+        """The cumulative probability of values in the unit, float64[n]; for labels of levels the middle of their share.
+
+        Raises ValueError for a label that is no level.
+        """
+        if self.kind == CHOICE:
+            ends = np.cumsum(self.weights)
+            middles = ends - 0.5 * np.array(self.weights)
+            return np.array([middles[self.levels.index(str(value))] for value in values])
+        x = np.asarray(values, dtype=float)
+        if self.kind == TABLE:
+            return np.interp(x, *self._steps())
+        if self.kind == "uniform":
+            low, high = self.numbers
+            return np.clip((x - low) / (high - low), 0.0, 1.0)
+        low, high = self._ends()
+        return np.clip((self._below(x) - low) / (high - low), 0.0, 1.0)
+
+    def _below(self, x: np.ndarray) -> np.ndarray:
+        """Probability of values below x without the bounds."""
+        from scipy.special import ndtr
+
+        first, second = self.numbers
+        with np.errstate(divide="ignore"):
+            z = (x - first) / second if self.kind == "normal" else (np.log(x) - math.log(first)) / math.log(second)
+        return ndtr(z)
+
+    def _ends(self) -> tuple[float, float]:
+        """Probabilities of the bounds without them."""
+        if self.within is None:
+            return 0.0, 1.0
+        low, high = self._below(np.array(self.within))
+        return float(low), float(high)
+
+    def _ranks(self) -> np.ndarray:
+        """Cumulative probabilities of the sorted numbers of a column, by the middle of each one's share."""
+        count = len(self.column)
+        return (np.arange(count) + 0.5) / count
+
+    def _steps(self) -> tuple[np.ndarray, np.ndarray]:
+        """The different numbers of a column and their cumulative probabilities."""
+        numbers, first, counts = np.unique(self.column, return_index=True, return_counts=True)
+        return numbers, (first + 0.5 * counts) / len(self.column)
+
+
+def label(value: Any) -> str:
+    """A value of a choice as a study file has it."""
+    return value if isinstance(value, str) else toml.inline(value)

@@ -1,0 +1,168 @@
+"""The section [sample] of a study file: inputs that are uncertain, each with its distribution, or a table of points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+
+from hydro2d.base import units
+from hydro2d.base.keys import Section
+
+#: the kinds of distributions; those of numbers that may have bounds
+KINDS = ("normal", "lognormal", "uniform", "choice")
+BOUNDED = ("normal", "lognormal")
+#: most points of a sample
+MOST = 10_000
+
+Quantity = float | int | str
+
+
+def in_one_unit(values: tuple[Quantity, ...]) -> tuple[tuple[float, ...], str]:
+    """Numbers in the unit of the first one, and that unit; it is empty for plain numbers. Raises ValueError."""
+    first = _unit(values[0])
+    if not first:
+        return tuple(_plain(value) for value in values), ""
+    factor, si = units.of_kinds(f"1 {first}", units.KINDS)
+    return tuple(_number(value, first, si, factor) for value in values), first
+
+
+def _unit(value: Quantity) -> str:
+    return value.strip().partition(" ")[2].strip() if isinstance(value, str) else ""
+
+
+def _plain(value: Quantity) -> float:
+    if _unit(value):
+        raise ValueError(f"{value!r} has a unit and the first number has none")
+    return units.to_si(value, "1")
+
+
+def _number(value: Quantity, unit: str, si: str, factor: float) -> float:
+    own = _unit(value)
+    if not own:
+        raise ValueError(f"{value!r} has no unit, and the first number has {unit}")
+    return float(str(value).strip().partition(" ")[0]) if own == unit else units.to_si(value, si) / factor
+
+
+def _filled(values: tuple) -> tuple:
+    if len(values) < 2:
+        raise ValueError("needs at least two values")
+    if len({str(value) for value in values}) < len(values):
+        raise ValueError("has a value twice")
+    return values
+
+
+Pair = tuple[Quantity, Quantity]
+
+
+class Input(Section):
+    """The distribution of a deck key, whose values are independent of those of the other keys."""
+
+    normal: Pair | None = Field(None, description="mean and standard deviation")
+    lognormal: Pair | None = Field(None, description="median, and the factor of one standard deviation: two thirds of the "
+                                   "values lie between the median over it and the median times it")
+    uniform: Pair | None = Field(None, description="lowest and highest value")
+    choice: Annotated[tuple[Any, ...], AfterValidator(_filled)] | None = Field(None, description="values, such as materials")
+    within: Pair | None = Field(None, description="with normal or lognormal: bounds; the distribution is cut off there")
+    weights: tuple[float, ...] | None = Field(
+        None, description="with choice: how often each value occurs, relative to the others"
+    )
+
+    @model_validator(mode="after")
+    def _one(self):
+        given = [kind for kind in KINDS if getattr(self, kind) is not None]
+        if len(given) != 1:
+            raise ValueError(f"give one of {', '.join(KINDS)}; given: {' and '.join(given) or 'none'}")
+        if self.within is not None and self.kind not in BOUNDED:
+            raise ValueError(f"within belongs to {' and '.join(BOUNDED)}")
+        if self.weights is not None:
+            self._weighed()
+        if self.kind != "choice":
+            self._ordered()
+        return self
+
+    @property
+    def kind(self) -> str:
+        """The kind of the distribution."""
+        return next(kind for kind in KINDS if getattr(self, kind) is not None)
+
+    def _weighed(self) -> None:
+        if self.kind != "choice":
+            raise ValueError("weights belongs to choice")
+        if len(self.weights) != len(self.choice) or min(self.weights) <= 0.0:
+            raise ValueError(f"weights has {len(self.weights)} numbers, choice {len(self.choice)} values; "
+                             "give a positive number for each")
+
+    def _ordered(self) -> None:
+        """Checks the numbers. Raises ValueError."""
+        numbers, within, _ = self.numbers()
+        first, second = numbers
+        if self.kind == "uniform" and not first < second:
+            raise ValueError("uniform: the second number must be greater than the first")
+        if self.kind == "normal" and not second > 0.0:
+            raise ValueError("normal: the standard deviation must be positive")
+        if self.kind == "lognormal" and not (first > 0.0 and second > 1.0):
+            raise ValueError("lognormal: the median must be positive, and the factor greater than 1")
+        if within and not within[0] < within[1]:
+            raise ValueError("within: the second number must be greater than the first")
+        if within and self.kind == "lognormal" and within[0] < 0.0:
+            raise ValueError("within: a lognormal quantity is positive")
+
+    def numbers(self) -> tuple[tuple[float, float], tuple[float, float] | None, str]:
+        """The two numbers of a distribution of numbers, its bounds, and their unit. Raises ValueError."""
+        first, second = getattr(self, self.kind)
+        bounds = self.within or ()
+        if self.kind == "lognormal":
+            (first, *bounds), unit = in_one_unit((first, *bounds))
+            second = units.to_si(second, "1")
+        else:
+            (first, second, *bounds), unit = in_one_unit((first, second, *bounds))
+        if not all(map(math.isfinite, (first, second, *bounds))):
+            raise ValueError("a number is not finite")
+        return (first, second), (bounds[0], bounds[1]) if bounds else None, unit
+
+
+def _by_key(table: Any) -> Any:
+    """The tables of [sample.input] by deck key; sample.input.body.rod.velocity and a quoted key are the same."""
+    return dict(_leaves(table, "")) if isinstance(table, dict) else table
+
+
+def _leaves(table: dict, key: str) -> Iterator[tuple[str, Any]]:
+    if key and not (table and all(isinstance(value, dict) for value in table.values())):
+        yield key, table
+        return
+    for name, value in table.items():
+        own = f"{key}.{name}" if key else name
+        if isinstance(value, dict):
+            yield from _leaves(value, own)
+        else:
+            yield own, value
+
+
+class Sample(Section):
+    """Points of uncertain inputs; every case of the study runs at each of them."""
+
+    table: str | None = Field(
+        None, min_length=1, description="CSV file, in the folder of this one, with a row for each point; a head is a deck key "
+        "with the unit of its column, such as body.rod.velocity [m/s]"
+    )
+    method: Literal["sobol", "latin-hypercube"] | None = Field(None, description="how the points are made from the inputs")
+    n: int | None = Field(None, ge=2, le=MOST, description="number of points; for sobol a power of two")
+    seed: int | None = Field(None, ge=0, le=2**32, description="another seed makes other points; default 0")
+    input: Annotated[dict[str, Input], BeforeValidator(_by_key)] = Field({}, description="distribution of each deck key")
+    results: tuple[str, ...] = Field((), description="numbers of summary.json that samples.csv has beside the usual ones")
+
+    @model_validator(mode="after")
+    def _one_way(self):
+        if (self.table is None) == (self.method is None):
+            raise ValueError("give either table or method")
+        if self.table is not None:
+            extra = [name for name in ("n", "seed", "input") if name in self.model_fields_set]
+            if extra:
+                raise ValueError(f"{' and '.join(extra)}: belongs to method; a table has its own points")
+        elif self.n is None or not self.input:
+            raise ValueError(f'method = "{self.method}" needs n, and a table of its distribution for each input, such as '
+                             '[sample.input."body.rod.velocity"]')  # fmt: skip
+        return self

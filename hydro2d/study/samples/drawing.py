@@ -1,0 +1,86 @@
+"""The figures of a sample (results.Samples): a result against each input, and the effects of the inputs as bars (tornado)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.results import figures
+from hydro2d.results.figures import verbatim
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.distributions import CHOICE
+from hydro2d.study.records.responses import readers, title
+from hydro2d.study.samples import surrogates
+
+#: panels in a row; width and height of one in inches; points of a curve; places of the marks of a level beside one another
+COLUMNS, SIZE, POINTS, APART = 3, (3.6, 2.9), 60, 0.25
+
+
+def _axis(samples, result: str) -> tuple[str, float]:
+    """The label of an axis of a result and the factor to the reader's unit; an outcome is a fraction."""
+    if samples.is_outcome(result):
+        return f"fraction: {result}", 1.0
+    unit, factor = readers(result)
+    return title(result) + (f" [{unit}]" if unit else ""), factor
+
+
+def scatter(samples, result: str):
+    """A figure with a panel for each input: the rows as dots, and the surrogate as a line if there is one."""
+    rows, values = samples.by_row(result)
+    label, factor = _axis(samples, result)
+    cube = samples.cube(rows)
+    try:
+        made = samples.surrogate(result)
+    except StudyError:
+        made = None  # the dots are drawn without a line
+    columns = min(len(samples.inputs), COLUMNS)
+    lines = -(-len(samples.inputs) // columns)
+    figure, axes = figures.new_figure(SIZE[0] * columns, SIZE[1] * lines, lines, columns, sharey=True)
+    for number, (place, each) in enumerate(zip(axes.flat, samples.inputs, strict=False)):
+        place.set_xlabel(verbatim(each.head), fontsize=8)
+        place.tick_params(labelsize=7)
+        place.grid(alpha=0.3)
+        if each.kind == CHOICE:
+            _levels(place, each, cube[:, number], values * factor)
+            continue
+        place.plot(each.quantiles(cube[:, number]), values * factor, "o", markersize=3, alpha=0.6, color="C0")
+        if made is not None:
+            points = np.linspace(0.01, 0.99, POINTS)
+            curve = made(surrogates.along(samples.inputs, number, points))
+            place.plot(each.quantiles(points), curve * factor, color="C1", linewidth=1.4)
+    for place in axes[:, 0]:
+        place.set_ylabel(verbatim(label), fontsize=8)
+    for place in axes.flat[len(samples.inputs) :]:
+        place.set_visible(False)
+    return figure
+
+
+def _levels(place, each, points: np.ndarray, values: np.ndarray) -> None:
+    """Dots above each level of a choice, side by side in their order."""
+    level = each.level_of(points)
+    for number in range(len(each.levels)):
+        own = values[level == number]
+        place.plot(number + APART * np.linspace(-1.0, 1.0, max(own.size, 1))[: own.size], own, "o", markersize=3, alpha=0.6,
+                   color="C0")  # fmt: skip
+    place.set_xticks(range(len(each.levels)), [verbatim(level) for level in each.levels], rotation=20)
+
+
+def tornado(samples, result: str):
+    """A figure with a bar for each input, the largest effect on top, about the result at the medians of all inputs."""
+    effects, made = samples.effects(result), samples.surrogate(result)
+    label, factor = _axis(samples, result)
+    middle = float(made(surrogates.middle(samples.inputs)[None])[0]) * factor
+    figure, ((place,),) = figures.new_figure(6.4, 1.3 + 0.45 * len(effects))
+    for number, each in enumerate(effects):
+        ends = each.low * factor, each.high * factor
+        for end, at, colour in zip(ends, (each.at_low, each.at_high), ("C0", "C1"), strict=True):
+            place.barh(number, end - middle, left=middle, color=colour, height=0.6)
+            outwards = "right" if end < middle else "left"
+            place.annotate(verbatim(at), (end, number), (-3 if end < middle else 3, 0), textcoords="offset points", ha=outwards,
+                           va="center", fontsize=7)  # fmt: skip
+    place.set_yticks(range(len(effects)), [verbatim(each.input) for each in effects], fontsize=8)
+    place.invert_yaxis()
+    place.margins(x=0.25)
+    place.axvline(middle, color="black", linewidth=0.8)
+    place.set_xlabel(verbatim(f"{label}; Q2 of the surrogate {made.q2:.2f}"), fontsize=8)
+    place.tick_params(axis="x", labelsize=7)
+    return figure

@@ -1,0 +1,327 @@
+"""The results of a sample: a table of inputs and results, with spreads, fractions, Sobol indices and figures."""
+
+from __future__ import annotations
+
+import operator
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from hydro2d.base.errors import unknown
+from hydro2d.mesh.regime import REGIMES
+from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
+from hydro2d.study.plan import sampling
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.distributions import CHOICE, Distribution
+from hydro2d.study.records import sample_table
+from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.keeping import MEMBER
+from hydro2d.study.records.record import is_number
+from hydro2d.study.records.sample_table import NO, PERFORATED, REGIME, RESIDUAL, STATUS, YES
+from hydro2d.study.records.study_directory import DONE, Study
+from hydro2d.study.samples import sobol, surrogates
+
+#: results in words that have a fraction of each word
+OUTCOMES = (REGIME, PERFORATED)
+#: their words, whether or not a run has them
+WORDS = {REGIME: REGIMES, PERFORATED: (YES, NO)}
+#: results that the summary of a sample shows, if they vary; most of them with indices
+USUAL, MOST_USUAL = ("depth_m", RESIDUAL, "length_ratio"), 3
+#: points of the cube at which the effect of an input is taken: 10 % and 90 % of its values
+LOW, HIGH = 0.1, 0.9
+#: an outcome as a condition on a column
+CONDITION = re.compile(r"(?P<name>\S+)\s*(?P<sign>>=|<=|>|<|=)\s*(?P<limit>.+?)\s*")
+SIGNS = {">": operator.gt, "<": operator.lt, ">=": operator.ge, "<=": operator.le}
+
+
+@dataclass(frozen=True)
+class Fraction:
+    """The fraction of the rows of a sample with an outcome.
+
+    outcome : its word;  share : runs with it, runs that ended, the fraction and its 90 % Wilson interval
+    low, high : bounds of the fraction in the whole sample, if none or all of the runs that did not end had it
+    """
+
+    outcome: str
+    share: Share
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Effect:
+    """The change of a result over an input from 10 to 90 % of its values, the other inputs at their medians, by a surrogate.
+
+    low, high : the result at either end; for a choice the smallest and the largest of its levels
+    at_low, at_high : the values of the input there
+    """
+
+    input: str
+    low: float
+    high: float
+    at_low: str
+    at_high: str
+
+
+class Samples:
+    """The runs of a sample as a table, and what follows from them.
+
+    Attributes
+    ----------
+    title : of the study, with the labels of its axes
+    inputs : the uncertain deck keys with their distributions
+    columns : dict of arrays by name, shapes (runs,)
+        ``row`` (of the table of points, from 1), the inputs by their head, such as ``body.rod.velocity [m/s]``, ``status``, and
+        the results in SI units. Numbers are float64, NaN where a run has none; all else is text.
+    """
+
+    def __init__(self, title: str, inputs: Sequence[Distribution], columns: Mapping[str, np.ndarray],
+                 study: Study | None = None, names: Sequence[str] = (), wanted: Sequence[str] = ()):  # fmt: skip
+        self.title, self.inputs, self.columns, self.wanted = title, tuple(inputs), dict(columns), tuple(wanted)
+        self._study, self._names = study, tuple(names)
+
+    def __len__(self) -> int:
+        return len(self.columns[sampling.AXIS])
+
+    def __repr__(self) -> str:
+        return f"<Samples {self.title}: {len(self)} runs, {int(self.ended.sum())} done; inputs {', '.join(self.heads)}>"
+
+    @property
+    def heads(self) -> list[str]:
+        """The columns of the inputs."""
+        return [each.head for each in self.inputs]
+
+    @cached_property
+    def ended(self) -> np.ndarray:
+        """Which runs are done, bool[runs]. The others failed, became unphysical, or have not ended."""
+        return self.columns[STATUS] == DONE
+
+    @property
+    def results(self) -> list[str]:
+        """The names of the results of the table."""
+        about = {sampling.AXIS, MEMBER, STATUS, *self.heads}
+        return [name for name in self.columns if name not in about]
+
+    @property
+    def usual(self) -> list[str]:
+        """The results that are shown if none is named: those that the study asks for, the depth, and others, if they vary."""
+        others = [name for name in self.results if name.startswith(("derived.", "bodies."))]
+        chosen = [name for name in dict.fromkeys((*self.wanted, *USUAL, *others)) if name in self.columns]
+        return [name for name in chosen if len(set(_finite(self.values(name)))) > 1][:MOST_USUAL]
+
+    # ------------------------------------------------------------------------------------------------ one number a run
+
+    def is_outcome(self, result: str) -> bool:
+        """Whether a result is an outcome, which is true or false for each run."""
+        return result == PERFORATED or CONDITION.fullmatch(result) is not None
+
+    def values(self, result: str) -> np.ndarray:
+        """A result as numbers, float64[runs], NaN for runs that are not done.
+
+        result : a number of the table or of summary.json; or an outcome, which is 1 where it is true and 0 elsewhere:
+            ``perforated``, ``regime = eroding``, ``depth_m > 0.35``
+
+        Raises StudyError for an unknown name.
+        """
+        if result == PERFORATED:
+            result = f"{PERFORATED} = {YES}"
+        match = CONDITION.fullmatch(result)
+        if match is None:
+            return np.where(self.ended, self._numbers(result), np.nan)
+        column, name = self._column(match["name"]), match["name"]
+        known = column != "" if column.dtype.kind == "U" else np.isfinite(column)
+        return np.where(self.ended & known, self._is_true(column, name, match["sign"], match["limit"]), np.nan)
+
+    def _is_true(self, column: np.ndarray, name: str, sign: str, limit: str) -> np.ndarray:
+        if sign == "=":
+            if column.dtype.kind != "U":
+                raise StudyError(f"{name} = {limit}: {name} is a number; compare it by > or <")
+            words = {*column.tolist(), *WORDS.get(name, ())} - {""}
+            if limit not in words:
+                raise StudyError(f"{name} = {limit}: {unknown('outcome', limit, words)}")
+            return column == limit
+        try:
+            number = float(limit)
+        except ValueError:
+            raise StudyError(f"{name} {sign} {limit}: {limit} is not a number; results are in SI units") from None
+        if column.dtype.kind == "U":
+            raise StudyError(f"{name} {sign} {limit}: {name} is a word; compare it by =")
+        return SIGNS[sign](column, number)
+
+    def _numbers(self, name: str) -> np.ndarray:
+        column = self._column(name)
+        if column.dtype.kind == "U":
+            words = sorted(set(column) - {""})
+            raise StudyError(f'{name} is a word; name an outcome, such as "{name} = {words[0] if words else "rigid"}"')
+        return column
+
+    def _column(self, name: str) -> np.ndarray:
+        """A column of the table, or a number of the summaries of the runs."""
+        if name in self.columns:
+            return self.columns[name]
+        summaries = self._summaries
+        if not any(name in each for each in summaries):
+            known = {*self.results, *(key for each in summaries for key in each)}
+            raise StudyError(unknown("result", name, known))
+        return np.array([each.get(name, np.nan) for each in summaries], dtype=float)
+
+    @cached_property
+    def _summaries(self) -> list[dict[str, float]]:
+        """The numbers of the summary of each run by dotted name; empty for a run that only a kept row has."""
+        cases = {case.name: case for case in self._study.cases} if self._study else {}
+        summaries = [cases[name].summary if name in cases else {} for name in self._names or [""] * len(self)]
+        return [{key: value for key, value in flatten(each).items() if is_number(value) and not key.startswith("provenance.")}
+                for each in summaries]  # fmt: skip
+
+    def by_row(self, result: str) -> tuple[np.ndarray, np.ndarray]:
+        """The rows with a result, int64[n], and their results, float64[n]: means over the members of a row."""
+        values, rows = self.values(result), self.columns[sampling.AXIS].astype(int)
+        known = np.isfinite(values)
+        found = np.unique(rows[known])
+        return found, np.array([values[known & (rows == row)].mean() for row in found])
+
+    # ------------------------------------------------------------------------------------------------ spreads and fractions
+
+    def spread(self, result: str) -> Spread | None:
+        """Median of a result, its 10 % and 90 % quantiles, and the number of runs; None if no run has it."""
+        return spread(_finite(self.values(result)))
+
+    def fractions(self, outcome: str) -> dict[str, Fraction]:
+        """The fraction of each outcome by its word, the most frequent first.
+
+        outcome : ``regime``, ``perforated``, another column of words, or a condition such as ``depth_m > 0.35``, whose words
+            are "yes" and "no"
+
+        With members of an ensemble, the interval is that of as many runs as there are rows, since members are no further draws
+        of the inputs. Raises StudyError for an unknown name, and if no run is done.
+        """
+        if CONDITION.fullmatch(outcome):
+            numbers = self.values(outcome)
+            words = np.where(np.isnan(numbers), "", np.where(numbers == 1.0, YES, NO))
+        else:
+            words = np.where(self.ended, self._column(outcome), "") if self._column(outcome).dtype.kind == "U" else None
+            if words is None:
+                raise StudyError(f"{outcome} is a number; give a condition, such as \"{outcome} > 0.1\"")
+        counts = Counter(word for word in words.tolist() if word)
+        trials, missing = counts.total(), len(self) - counts.total()
+        if not trials:
+            raise StudyError(f"{outcome}: no run has it yet")
+        rows = len(set(self.columns[sampling.AXIS][words != ""].tolist()))
+        return {word: Fraction(word, _share(number, trials, rows), number / len(self), (number + missing) / len(self))
+                for word, number in counts.most_common()}  # fmt: skip
+
+    # ------------------------------------------------------------------------------------------------ what decides a result
+
+    @lru_cache(maxsize=16)  # noqa: B019 (a sample lives as long as its study)
+    def surrogate(self, result: str) -> surrogates.Surrogate:
+        """The surrogate of a result, with its error ``q2`` and ``rmse``; called with points of the unit cube it gives the mean.
+
+        result : as for `values`
+
+        Raises StudyError for an unknown result, too few rows, or a result that does not vary.
+        """
+        rows, values = self.by_row(result)
+        try:
+            return surrogates.fit(self.inputs, self.cube(rows), values)
+        except StudyError as error:
+            raise StudyError(f"{result}: {error}") from None
+
+    def cube(self, rows: np.ndarray) -> np.ndarray:
+        """The points of rows in the unit cube, float64[n, inputs]: the cumulative probability of each value."""
+        at = {int(row): number for number, row in reversed(list(enumerate(self.columns[sampling.AXIS])))}
+        chosen = [at[int(row)] for row in rows]
+        return np.column_stack([each.points(self.columns[each.head][chosen]) for each in self.inputs])
+
+    @lru_cache(maxsize=16)  # noqa: B019
+    def indices(self, result: str) -> sobol.Indices:
+        """The Sobol indices of a result with 90 % intervals: the share of its variance that each input explains.
+
+        Raises StudyError as `surrogate` does, and if the surrogate predicts less than half of the variance.
+        """
+        return sobol.indices(result, self.surrogate(result))
+
+    def effects(self, result: str) -> list[Effect]:
+        """The effect of each input on a result, the largest first. Raises StudyError as `surrogate` does."""
+        made = self.surrogate(result)
+        found = [self._effect(made, number) for number in range(len(self.inputs))]
+        return sorted(found, key=lambda each: -abs(each.high - each.low))
+
+    def _effect(self, made: surrogates.Surrogate, number: int) -> Effect:
+        each = self.inputs[number]
+        if each.kind == CHOICE:
+            at = each.points(each.levels)
+            values = made(surrogates.along(self.inputs, number, at))
+            low, high = int(values.argmin()), int(values.argmax())
+            return Effect(each.head, float(values[low]), float(values[high]), each.levels[low], each.levels[high])
+        low, high = map(float, made(surrogates.along(self.inputs, number, np.array([LOW, HIGH]))))
+        ends = [f"{value:.4g} {each.unit}".rstrip() for value in each.quantiles(np.array([LOW, HIGH]))]
+        return Effect(each.head, low, high, *ends)
+
+    def scatter(self, result: str):
+        """A matplotlib Figure: the result against each input, and the surrogate along it with the others at their medians."""
+        from hydro2d.study.samples import drawing
+
+        return drawing.scatter(self, result)
+
+    def tornado(self, result: str):
+        """A matplotlib Figure: the effect of each input on the result from 10 to 90 % of its values, by the surrogate.
+
+        Raises StudyError as `surrogate` does.
+        """
+        from hydro2d.study.samples import drawing
+
+        return drawing.tornado(self, result)
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    return values[np.isfinite(values)]
+
+
+def _share(successes: int, trials: int, rows: int) -> Share:
+    """A fraction of runs with its interval; of as many runs as rows if rows have members."""
+    share = wilson(successes, trials)
+    if rows == trials:
+        return share
+    low, high = wilson_interval(share.fraction, rows)
+    return share._replace(low=low, high=high)
+
+
+# ------------------------------------------------------------------------------------------------ of a study
+
+
+def of_study(study: Study) -> list[Samples]:
+    """The samples of a study: one for each combination of its axes. Raises StudyError if it has none, or not yet."""
+    if study.sample is None:
+        raise StudyError(f"{study.directory} is not a study with [sample]")
+    table = sample_table.read(study.directory)
+    inputs = study.sample.inputs
+    if len(table[sampling.AXIS]) != len(study.cases):
+        raise StudyError(f"{study.directory / sample_table.FILE} is not of this study: it has {len(table[sampling.AXIS])} "
+                         f"rows, and there are {len(study.cases)} runs")
+    axes = [axis.name for axis in study.axes[:-1]]
+    combinations = [tuple(case.values[name] for name in axes) for case in study.cases]
+    words = {STATUS, "stop_reason", "trustworthy", REGIME, PERFORATED, *(each.head for each in inputs if each.kind == CHOICE)}
+    columns = {name: _array(column, name in words) for name, column in table.items()
+               if name not in axes and not name.endswith(" (axis)")}  # fmt: skip
+    samples = []
+    for labels in dict.fromkeys(combinations):
+        chosen = np.array([each == labels for each in combinations])
+        own = {name: column[chosen] for name, column in columns.items()}
+        names = [case.name for case, take in zip(study.cases, chosen, strict=True) if take]
+        title = ", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))])
+        samples.append(Samples(title, inputs, own, study, names, study.sample.results))
+    return samples
+
+
+def _array(column: list[str], words: bool) -> np.ndarray:
+    """A column as text, or as numbers with NaN for an empty cell."""
+    if words:
+        return np.array(column, dtype=str)
+    try:
+        return np.array([float(text) if text else np.nan for text in column])
+    except ValueError:
+        return np.array(column, dtype=str)

@@ -1,0 +1,189 @@
+"""[sample] of a study file: points from distributions and from tables, and refusals before the first run."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from hydro2d.cli.main import call
+from hydro2d.study.plan import cases, sampling
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.distributions import Distribution
+from tests.study import fake, tubes
+
+BASE = f'deck = "{(tubes.ROOT / fake.BASE).as_posix()}"\n'
+INPUTS = """
+[sample.input."body.rod.velocity"]
+normal = ["1086 m/s", "3 m/s"]
+[sample.input.body.rod.strength_factor]
+lognormal = [1.0, 1.05]
+[sample.input."body.rod.material"]
+choice = ["W_alloy", "Al5083"]
+"""
+SOBOL = BASE + '[sample]\nmethod = "sobol"\nn = 4\n' + INPUTS
+AXIS = '[[axis]]\nname = "advection"\nkey = "numerics.advection"\nvalues = ["ke", "both"]\n'
+
+
+def plan(folder, text, table=None):
+    """The plan of a study file with its table of points."""
+    if table is not None:
+        (folder / "x.csv").write_text(table)
+    file = folder / "study.toml"
+    file.write_text(text)
+    return cases.plan(file, quiet=True)
+
+
+def of_table(folder, table, more=""):
+    return plan(folder, f'{BASE}[sample]\ntable = "x.csv"\n{more}', table)
+
+
+def refused(folder, text, table=None):
+    with pytest.raises(StudyError) as problem:
+        plan(folder, text, table)
+    return str(problem.value).replace(f"{folder}/", "").splitlines()
+
+
+def test_points_are_cases_with_their_keys(tmp_path):
+    made = plan(tmp_path, SOBOL)
+    assert [case.name for case in made.cases] == ["row1", "row2", "row3", "row4"]
+    assert [case.values for case in made.cases] == [{"row": "1"}, {"row": "2"}, {"row": "3"}, {"row": "4"}]
+    velocity, factor, material = made.cases[0].overrides
+    assert velocity == f'body.rod.velocity="{made.sample.rows[0][0]!r} m/s"'
+    assert factor == f"body.rod.strength_factor={made.sample.rows[0][1]!r}"
+    assert material == f'body.rod.material="{made.sample.rows[0][2]}"'
+    assert {row[2] for row in made.sample.rows} == {"W_alloy", "Al5083"}
+    assert plan(tmp_path, SOBOL).cases == made.cases, "the same seed makes the same points"
+    assert plan(tmp_path, SOBOL.replace("n = 4", "n = 4\nseed = 1")).sample.rows != made.sample.rows
+
+
+def test_more_points_of_sobol_keep_the_earlier_ones(tmp_path):
+    few, many = plan(tmp_path, SOBOL), plan(tmp_path, SOBOL.replace("n = 4", "n = 6"))
+    assert many.sample.rows[:4] == few.sample.rows
+    assert not few.notes
+    assert many.notes == ("sample.n = 6 is not a power of two, so that the points of Sobol's sequence do not fill the space "
+                          "evenly; 4 or 8 would",)
+    assert not plan(tmp_path, SOBOL.replace("n = 4", "n = 6").replace("sobol", "latin-hypercube")).notes
+
+
+def test_every_case_of_the_axes_has_the_same_points(tmp_path):
+    made = plan(tmp_path, SOBOL + AXIS + "[ensemble]\nrepeats = 2\n")
+    assert len(made.cases) == 2 * 4 * 2
+    assert [case.name for case in made.cases][:3] == ["ke_row1", "ke_row1_m1", "ke_row2"]
+    by_axis = {label: [case.overrides[1:4] for case in made.cases if case.values["advection"] == label and not case.member]
+               for label in ("ke", "both")}  # fmt: skip
+    assert by_axis["ke"] == by_axis["both"]
+
+
+@pytest.mark.parametrize(("table", "law"), [
+    ({"normal": ("3 m/s", "2 m/s")}, stats.norm(3.0, 2.0)),
+    ({"normal": ("3 m/s", "0.2 cm/ms"), "within": ("2 m/s", "400 cm/s")}, stats.truncnorm(-0.5, 0.5, 3.0, 2.0)),
+    ({"lognormal": ("2 GPa", 1.1)}, stats.lognorm(np.log(1.1), scale=2.0)),
+    ({"uniform": (1, 3)}, stats.uniform(1.0, 2.0)),
+])  # fmt: skip
+def test_quantiles_and_probabilities(table, law):
+    from hydro2d.study.plan.sample_section import Input
+
+    each, points = Distribution.of_input("key", Input.model_validate(table)), np.linspace(0.01, 0.99, 50)
+    assert each.quantiles(points) == pytest.approx(law.ppf(points), rel=1e-9)
+    assert each.points(each.quantiles(points)) == pytest.approx(points, rel=1e-9)
+    assert Distribution.of_data(each.data()) == each
+    ends = each.quantiles(np.array([0.0, 1.0]))
+    assert np.isfinite(ends).all()
+    assert each.within is None or tuple(ends) == pytest.approx(each.within)
+
+
+def test_choices_have_their_weights():
+    from hydro2d.study.plan.sample_section import Input
+
+    each = Distribution.of_input("key", Input(choice=("a", "b"), weights=(1.0, 3.0)))
+    values = each.values(np.linspace(0.0005, 0.9995, 1000))
+    assert (values.count("a"), values.count("b")) == (250, 750)
+    assert each.level_of(each.points(["a", "b"])).tolist() == [0, 1]
+
+
+def test_a_table(tmp_path):
+    made = of_table(tmp_path, "\ufeffbody.rod.velocity [km/s], body.rod.strength_factor ,body.rod.material\n"
+                    "1.086,1,W_alloy\n1.1,0.95,Al5083\n\n", AXIS)
+    assert [case.name for case in made.cases] == ["ke_row1", "ke_row2", "both_row1", "both_row2"]
+    assert made.cases[1].overrides == ['numerics.advection="ke"', 'body.rod.velocity="1.1 km/s"',
+                                       "body.rod.strength_factor=0.95", 'body.rod.material="Al5083"']  # fmt: skip
+    assert made.sample.rows == ((1.086, 1.0, "W_alloy"), (1.1, 0.95, "Al5083"))
+    assert [each.head for each in made.sample.inputs] == ["body.rod.velocity [km/s]", "body.rod.strength_factor",
+                                                          "body.rod.material"]
+    assert made.sample.inputs[0].points([1.086, 1.1]) == pytest.approx([0.25, 0.75])
+
+
+@pytest.mark.parametrize(("table", "said"), [
+    ("body.rod.velocity [m/s]\n1086\n-x\n", 'x.csv: row 2, column "body.rod.velocity [m/s]": "-x" is not a number; the unit of '
+     "the column is m/s"),
+    ("body.rod.velocity [m/s]\n1086\n1090 m/s\n", 'x.csv: row 2, column "body.rod.velocity [m/s]": "1090 m/s" is not a number; '
+     "the unit of the column is m/s"),
+    ("body.rod.velocity\n1086 m/s\n", 'x.csv: row 1, column "body.rod.velocity": "1086 m/s" has a unit; the head has the unit '
+     "of a column, in brackets, such as [m/s]"),
+    ("body.rod.velocity [furlongs/x]\n1\n", 'x.csv: column "body.rod.velocity [furlongs/x]": "furlongs/x" is not a unit'),
+    ("body.rod.velocity []\n1\n", 'x.csv: column "body.rod.velocity []": the unit is missing between the brackets'),
+    ("body.rod.velocity [m/s],,x\n1,2,3\n", "x.csv: the head of column 2 is empty"),
+    ("body.rod.velocity [m/s],body.rod.velocity [km/s]\n1,2\n", 'x.csv: column 2, "body.rod.velocity [km/s]": there is already '
+     "a column for body.rod.velocity"),
+    ("body.rod.velocity [m/s],body.rod.material\n1086\n", "x.csv: row 1 has 1 cells, and the head 2"),
+    ("body.rod.velocity [m/s],body.rod.material\n1086,\n", 'x.csv: row 1, column "body.rod.material": is empty'),
+    ("body.rod.velocity [m/s]\n", "x.csv: needs a line of heads and at least one row"),
+    ('body.rod.velocity [m/s]\n"1\n', "x.csv: is not a table with commas: unexpected end of data"),
+    ("body.rod.velcity [m/s]\n1086\n", 'x.csv: column "body.rod.velcity [m/s]": no deck has the key body.rod.velcity: body[0]: '
+     'unknown key "velcity"; did you mean "velocity"?'),
+    ("body.rod.velocity [kg]\n1086\n", 'x.csv: row 1, column "body.rod.velocity [kg]": body[0].velocity: "1086 kg" is a mass; '
+     "expected a velocity"),
+    ("body.rod.velocity [m/s],body.rod.strength_factor\n1086,1\n1090,-1\n", 'x.csv: row 2, column "body.rod.strength_factor": '
+     "body[0].strength_factor: must be positive, is -1"),
+    ("body.rod.velocity\n1086\n", 'x.csv: row 1, column "body.rod.velocity": body[0].velocity: 1086 has no unit'),
+])  # fmt: skip
+def test_a_wrong_table_is_refused_before_the_first_run(tmp_path, table, said):
+    lines = refused(tmp_path, f'{BASE}[sample]\ntable = "x.csv"\n', table)
+    assert lines[0].startswith(said), lines
+
+
+def test_a_missing_table(tmp_path):
+    assert "y.csv: cannot be read: No such file" in refused(tmp_path, f'{BASE}[sample]\ntable = "y.csv"\n')[0]
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    (('"3 m/s"', '"3 kg"'), 'study.toml:6: sample.input.body.rod.velocity: "3 kg" is a mass'),
+    (('"3 m/s"', '"0 m/s"'), "study.toml:6: sample.input.body.rod.velocity: normal: the standard deviation must be positive"),
+    (('"3 m/s"', "3"), "3 has no unit, and the first number has m/s"),
+    (("\nnormal =", "\nnorml ="), 'sample.input.body.rod.velocity.norml: unknown key "norml"; did you mean "normal"'),
+    (('"1086 m/s", "3 m/s"]', '"1086 m/s", "3 m/s"]\nwithin = ["2 km/s", "3 km/s"]'),
+     "study.toml:6: sample.input.\"body.rod.velocity\": within: only 0 of the distribution lies between the bounds"),
+    (("1.05]", "1.0]"), "lognormal: the median must be positive, and the factor greater than 1"),
+    (('choice = ["W_alloy", "Al5083"]', 'choice = ["W_alloy", "W_alloy"]'), "has a value twice"),
+    (('["W_alloy", "Al5083"]', '["W_alloy", "Al5083"]\nweights = [1]'), "weights has 1 numbers, choice 2 values"),
+    (("rod.velocity", "rod.velcity"), "study.toml:6: no deck has the key body.rod.velcity"),
+    (('["1086 m/s", "3 m/s"]', '["1086 kg", "3 kg"]'), 'study.toml:6: sample.input."body.rod.velocity": row 1 has 1085.31698 '
+     'kg: body[0].velocity: "1085.31698 kg" is a mass'),
+    (("n = 4", ""), "needs n, and a table of its distribution for each input"),
+    (("n = 4", "n = 4\ntable = \"x.csv\""), "give either table or method"),
+    (('"sobol"', '"sobl"'), 'sample.method: unknown value "sobl"; did you mean "sobol"?'),
+    (("[sample]", '[transition]\nfrom = "1 km/s"\nto = "2 km/s"\n[sample]'), "a search takes no [sample]"),
+    (("[sample]", '[ensemble]\nrepeats = 2\n[[axis]]\nname = "v"\nkey = "body.rod.velocity"\nvalues = ["1 km/s"]\n[sample]'),
+     'sample: body.rod.velocity: the axis "v" sets body.rod.velocity as well'),
+    (('"body.rod.material"]\nchoice = ["W_alloy", "Al5083"]',
+      '"mesh.z_start"]\nuniform = ["-1 cm", "-2 mm"]\n[ensemble]\nrepeats = 2'),
+     'sample: mesh.z_start: the ensemble changes mesh.z_start by "mesh offset"'),
+    (("[sample]", '[[axis]]\nname = "row"\nkey = "numerics.courant"\nvalues = [0.4]\n[sample]'), '"row" is the name of the'),
+])  # fmt: skip
+def test_a_wrong_section_is_refused(tmp_path, change, said):
+    assert change[0] in SOBOL
+    lines = refused(tmp_path, SOBOL.replace(*change))
+    assert any(said in line for line in lines), lines
+
+
+def test_the_check_says_how_many_runs(tmp_path, capsys):
+    plan(tmp_path, SOBOL.replace("n = 4", "n = 3"))
+    assert call(["sweep", str(tmp_path / "study.toml"), "--check"]) == 0
+    said = capsys.readouterr().out
+    assert "3 cases, about" in said
+    assert "not a power of two" in said
+
+
+def test_heads_with_indices():
+    assert sampling._head("mesh.r[0]") == ("mesh.r[0]", "")
+    assert sampling._head("mesh.r[0].size [mm]") == ("mesh.r[0].size", "mm")
+    assert sampling._head("body.rod.velocity[m/s]") == ("body.rod.velocity", "m/s")

@@ -1,0 +1,244 @@
+"""samples.csv: the same file to the byte however the runs were made; kept rows; the commands and the page of a sample."""
+
+import csv
+import signal
+import time
+
+import numpy as np
+import pytest
+
+import hydro2d
+from hydro2d.cli.main import call
+from hydro2d.study.plan import cases
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.records import sample_table, study_directory
+from hydro2d.study.report.report import report
+from hydro2d.study.run import cluster, sweep
+from hydro2d.study.run.case import Outcome
+from hydro2d.study.run.choice import Choice
+from hydro2d.study.samples import results, sobol
+from tests.study import fake, made_up, tubes
+from tests.study.html import Page
+
+STUDY = f"""
+title = "Uncertain shots"
+deck = "{(tubes.ROOT / fake.BASE).as_posix()}"
+[sample]
+method = "latin-hypercube"
+n = 14
+results = ["rod_core_mass_kg"]
+[sample.input."body.rod.velocity"]
+uniform = ["1000 m/s", "1200 m/s"]
+[sample.input."body.rod.strength_factor"]
+normal = [1, 0.05]
+"""
+
+
+def outcome(velocity, deck):
+    """Faster and weaker rods go deeper and erode."""
+    factor = deck["body"][0]["strength_factor"]
+    return {"regime": made_up.regime(velocity, 1050.0, 1150.0), "depth": 1e-4 * velocity - 0.5 * (factor - 1.0)}
+
+
+def failing(velocity, deck):
+    """As `outcome`, and the fastest ones fail."""
+    return Outcome("failed", "the worker died") if velocity > 1180.0 else outcome(velocity, deck)
+
+
+def swept(folder, function=outcome, text=STUDY, **options):
+    """The directory of the study after a sweep by a made-up client, whose options these are."""
+    resume = options.pop("resume", False)
+    plan = cases.plan(made_up.study_file(folder, text), quiet=True)
+    client = made_up.Client(function, **options)
+    sweep.sweep(Choice(plan), folder / "out", client.connect(), resume=resume, quiet=True)
+    return folder / "out", client
+
+
+@pytest.fixture
+def rough(monkeypatch):
+    """Indices from few points, which take a fraction of the time."""
+    monkeypatch.setattr(sobol, "POINTS", 128)
+    monkeypatch.setattr(sobol, "DRAWS", 20)
+
+
+def rows(directory):
+    with open(directory / sample_table.FILE, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The directory of a study of which all runs were made in one go."""
+    return swept(tmp_path_factory.mktemp("whole"))[0]
+
+
+def test_a_row_for_each_run(whole):
+    table, plan = rows(whole), study_directory.read(whole).sample
+    assert [row["row"] for row in table] == [str(n) for n in range(1, 15)]
+    for row, (velocity, factor) in zip(table, plan.rows, strict=True):
+        assert (float(row["body.rod.velocity [m/s]"]), float(row["body.rod.strength_factor"])) == (velocity, factor)
+        assert float(row["depth_m"]) == 1e-4 * velocity - 0.5 * (factor - 1.0), "with all of its digits"
+        assert row["regime"] == made_up.regime(velocity, 1050.0, 1150.0)
+        assert row["status"] == "done"
+        assert float(row["rod_core_mass_kg"]) > 0.0
+    assert not {"wall_s", "date", "commit", "message"} & set(table[0]), "nothing that another machine would change"
+
+
+def test_stopped_and_continued_by_one_worker_and_by_several(whole, tmp_path):
+    """To the byte."""
+    text = (whole / sample_table.FILE).read_bytes()
+    for workers in (1, 3):
+        folder = tmp_path / str(workers)
+        folder.mkdir()
+        directory, client = swept(folder, workers=workers, interrupt_at=5)
+        part = rows(directory)
+        assert {row["status"] for row in part} == {"done", "interrupted", "waiting"}
+        assert len(client.submitted) < 14
+        swept(folder, workers=workers, resume=True)
+        assert (directory / sample_table.FILE).read_bytes() == text
+
+
+def test_failed_rows_are_counted(tmp_path):
+    directory, _ = swept(tmp_path, failing)
+    samples = hydro2d.open_study(directory).samples()
+    failed = int((samples.columns["status"] == "failed").sum())
+    assert 0 < failed < 4
+    eroding = samples.fractions("regime")["eroding"]
+    assert eroding.share.trials == 14 - failed
+    assert eroding.low == eroding.share.successes / 14
+    assert eroding.high == (eroding.share.successes + failed) / 14
+    assert np.isnan(samples.values("depth_m")).sum() == failed
+    again, client = swept(tmp_path, resume=True)
+    assert len(client.submitted) == failed
+    assert hydro2d.open_study(again).samples().ended.all()
+
+
+def test_results_by_name(whole):
+    samples = hydro2d.open_study(whole).samples()
+    depths = samples.values("depth_m")
+    assert samples.spread("depth_m").median == np.median(depths)
+    assert samples.values("penetration_depth_m").tolist() == depths.tolist(), "a number of the summaries"
+    assert samples.values("depth_m > 0.11").tolist() == (depths > 0.11).astype(float).tolist()
+    assert samples.values("regime = rigid").sum() == samples.fractions("regime")["rigid"].share.successes
+    assert samples.fractions("depth_m > 0.11")["yes"].share.fraction == np.mean(depths > 0.11)
+    for name, said in {
+        "dept_m": 'unknown result "dept_m"; did you mean "depth_m"', "regime": "regime is a word; name an outcome",
+        "regime = molten": 'unknown outcome "molten"', "regime > 1": "regime is a word; compare it by =",
+        "depth_m = 1": "depth_m is a number", "depth_m > x": "x is not a number",
+    }.items():  # fmt: skip
+        with pytest.raises(StudyError, match=said):
+            samples.values(name)
+    with pytest.raises(StudyError, match="depth_m is a number; give a condition"):
+        samples.fractions("depth_m")
+
+
+def test_axes_and_members(tmp_path):
+    text = STUDY.replace("n = 14", "n = 3") + ('[[axis]]\nname = "friction"\nkey = "sliding.friction"\nvalues = [0.0, 0.1]\n'
+                                               '[ensemble]\nrepeats = 2\nby = ["first step"]\n')  # fmt: skip
+    directory, _ = swept(tmp_path, text=text)
+    assert [(row["friction"], row["row"], row["member"]) for row in rows(directory)][:3] == [
+        ("0.0", "1", "0"), ("0.0", "1", "1"), ("0.0", "2", "0")]  # fmt: skip
+    study = hydro2d.open_study(directory)
+    with pytest.raises(StudyError, match="name a label on each, such as at="):
+        study.samples()
+    with pytest.raises(StudyError, match="is no combination of the axes"):
+        study.samples({"friction": "0.2"})
+    samples = study.samples({"friction": "0.1"})
+    assert samples.title == "Uncertain shots, friction 0.1"
+    assert len(samples) == 6
+    row, depth = samples.by_row("depth_m")
+    assert row.tolist() == [1, 2, 3]
+    assert depth == pytest.approx(samples.values("depth_m")[::2])
+    share = next(iter(samples.fractions("regime").values())).share
+    assert share.trials == 6
+    low, high = hydro2d.wilson(round(share.fraction * 3), 3)[3:]
+    if share.fraction * 3 == round(share.fraction * 3):
+        assert (share.low, share.high) == pytest.approx((low, high)), "as many trials as rows"
+
+
+def test_kept_rows_replace_runs(tmp_path):
+    text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)
+    directory, _ = swept(tmp_path, text=text)
+    table = rows(directory)
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "kept.csv").write_text((tmp_path / "kept.csv").read_text())
+    again, client = swept(tmp_path / "elsewhere", text=text)
+    assert client.submitted == []
+    for row, kept in zip(table, rows(again), strict=True):
+        assert float(kept["depth_m"]) == pytest.approx(float(row["depth_m"]), rel=1e-5)
+        assert (kept["row"], kept["regime"], kept["status"]) == (row["row"], row["regime"], "done")
+    assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
+
+
+def test_the_terminal(rough, monkeypatch, tmp_path, capsys):
+    client = made_up.Client(outcome)
+    monkeypatch.setattr(cluster, "local", lambda *_, **__: client.connect())
+    assert call(["sweep", str(made_up.study_file(tmp_path, STUDY)), "--out", str(tmp_path / "out"), "--workers", "1"]) == 0
+    said = capsys.readouterr().out
+    assert "Uncertain shots: 14 runs, 14 done" in said
+    for word in ("result", "median", "10 to 90 %", "outcome", "rigid", "shares of its variance", "Q2 =", "strength_factor"):
+        assert word in said, word
+    assert call(["sweep", str(tmp_path / "out"), "--status"]) == 0
+    assert "Q2 =" in capsys.readouterr().out
+
+
+def test_the_page(rough, whole, tmp_path):
+    said = []
+    page = Page(report([whole], tmp_path / "report", say=said.append).read_text(encoding="utf-8"))
+    assert not [line for line in said if line.startswith("warning")]
+    for word in ("Sobol indices of", "uniform from 1000 to 1200 m/s", "Effects on depth", "Depth against each input"):
+        assert word in page.text, word
+    assert {file.name for file in (tmp_path / "report").glob("sample_*.png")} >= {"sample_01_depth_m_inputs.png",
+                                                                                  "sample_01_depth_m_tornado.png"}  # fmt: skip
+
+
+def test_a_study_without_a_sample(tmp_path):
+    study = fake.write_study(tmp_path / "plain", {"velocity": fake.velocities(1086, 1200)})
+    with pytest.raises(StudyError, match="is not a study with"):
+        hydro2d.open_study(study).samples()
+
+
+def test_a_damaged_table(whole, tmp_path):
+    plan = cases.plan(made_up.study_file(tmp_path, STUDY), quiet=True)
+    study_directory.make(tmp_path / "out")
+    study_directory.write(plan, tmp_path / "out")
+    with pytest.raises(StudyError, match="has no samples.csv"):
+        results.of_study(study_directory.read(tmp_path / "out"))
+    text = (whole / sample_table.FILE).read_text()
+    for spoiled, wrong in ((text.rsplit("\n", 2)[0] + "\n", "has 13 rows, and there are 14 runs"),
+                           ("row\n1,2\n", "is not a table of a sample")):  # fmt: skip
+        (tmp_path / "out" / sample_table.FILE).write_text(spoiled)
+        with pytest.raises(StudyError, match=wrong):
+            results.of_study(study_directory.read(tmp_path / "out"))
+
+
+TUBES = """
+title = "Uncertain tubes"
+deck = "tube.toml"
+[set]
+stop.time = 0.01
+[sample]
+method = "sobol"
+n = 4
+[sample.input."body.low.pressure"]
+uniform = [0.1, 0.2]
+"""
+
+
+@pytest.mark.slow
+def test_real_runs_by_one_worker_by_two_and_after_a_kill(tmp_path):
+    study, tables = tubes.write(tmp_path, TUBES), []
+    for name, workers in (("one", 1), ("two", 2)):
+        status, said = tubes.sweep(study, "--workers", workers, "--out", tmp_path / name)
+        assert status == 0, said
+        tables.append((tmp_path / name / sample_table.FILE).read_bytes())
+    process = tubes.start(study, "--workers", 1, "--out", tmp_path / "killed")
+    tubes.wait_for(lambda: list((tmp_path / "killed").glob("cases/*/summary.json")))
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    time.sleep(1.0)
+    status, said = tubes.sweep(study, "--workers", 2, "--out", tmp_path / "killed", "--resume")
+    assert status == 0, said
+    tables.append((tmp_path / "killed" / sample_table.FILE).read_bytes())
+    assert tables[0] == tables[1] == tables[2]
+    assert b"bodies." in tables[0]
