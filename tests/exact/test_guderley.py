@@ -9,6 +9,7 @@ PRINTED = [(2, 1.4, 0.835323192), (2, 5 / 3, 0.815624901), (2, 3.0, 0.775666619)
            (3, 5 / 3, 0.688376823), (3, 2.0, 0.667046070), (3, 3.0, 0.636410594), (3, 6.0, 0.610339148)]  # fmt: skip
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("j", "gamma", "alpha"), PRINTED)
 def test_printed_exponents(j, gamma, alpha):
     assert exponent(j, gamma) == pytest.approx(alpha, abs=2e-9)

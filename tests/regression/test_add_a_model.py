@@ -83,6 +83,7 @@ def test_the_deck_is_in_order(folder):
     assert done.returncode == 0
 
 
+@pytest.mark.thorough
 def test_the_walk(folder):
     """Runs, picture and lengths of the page; unbounded Voce hardening equals hydro2d's linear hardening."""
     for command in commands():
@@ -103,6 +104,7 @@ def test_the_walk(folder):
     assert linear["length"] < voce["length"] - 0.5e-3
 
 
+@pytest.mark.thorough
 def test_an_equation_of_state_with_memory(burning):
     """The check passes, and the gauge of the page shows the pressures of the page."""
     check, run = (block.strip() for block in blocks("sh", MEMORY))

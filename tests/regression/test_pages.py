@@ -48,6 +48,7 @@ def short(monkeypatch):
     monkeypatch.setattr(hydro2d.Deck, "from_file", staticmethod(from_file))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", pages())
 def test_the_python_of_a_page_runs(name, figures, short, tmp_path, capsys):
     text, names = (DOCS / f"{name}.md").read_text(encoding="utf-8"), {"__name__": "page"}

@@ -32,6 +32,7 @@ PLATES = (
 CONTACT = ['sliding.method="contact"', 'sliding.hard=["rod"]']
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [[], SLIP], ids=["sticking", "slip-layer"])
 @pytest.mark.parametrize("cycles", [1, 60, 159])
 def test_restart_gives_the_same_bits(tmp_path, options, cycles):
@@ -47,6 +48,7 @@ def test_restart_gives_the_same_bits(tmp_path, options, cycles):
         assert file.read_bytes() == (parts / "vtk" / file.name).read_bytes()
 
 
+@pytest.mark.thorough
 def test_outputs_change_no_bit(tmp_path):
     often = [f"output.{key}" for key in ("history_interval=1e-9", "vtk_interval=1e-7", "restart_interval=1e-9")]
     run(decks.loads(SHOT, ["stop.cycles=60"]), tmp_path / "rarely", quiet=True)
@@ -54,6 +56,7 @@ def test_outputs_change_no_bit(tmp_path):
     assert final(tmp_path / "rarely") == final(tmp_path / "often")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [[], SLIP, CONTACT], ids=["sticking", "slip-layer", "contact"])
 def test_a_restart_on_a_travelling_mesh_gives_every_bit_of_every_array(options):
     """Ghosts and vertices without mass included, in every cycle, wherever the rod is when the run continues."""

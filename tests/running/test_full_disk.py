@@ -45,6 +45,7 @@ def again(deck, place):
     return run(deck, place, quiet=True, restart=restart, overwrite=not restart)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("once", [False, True], ids=["full from then on", "full for one file"])
 def test_no_space_at_any_write_of_a_run(deck, tmp_path, monkeypatch, once):
     disk = Disk(monkeypatch)
@@ -69,6 +70,7 @@ def test_no_space_at_any_write_of_a_run(deck, tmp_path, monkeypatch, once):
         assert outcome(place) == whole, f"no space at write {full} of {number}"
 
 
+@pytest.mark.thorough
 def test_no_space_at_any_write_of_a_case(deck, tmp_path, monkeypatch):
     monkeypatch.setattr("hydro2d.jit.compilation.once", lambda key, compile: None)
     monkeypatch.setattr("hydro2d.study.run.case.kernels", lambda deck: "")

@@ -47,6 +47,7 @@ def test_without_a_residual_velocity_or_a_time_before_there_is_no_change():
     assert found(rows((10, 0.0), (20, 0.0)), 0.0, 20) == pytest.approx((0.0, 10e-6))  # it does not move: nothing else is known
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("time", "said"), [("12 us", True), ("60 us", False)])
 def test_the_closing_lines_say_that_a_ball_behind_its_plate_still_slows(time, said, tmp_path):
     """The cap that it pushes ahead slows it for some microseconds; later it flies free."""

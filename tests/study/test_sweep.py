@@ -100,6 +100,7 @@ def test_killed_workers_lose_nothing(tmp_path, undisturbed):
     assert "Restarting worker" in (out / "sweep.log").read_text()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("number", "expected"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
 def test_an_interrupted_sweep_continues(tmp_path, undisturbed, number, expected):
     out, file = tmp_path / "out", tubes.write(tmp_path)
@@ -119,6 +120,7 @@ def test_an_interrupted_sweep_continues(tmp_path, undisturbed, number, expected)
     assert all_equal(out, undisturbed) == dict.fromkeys(undisturbed, True)
 
 
+@pytest.mark.thorough
 def test_a_worker_that_is_told_to_go_writes_a_restart_file_first(tmp_path, undisturbed):
     out = tmp_path / "out"
     never = [*tubes.LONG, "--set", "output.restart_interval=1000"]
@@ -134,6 +136,7 @@ def test_a_worker_that_is_told_to_go_writes_a_restart_file_first(tmp_path, undis
     assert all_equal(out, undisturbed)[name]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seconds", [0.0, 0.5, 1.0])
 def test_a_worker_that_dies_as_it_begins(tmp_path, seconds):
     """Before it has said anything, or while the others are told what to do at their end."""
@@ -153,6 +156,7 @@ def test_a_worker_that_dies_as_it_begins(tmp_path, seconds):
     assert set(statuses(out).values()) == {"done"}
 
 
+@pytest.mark.thorough
 def test_what_fails_does_not_sink_the_rest(tmp_path):
     """A case that always kills its worker, one that raises, a full disk, no directory, a wrong and an unphysical deck."""
     text = tubes.STUDY.replace("[0.1, 0.2]", "[0.1, 0.2, 0.3, '2 mm']")
@@ -191,6 +195,7 @@ def test_what_fails_does_not_sink_the_rest(tmp_path):
     assert not list(out.rglob("failed.json"))
 
 
+@pytest.mark.thorough
 def test_some_cases_run_and_the_others_later(tmp_path):
     file, out = tubes.write(tmp_path), tmp_path / "out"
     status, said = tubes.sweep(file, "--check", "--only", "ke_*")
@@ -208,6 +213,7 @@ def test_some_cases_run_and_the_others_later(tmp_path):
     assert (out / "cases" / "ke_0.1" / "summary.json").stat().st_mtime_ns == before
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not can_mount(), reason="no small file system can be mounted here")
 def test_a_disk_that_fills_up(tmp_path, undisturbed):
     """All cases on a file system that is too small: one clear message each; with more room the sweep continues."""

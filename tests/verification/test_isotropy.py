@@ -76,6 +76,7 @@ def half_of_the_peak(radii: np.ndarray, values: np.ndarray) -> float:
     return float(radii[np.nonzero(values > 0.5 * values.max())[0][-1]])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
 def test_the_shock_is_round(geometry):
     """The spread of the rays is within 1 %, half of a cell in either geometry, and their mean as well."""

@@ -37,6 +37,7 @@ def shot(power: int, kind: str, cycles: int = 60) -> Simulation:
     return simulation
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", KINDS)
 def test_lengths_times_a_power_of_two(kind):
     one = shot(0, kind)
