@@ -55,6 +55,7 @@ def test_explanations_go_on_below_their_column(command, capsys, monkeypatch):
         assert {line[:begin].strip() for line in narrow} == {"", *(line[:begin].strip() for line in whole)}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("command", "name"), STUDIES)
 def test_every_case_of_a_study_has_one_line(command, name, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(COLUMNS))

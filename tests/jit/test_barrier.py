@@ -47,6 +47,7 @@ def in_process(code: str, **environment: str) -> str:
     return done.stdout.strip()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("number", [2, 3])
 def test_threads_meet_and_see_what_the_others_have_written(number):
     printed = in_process(f"print(here.met({number}))", NUMBA_NUM_THREADS=str(number))
@@ -69,6 +70,7 @@ def parts_and_bits(cycles: int = 12) -> tuple[int, int, str, float]:
     return jit.parts_at_once(), len(simulation.engine.rows) - 1, f"{inside.sum().hex()} {np.abs(inside).sum().hex()}", waited
 
 
+@pytest.mark.thorough
 def test_threads_that_openmp_does_not_give_are_not_waited_for():
     """A loop then runs its turns one after another: the first would wait for ever."""
     code = "print(*here.parts_and_bits(), sep='|')"

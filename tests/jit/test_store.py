@@ -232,6 +232,7 @@ def program(folder: Path, *before: str, root: str = "") -> tuple[str, list[str]]
     return done.stdout.strip(), done.stderr.splitlines()
 
 
+@pytest.mark.thorough
 def test_every_file_of_a_cache_can_be_spoiled(tmp_path):
     """The locks as well as the code; no leftover ends a run."""
     assert program(tmp_path) == ("6.0", [])
@@ -249,6 +250,7 @@ def test_every_file_of_a_cache_can_be_spoiled(tmp_path):
     assert program(tmp_path) == ("6.0", [])
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not can_mount(), reason="no file system can be mounted here")
 @pytest.mark.parametrize("size", ["4k", "8k,nr_inodes=3", "16k"])
 def test_a_file_system_that_is_full(size, tmp_path):

@@ -160,6 +160,7 @@ def races(monkeypatch, case: str, without: tuple[str, int] | None = None) -> Rac
     return seen
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", DECKS)
 def test_no_part_touches_what_another_one_writes(monkeypatch, case):
     seen = races(monkeypatch, case)
@@ -207,6 +208,7 @@ OFTEN = [
 NEEDED = [*RARE, *(pytest.param(*each, marks=pytest.mark.slow) for each in OFTEN)]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("phase", "kernel", "array"), NEEDED)
 def test_a_barrier_that_is_missing_is_seen(monkeypatch, phase, kernel, array):
     seen = races(monkeypatch, "contact", barrier_before(phase, kernel))

@@ -86,6 +86,7 @@ def fly(cells, bodies, dj, smallest, order) -> None:
     assert moved > 6.0 * smallest
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
 @pytest.mark.parametrize("dj", [0, 1])
 @pytest.mark.parametrize("thickness", [0.3, 0.9, 1.3])

@@ -62,6 +62,7 @@ def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | 
     )  # fmt: skip
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("advection", "sliding"), CASES.values(), ids=CASES)
 def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advection, sliding):
     seen, kernels = set(), list(_kernels())

@@ -69,6 +69,7 @@ def flux(hard: float, soft: float, swept: float) -> tuple[float, float]:
     return fluxes(upright(hard, soft), swept, (swept, swept))
 
 
+@pytest.mark.thorough
 def test_a_full_cell_takes_its_own_body_from_a_cell_with_a_gap():
     assert flux(0.3, 0.6, -0.01) == pytest.approx((-0.01, 0.0), abs=1e-15)
 

@@ -14,7 +14,7 @@ from tests.physics.continuity import changes_in_proportion, largest_jump
 
 common_traction = cut_cells.common_traction.source
 normal_deviator = cut_cells.normal_deviator.py_func
-skin_deviator = cut_cells.skin_deviator.source
+bodies_stress = cut_cells.bodies_stress.source
 surface_weight = cut_cells.surface_weight.py_func
 pull_of = cut_cells.pull_of.py_func
 cut_pressure = cut_cells.cut_pressure.source
@@ -178,14 +178,25 @@ def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
     cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
     cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
     assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
-    for by_what_is_solid, scale in ((True, 2.0), (False, 1.0)):
-        assert skin_deviator(0, 0, handle(skin=cell.skin, vof=cell.vof, q=cell.q, by_what_is_solid=by_what_is_solid,
-                             solid=np.full((1, 1), 0.5))) == pytest.approx(scale * (0.25 * 0.004 - 0.5 * 0.003))
     cell.skin[NORMAL_R], cell.skin[NORMAL_Z] = 0.48, 0.64  # a weight of 0.64
     cell.q[SZZ, 0], cell.q[SRZ, 0] = -0.003, 0.002
     expected = 0.48**2 * 0.004 - 0.64**2 * 0.003 + 2.0 * 0.48 * 0.64 * 0.002
     assert normal_deviator(0, 0, 0, cell.skin, cell.q) == pytest.approx(expected)
     assert surface_weight(0, 0, cell.skin) == pytest.approx(0.64)
+
+
+@pytest.mark.parametrize(("by_what_is_solid", "scale"), [(True, 2.0), (False, 1.0)])
+def test_bodies_act_by_their_shares_with_what_is_left_beside_their_normal_stress(by_what_is_solid, scale):
+    """The normal is along r: a body contributes nothing along it, and its other stresses less its normal one."""
+    cell = Cell((0.25, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM), (0.0, np.nan, 0.0, 0.0))
+    cell.q[SRR, :, 0, 0], cell.q[SZZ, :, 0, 0], cell.q[SRZ, :, 0, 0] = (0.004, -0.003, np.nan), (0.001, 0.002, np.nan), 0.0005
+    given = handle(skin=cell.skin, vof=cell.vof, q=cell.q, group=np.array([1, 0, 0]), by_what_is_solid=by_what_is_solid,
+                   solid=np.full((1, 1), 0.5))  # fmt: skip
+    hard = np.array([0.0, 0.25 * (0.001 - 0.004), -0.25 * (0.001 + 2.0 * 0.004), 0.25 * 0.0005])
+    soft = np.array([0.0, 0.5 * (0.002 + 0.003), -0.5 * (0.002 - 2.0 * 0.003), 0.5 * 0.0005])
+    assert bodies_stress(1, 0, 0, given) == pytest.approx(scale * hard)
+    assert bodies_stress(0, 0, 0, given) == pytest.approx(scale * soft)
+    assert bodies_stress(-1, 0, 0, given) == pytest.approx(scale * (hard + soft))
 
 
 def test_groups_do_not_pull_at_each_other():

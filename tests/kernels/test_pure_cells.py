@@ -40,6 +40,7 @@ def closed(cells: Cells, **given) -> Cells:
     return cells
 
 
+@pytest.mark.thorough
 def test_a_gas_at_rest():
     cells = closed(gas())
     values = [getattr(cells, name)[AT] for name in ("p", "bulk", "rhobar", "solid", "cl", "qr", "qz")]
@@ -119,6 +120,7 @@ def test_cells_that_are_not_finite_are_counted():
     assert cells.bad[3].tolist() == [1, 3, 0, 1]
 
 
+@pytest.mark.thorough
 def test_pressure_does_work_on_what_is_pressed_together():
     """The left face moves at 1 m/s for 0.1 s against 10 Pa: 1 J for 2 kg in 0.9 m^3."""
     cells = gas()

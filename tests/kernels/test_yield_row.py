@@ -69,6 +69,7 @@ class Row:
 von_mises_of = np.vectorize(von_mises)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", sorted(set(STRENGTH_CASES) - {"hydrodynamic", "kinematic-hardening", "johnson-holmquist"}))
 @pytest.mark.parametrize("columns", [1, 8, 33, 75])
 def test_a_row_is_its_cells(name, columns):

@@ -64,6 +64,7 @@ def test_the_check_prints_what_the_page_shows(folder):
     assert (done.stdout, done.returncode) == (blocks("text")[0], 0)
 
 
+@pytest.mark.thorough
 def test_the_mistakes_of_the_page_are_found(folder):
     text = (folder / "my_model.py").read_text()
     (folder / "short.py").write_text(text.replace("(ep, rate, T, p, rho, par)", "(ep, rate)"))
@@ -121,6 +122,7 @@ def test_an_equation_of_state_with_memory(burning):
     np.testing.assert_allclose(pressure[time > 10.1e-6], whole, rtol=1e-9)
 
 
+@pytest.mark.thorough
 def test_a_mistake_in_one_with_memory_is_found(burning):
     text = (burning / "burning.py").read_text()
     (burning / "short.py").write_text(text.replace("def evaluate(rho, e, internal, par)", "def evaluate(rho, e, par)"))

@@ -45,6 +45,7 @@ def test_deck_ends(file, tmp_path):
     assert status == (3 if STATUS_3 in head else 0)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("file", DECKS, ids=name_of)
 def test_deck_runs(file):
     """Twenty cycles: no unphysical state, all losses in the audit, and no losses except through open edges."""

@@ -72,18 +72,19 @@ FILLED = {
     "RUN": "runs/shot",
     "150 mm,215 mm,20 mm": "-5 mm,15 mm,20 mm",
 }
-#: files that a page assumes in its folder: a deck or a study that has run, or a file given as its first toml block
+#: files that a page assumes in its folder: a deck or a study that has run, or one of its toml blocks, by number
 PRESUMED = {
     "docs/how-to/index.md": {"runs/shot": DECK},
-    "docs/tutorials/first-study.md": {"first_study.toml": ""},
-    "docs/how-to/depth-curves.md": {"curve.toml": ""},
-    "docs/how-to/find-a-transition.md": {"limit.toml": ""},
+    "docs/tutorials/first-study.md": {"first_study.toml": 0},
+    "docs/how-to/depth-curves.md": {"curve.toml": 0},
+    "docs/how-to/find-a-transition.md": {"limit.toml": 0},
     "docs/how-to/make-a-film.md": {"runs/shot": DECK},
     "docs/how-to/paraview.md": {"runs/shot": DECK},
     "docs/how-to/perforate-a-plate.md": {"runs/shot": DECK},
     "docs/how-to/restart.md": {"runs/shot": DECK},
+    "docs/how-to/uncertain-inputs.md": {"uncertain.toml": 0, "with_salib.toml": 2},
     "docs/how-to/use-a-model.md": {"runs/a": DECK, "runs/b": DECK},
-    "docs/how-to/write-a-deck.md": {"my_deck.toml": ""},
+    "docs/how-to/write-a-deck.md": {"my_deck.toml": 0},
     "docs/reference/files.md": {"runs/shot": DECK},
     "docs/explanation/penetration/transition.md": {"runs/a": DECK, "runs/b": DECK},
 }
@@ -91,8 +92,8 @@ PRESUMED = {
 LONG = (
     "README.md", "docs/explanation/how-sure.md", "docs/explanation/sanity.md", "docs/gallery.md", "docs/how-to/depth-curves.md",
     "docs/how-to/find-a-transition.md", "docs/how-to/index.md", "docs/how-to/report.md", "docs/how-to/run-a-shot.md",
-    "docs/how-to/run-a-study.md", "docs/tutorials/first-study.md", "problems/ceramics/README.md",
-    "problems/cth_nose_shape/README.md", "problems/verification/README.md",
+    "docs/how-to/run-a-study.md", "docs/how-to/uncertain-inputs.md", "docs/tutorials/first-study.md",
+    "problems/ceramics/README.md", "problems/cth_nose_shape/README.md", "problems/verification/README.md",
 )  # fmt: skip
 #: decks under which keys are laid, in addition to those of the nose shapes
 BASES = {
@@ -148,12 +149,12 @@ def examples(text: str) -> list[tuple[int, str, str]]:
     return sorted(texts, key=lambda example: example[0])
 
 
-#: pages with examples; add-a-model has a test of its own
+#: pages with examples; add-a-model and easyvvuq have tests of their own
 TEXTS = {
     name: file.read_text(encoding="utf-8")
     for file in source.tracked_files()
     if re.fullmatch(r"(docs|problems)/.*\.md|README\.md", name := str(file.relative_to(source.ROOT)))
-    and file.name != "add-a-model.md"
+    and file.name not in ("add-a-model.md", "easyvvuq.md")
 }
 PAGES = {page: found for page, text in TEXTS.items() if (found := examples(text))}
 
@@ -229,8 +230,8 @@ def folder(short, tmp_path, monkeypatch):
 
     def prepare(page: str) -> None:
         for name, file in PRESUMED.get(page, {}).items():
-            if not file:
-                Path(name).write_text(of_kind(page, "toml")[0][2])
+            if isinstance(file, int):
+                Path(name).write_text(of_kind(page, "toml")[file][2])
                 continue
             kept = short / "runs" / Path(file).stem
             if not kept.exists():
@@ -283,6 +284,12 @@ def test_toml_of_the_text_is_valid(page, folder):
             assert run(text.replace(" -o ", " -o problems/cth_nose_shape/")) == 0
     for line, _, text in of_kind(page, "toml"):
         data, file = tomllib.loads(text), Path(f"problems/cth_nose_shape/line_{line}.toml")
+        if "sample" in data:
+            data = {"deck": DECK} | data
+            text = toml.dumps(data)
+            if table := data["sample"].get("table"):  # the page makes it
+                body = decks.load(data["deck"]).body[0]
+                file.with_name(table).write_text(f"body.{body.name}.strength_factor\n1.05\n")
         if {"transition", "ensemble", "keep"} & set(data) and "deck" not in data:
             whole = tomllib.loads(Path(SEARCH if "transition" in data else SWEEP).read_text(encoding="utf-8"))
             if "budget" in data.get("transition", {}):

@@ -23,6 +23,7 @@ OTHERWISE = {
 }
 #: pages without a picture, and why
 BARE = {
+    "docs/how-to/easyvvuq.md": "numbers that another program makes",
     "docs/how-to/index.md": "a list of pages",
     "docs/tutorials/index.md": "a list of pages",
 }

@@ -77,6 +77,7 @@ def looked_at(directory):
     monitor.left([case], 1)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("running", [False, True])
 def test_any_value_in_the_deck_of_a_stranger(finished, running):
     """That of a run that has ended, and of one that is under way."""

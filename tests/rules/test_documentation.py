@@ -336,6 +336,7 @@ def test_pages_fetch_nothing_from_another_host(built):
     assert (built / "explanation" / script).resolve().is_file()
 
 
+@pytest.mark.thorough
 def test_search_knows_the_reference(built):
     text = (built / "searchindex.js").read_text(encoding="utf-8")
     index = json.loads(text[text.index("{") : text.rindex("}") + 1])

@@ -32,6 +32,7 @@ def cells(tmp_path_factory):
     return pages.cells
 
 
+@pytest.mark.thorough
 def test_one_place_below_the_cell_has_the_title_and_the_result(cells):
     (shown,) = cells[1].outputs
     assert shown.output_type == "display_data"

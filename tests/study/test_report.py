@@ -386,6 +386,7 @@ def test_pictures_of_an_earlier_report_are_removed(study, tmp_path):
     assert not [name for name in names if "tmp" in name]
 
 
+@pytest.mark.thorough
 def test_a_hundred_cases_weigh_little(tmp_path):
     axes = {"velocity": fake.velocities(*range(900, 1150, 10)), "courant": {
         str(number): (f"numerics.courant={number}",) for number in (0.3, 0.4, 0.5, 0.6)}}  # fmt: skip

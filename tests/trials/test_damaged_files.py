@@ -23,6 +23,7 @@ def trials(finished, folder, first, last):
     return Counter(line[-1] for line in lines if line[-1] != "begun")
 
 
+@pytest.mark.thorough
 def test_damaged_files(finished, tmp_path):
     assert trials(finished, tmp_path, 0, 25)["refused"] > 300
 

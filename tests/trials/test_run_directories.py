@@ -50,6 +50,7 @@ def test_unspoiled_directories_are_read(finished, tmp_path):
         assert spoil.judge(arguments)[0] == 0
 
 
+@pytest.mark.thorough
 def test_spoiled_directories(finished, tmp_path):
     assert spoiled_directories(range(40), finished, tmp_path) > 3
 

@@ -82,6 +82,7 @@ WISHES = [
 ]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "cells", "quantity", "limit"), [
     pytest.param(*wish, marks=pytest.mark.xfail(strict=True, reason=reason)) for *wish, reason in WISHES], ids=str)  # fmt: skip
 def test_wishes(errors, name, cells, quantity, limit):

@@ -36,6 +36,7 @@ def held(bars, known, length: float, foot: float, early: float = 0.05) -> None:
 KNOWN = bar.reference(227.0, 32.4e-3)
 
 
+@pytest.mark.thorough
 def test_on_a_wall():
     """21.42 mm within 1.5 %, 7.226 mm within 4 %, and so on the way; the audit closes."""
     simulation, bars = history("copper_bar")

@@ -27,6 +27,7 @@ def shot(name: str, cells: int, damage: str = "material"):
     return np.array(velocity), simulation
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "within"), [("flyer", 0.04), ("pulse", 0.06)])
 def test_the_pull_back_is_the_same_on_two_meshes(name, within):
     """3.6 % apart for the flyer; 400 cells are in problems/spall/results."""

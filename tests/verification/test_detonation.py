@@ -188,6 +188,7 @@ def test_discarded_kinetic_energy_makes_a_detonation_weak():
 
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("deck", ["plate_push", "sandwich"])
 def test_plates_have_gurneys_velocity(deck):
     """TNT and copper within 5 %, the plate past nine tenths of its acceleration; energy closes."""

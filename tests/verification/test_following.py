@@ -137,6 +137,7 @@ def test_two_plates_take_as_much_from_the_rod_on_either_mesh():
     assert lost[0] == pytest.approx(lost[1], rel=0.16)
 
 
+@pytest.mark.thorough
 def test_two_plates_and_the_gap_between_them():
     """The rod goes through both; its remaining velocity is that on a long fixed mesh."""
     moving, fixed = on_both_meshes()

@@ -93,6 +93,7 @@ def test_by_direction_of_the_mesh_it_is_an_octagon(geometry, least, most):
     assert np.argmin(radii) == ANGLES.index(45)
 
 
+@pytest.mark.thorough
 def test_either_choice_alone_is_half_of_the_cure():
     """The viscosity leaves the traces of the ball of three cells on the axis, and the slopes leave the octagon."""
     whole, spread = np.ptp(rays("cylindrical")), [np.ptp(rays("cylindrical", choice)) for choice in ROUND]

@@ -269,6 +269,7 @@ def rigid():
     return flight()[0]
 
 
+@pytest.mark.thorough
 def test_an_undeformable_nose_keeps_its_shape():
     """After 100 us and 10 cm of aluminium: a hemisphere to 0.105 of a cell, where a tenth is wanted; no plastic strain."""
     departure, _ = shape(rigid())
@@ -289,6 +290,7 @@ def test_an_undeformable_shank_keeps_its_radius():
     assert radius == pytest.approx(1.0, abs=5e-3)
 
 
+@pytest.mark.thorough
 def test_the_skin_of_the_alloys_nose_strains_as_the_rod_inside_it():
     """After 80 us at 1086 m/s no cell of the nose is strained by a quarter, and the nose is convex."""
     simulation = finish(decks.load("problems/cth_nose_shape/hemi_5083_1086_quick.toml", ['stop.time="80 us"']))

@@ -93,6 +93,7 @@ def test_pull_back(material, choice):
     assert top - lowest == pytest.approx(CASES[material][4], rel=0.1)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("choice", ["ke", "both"])
 @pytest.mark.parametrize("material", CASES)
 def test_the_wave_of_the_spall_catches_the_surface(material, choice):
