@@ -131,15 +131,14 @@ class Study(study_directory.Study):
 
         Raises StudyError if the study has no sample, has not been run, or has no such combination of labels.
         """
-        labels = [{axis.name: case.values[axis.name] for axis in self.axes[:-1]} for case in self.cases]
-        combinations = [dict(each) for each in dict.fromkeys(tuple(each.items()) for each in labels)]
         samples = results.of_study(self)
         if at is None and len(samples) > 1:
-            raise StudyError(f"the study has axes: name a label on each, such as at={combinations[0]}")
-        wanted = combinations[0] if at is None else dict(at)
-        if wanted not in combinations:
-            raise StudyError(f"{wanted} is no combination of the axes; there are {', '.join(map(str, combinations))}")
-        return samples[combinations.index(wanted)]
+            raise StudyError(f"the study has axes: name a label on each, such as at={samples[0].labels}")
+        chosen = [each for each in samples if at is None or each.labels == dict(at)]
+        if not chosen:
+            raise StudyError(f"{dict(at or {})} is no combination of the axes; there are "
+                             f"{', '.join(str(each.labels) for each in samples)}")
+        return chosen[0]
 
 
 def open_study(directory: str | Path) -> Study:

@@ -40,7 +40,7 @@ HEAD, NONE = "experience", "none for this kind of shot"
 
 @dataclass(frozen=True)
 class Impact:
-    """What strikes what: a rod, ball or bar with its material, such as "tungsten rod", and the material that it strikes.
+    """A rod, ball or bar with its material, such as "tungsten rod", and the material that it strikes.
 
     An explosive strikes the metal that it drives.
     """
@@ -111,17 +111,17 @@ class Experience:
         many = f"{self.shots} {'point' if self.fit else 'shot'}{'s' * (self.shots != 1)}{' of a fit to shots' * self.fit}"
         about = [self.kind, *_range(self.slowest, self.fastest, "m/s"), *_range(self.coarsest, self.finest, "cells"),
                  *(["set-up chosen by results"] if self.chosen else [])]  # fmt: skip
-        told = f"({', '.join(about)})"
+        about_it = f"({', '.join(about)})"
         if self.right is not None:
-            return f"{self.right} of {many} ended as measured {told}"
+            return f"{self.right} of {many} ended as measured {about_it}"
         ways = ("stopped", "perforated") if self.quantity == RESIDUAL else ("perforated", "stopped")
         missed = f", and {self.missed} that {ways[0]} where the measured one {ways[1]}" if self.missed else ""
         if self.bias is None:
-            return f"no ratio{missed} {told}"
+            return f"no ratio{missed} {about_it}"
         interval = "" if self.low is None else f" ({self.low:.2f} to {self.high:.2f})"
         scatter = "" if self.scatter is None else f", scatter {100.0 * self.scatter:.0f} %"
         within = "" if self.numerical is None else f", {100.0 * self.numerical:.0f} % between runs of one shot"
-        return f"computed/measured {self.bias:.2f}{interval}{scatter}{within}, {many}{missed} {told}"
+        return f"computed/measured {self.bias:.2f}{interval}{scatter}{within}, {many}{missed} {about_it}"
 
 
 def _range(low: float | None, high: float | None, unit: str) -> list[str]:
@@ -181,7 +181,7 @@ def substance(material: Material) -> str:
 
 
 def impact_of(deck: decks.Deck) -> Impact | None:
-    """What strikes what in a deck, by the metals of its bodies, as the table of experience names kinds of shots.
+    """The projectile and the target of a deck, by the metals of its bodies, as the table of experience names kinds of shots.
 
     The result has ``projectile``, such as "tungsten rod", and ``target``, such as "aluminium", in a deck with a projectile;
     several targets, and other bodies such as a jacket, are all named. An explosive and the metal that it

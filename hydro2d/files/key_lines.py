@@ -14,7 +14,7 @@ _CLOSING = {"[": "]", "{": "}"}
 
 
 def _ending(head: str) -> str:
-    """What is missing after the first lines of a valid TOML text: the ends of its open string, arrays and inline tables."""
+    """The text that completes the first lines of a valid TOML text: the ends of its open string, arrays and inline tables."""
     structure = _QUOTED.sub(r"\1", head)
     missing: list[str] = []
     for bracket in re.findall(r"[][{}]", structure):

@@ -98,9 +98,9 @@ class Shot:
 @cache
 def impact(deck: str) -> hydro2d.Impact:
     """What strikes what in a deck of this folder."""
-    found = hydro2d.impact_of(hydro2d.Deck.from_file(PROBLEMS / deck))
-    assert found is not None, deck
-    return found
+    known = hydro2d.impact_of(hydro2d.Deck.from_file(PROBLEMS / deck))
+    assert known is not None, deck
+    return known
 
 
 def shots() -> list[dict[str, str]]:
@@ -120,15 +120,15 @@ def _cells(runs: Sequence[rigid_rod.Result]) -> tuple[float, ...]:
 
 
 def _grouped(runs: Iterable[rigid_rod.Result], label: Callable[[rigid_rod.Result], object]) -> dict:
-    found: dict[object, list[rigid_rod.Result]] = {}
+    groups: dict[object, list[rigid_rod.Result]] = {}
     for run in runs:
-        found.setdefault(label(run), []).append(run)
-    return found
+        groups.setdefault(label(run), []).append(run)
+    return groups
 
 
 def twelve() -> list[Shot]:
     """Depths of the twelve shots with every law, and whether they perforate, on all meshes."""
-    measured, found = rigid_rod.experiments(), []
+    measured, compared = rigid_rod.experiments(), []
     runs = rigid_rod.read(PROBLEMS / "cth_nose_shape/results/twelve_shots.csv")
     for (law, shot), members in _grouped(runs, lambda run: (run.labels["law"], run.shot)).items():
         stopped = [run for run in members if run.depth is not None]
@@ -137,9 +137,9 @@ def twelve() -> list[Shot]:
         perforated = experiment.kind == "at least"
         ratios = () if through or perforated else tuple(1e-2 * run.reach / experiment.depth for run in members)
         about = {"velocity": shot.velocity, "cells": _cells(members)}
-        found.append(Shot(LAWS[law], DEPTH, what, _ended(members), ratios, missed=through and not perforated, **about))
-        found.append(Shot(LAWS[law], PERFORATION, what, "", (), right=through == perforated, **about))
-    return found
+        compared.append(Shot(LAWS[law], DEPTH, what, _ended(members), ratios, missed=through and not perforated, **about))
+        compared.append(Shot(LAWS[law], PERFORATION, what, "", (), right=through == perforated, **about))
+    return compared
 
 
 def eroding() -> list[Shot]:
@@ -147,7 +147,7 @@ def eroding() -> list[Shot]:
 
     The hole is the mean diameter of the run over the largest one that was measured.
     """
-    found, measured = [], {(row["deck"], float(row["velocity_m_s"])): row for row in shots()}
+    compared, measured = [], {(row["deck"], float(row["velocity_m_s"])): row for row in shots()}
     runs = [run for run in rigid_rod.read(HERE / "results/eroded_heads.csv") if run.labels["failure"] == "fracture pressure"]
     for label, members in _grouped(runs, lambda run: run.labels["shot"]).items():
         deck = heads.SHOTS[label][1]
@@ -155,16 +155,16 @@ def eroding() -> list[Shot]:
         row, what = measured[deck.stem, velocity], impact(f"validation/{deck.name}")
         about = {"velocity": velocity, "cells": _cells(members)}
         ended = _ended(members)
-        found.append(Shot("eroding rods", DEPTH, what, ended,
+        compared.append(Shot("eroding rods", DEPTH, what, ended,
                           tuple(10.0 * run.depth / float(row["depth_mm"]) for run in members), **about))
         widths = (20.0 * math.sqrt(run.hole / (math.pi * run.depth)) for run in members)
-        found.append(Shot("eroding rods", HOLE, what, ended, tuple(w / float(row["width_mm"]) for w in widths), **about))
-    return found
+        compared.append(Shot("eroding rods", HOLE, what, ended, tuple(w / float(row["width_mm"]) for w in widths), **about))
+    return compared
 
 
 def rigid() -> list[Shot]:
     """Depths of Forrestal and Piekutowski's rods, in the runs that against_experiments has."""
-    found = []
+    compared = []
     measured = {float(row["velocity_m_s"]): float(row["depth_mm"]) for row in shots() if row["series"] == "rigid steel"}
     sets = (("steel rods, 1.6 GPa", "rigid_steel_rods.csv", {"target": "Steinberg-Guinan", "rod": "1.6 GPa"}),
             ("steel rods, fitted law", "steel_rods_fitted.csv", {"rod": "fit, Rc 38"}))  # fmt: skip
@@ -172,10 +172,10 @@ def rigid() -> list[Shot]:
         runs = [run for run in rigid_rod.read(HERE / "results" / file) if labels.items() <= run.labels.items()]
         for velocity, members in _grouped(runs, lambda run: float(run.labels["shot"])).items():
             if velocity in measured:
-                found.append(Shot(name, DEPTH, impact("validation/eroding_steel_6061_2120.toml"), _ended(members),
+                compared.append(Shot(name, DEPTH, impact("validation/eroding_steel_6061_2120.toml"), _ended(members),
                                   tuple(10.0 * run.depth / measured[velocity] for run in members),
                                   velocity=velocity, cells=_cells(members)))  # fmt: skip
-    return found
+    return compared
 
 
 def long_rods() -> list[Shot]:
@@ -194,7 +194,7 @@ def long_rods() -> list[Shot]:
 
 def weldox() -> list[Shot]:
     """Residual velocities behind plates of Weldox 460 E, and whether the rods perforate."""
-    folder, found = PROBLEMS / "perforation", []
+    folder, compared = PROBLEMS / "perforation", []
     measured = {(row["nose"], float(row["striking_m_s"])): float(row["residual_m_s"])
                 for row in kept.rows(folder / "weldox_460e.csv", ("nose", "striking_m_s", "residual_m_s"))}  # fmt: skip
     for row in hydro2d.kept_rows(folder / "results" / "weldox.csv"):
@@ -204,21 +204,21 @@ def weldox() -> list[Shot]:
         what, about = impact("perforation/weldox_hemispherical.toml"), {
             "velocity": velocity, "cells": (float(row[rigid_rod.CELLS]),)}  # fmt: skip
         ratios = (float(row["residual_velocity_m_s"]) / left,) if through and left else ()
-        found.append(Shot(WELDOX, RESIDUAL, what, "", ratios, missed=left > 0.0 and not through, **about))
-        found.append(Shot(WELDOX, PERFORATION, what, "", (), right=through == (left > 0.0), **about))
-    return found
+        compared.append(Shot(WELDOX, RESIDUAL, what, "", ratios, missed=left > 0.0 and not through, **about))
+        compared.append(Shot(WELDOX, PERFORATION, what, "", (), right=through == (left > 0.0), **about))
+    return compared
 
 
 def driven() -> list[Shot]:
     """Velocities of metal driven by an explosive: walls of cylinder tests as measured, final ones by Gurney's formula."""
-    found = []
+    compared = []
     for row in of_explosives.kept():
         if "velocity" in row["quantity"]:
             fit = row["quantity"] == "final velocity"
-            found.append(Shot("driven by an explosive" if fit else "cylinder test", row["quantity"],
+            compared.append(Shot("driven by an explosive" if fit else "cylinder test", row["quantity"],
                               impact(f"explosives/{row['deck']}.toml"), "",
                               (float(row["obtained"]) / float(row["expected"]),), fit=fit))  # fmt: skip
-    return found
+    return compared
 
 
 def bars() -> list[Shot]:
@@ -258,27 +258,27 @@ class Measured:
 
 def measured_depths() -> list[Measured]:
     """All measured depths, and the points of Odermatt's fit at which there are runs in armour steel."""
-    found = []
+    measured = []
     for shot, told in rigid_rod.experiments().items():
         if told.kind != "at least":
             name = f"{'ogive' if shot.nose == 'ogival' else 'hemi'}_{shot.alloy}_{shot.velocity:g}.toml"
             deck = hydro2d.Deck.from_file(PROBLEMS / "cth_nose_shape" / name)
-            found.append(Measured("tungsten into aluminium", deck, shot.velocity, told.depth,
+            measured.append(Measured("tungsten into aluminium", deck, shot.velocity, told.depth,
                                   STAYED_RIGID if told.rigid else ERODED))  # fmt: skip
     for row in shots():
         deck = hydro2d.Deck.from_file(HERE / f"{row['deck']}.toml", {"body.rod.material": row["rod"]})
-        found.append(Measured(row["series"], deck, float(row["velocity_m_s"]), 1e-3 * float(row["depth_mm"]), row["ended"]))
+        measured.append(Measured(row["series"], deck, float(row["velocity_m_s"]), 1e-3 * float(row["depth_mm"]), row["ended"]))
     decks = {ratio: hydro2d.Deck.from_file(PROBLEMS / "long_rods" / name) for ratio, name in depths.DECKS.items()}
     for run in depths.read(PROBLEMS / "long_rods" / "results" / "velocities.csv"):
         deck = decks[run.slenderness]
         fit = depths.odermatt(run.velocity, run.slenderness, depths.BRINELL, *depths.DENSITIES) * deck.body_named("rod").length
-        found.append(Measured("tungsten into armour steel", deck, run.velocity, fit, ERODED, True))
-    return found
+        measured.append(Measured("tungsten into armour steel", deck, run.velocity, fit, ERODED, True))
+    return measured
 
 
 def of_models(names: Iterable[str] | None = None) -> list[Shot]:
     """The measured depths beside those of analytic models with inputs from the decks and the library alone."""
-    found = []
+    compared = []
     for each in measured_depths():
         what = hydro2d.impact_of(each.deck)
         for name in hydro2d.penetration_models() if names is None else names:
@@ -290,9 +290,9 @@ def of_models(names: Iterable[str] | None = None) -> list[Shot]:
             except ValueError:  # the model says that it does not apply to the shot, or lacks an input
                 continue
             if row.get("regime") not in UNFINISHED and row["depth"]:
-                found.append(Shot(each.set, DEPTH, what, each.ended, (row["depth"] / each.depth,), velocity=each.velocity,
+                compared.append(Shot(each.set, DEPTH, what, each.ended, (row["depth"] / each.depth,), velocity=each.velocity,
                                   fit=each.fit, of=name))  # fmt: skip
-    return found
+    return compared
 
 
 def _numerical(ratios: Sequence[Sequence[float]]) -> float | None:
@@ -327,12 +327,12 @@ def row(shots: Sequence[Shot]) -> hydro2d.Experience:
         return hydro2d.Experience(**about, shots=0, missed=missed)
     errors = {ERRORS.get(shot.set) for shot in with_ratio} if of == RUNS else {None}
     error = errors.pop() if len(errors) == 1 else None
-    found = hydro2d.bias_and_scatter([median(shot.ratios) for shot in with_ratio], error)
-    numbers = {name: getattr(found, name) for name in ("bias", "low", "high", "scatter", "factor", "least", "most", "model")}
+    bias = hydro2d.bias_and_scatter([median(shot.ratios) for shot in with_ratio], error)
+    numbers = {name: getattr(bias, name) for name in ("bias", "low", "high", "scatter", "factor", "least", "most", "model")}
     if fit:  # points of one formula are not independent
         numbers |= dict.fromkeys(("low", "high", "factor"))
     numbers["numerical"] = _numerical([shot.ratios for shot in with_ratio])
-    return hydro2d.Experience(**about, **{name: _rounded(value) for name, value in numbers.items()}, shots=found.count,
+    return hydro2d.Experience(**about, **{name: _rounded(value) for name, value in numbers.items()}, shots=bias.count,
                               missed=missed, measurement=error)  # fmt: skip
 
 
@@ -341,14 +341,14 @@ def rows(shots: Iterable[Shot]) -> list[hydro2d.Experience]:
     groups: dict[tuple, list[Shot]] = {}
     for shot in shots:
         groups.setdefault(shot.key, []).append(shot)
-    found = map(row, groups.values())
-    return [each for each in found if each.shots or each.missed]
+    experiences = map(row, groups.values())
+    return [each for each in experiences if each.shots or each.missed]
 
 
-def text(found: Iterable[hydro2d.Experience]) -> str:
+def text(experiences: Iterable[hydro2d.Experience]) -> str:
     """The file of the table."""
     names = [field.name for field in fields(hydro2d.Experience)]
-    records = [{name: _text(value) for name, value in asdict(each).items()} for each in found]
+    records = [{name: _text(value) for name, value in asdict(each).items()} for each in experiences]
     out = io.StringIO(newline="")
     kept.write_to(out, names, records)
     return out.getvalue()
@@ -364,12 +364,12 @@ def _per_cent(value: float | None) -> str:
     return "" if value is None else f"{100.0 * value:.0f} %" if value >= 0.1 else f"{100.0 * value:.1f} %"
 
 
-def _ratios(found: Iterable[hydro2d.Experience]) -> list[str]:
+def _ratios(experiences: Iterable[hydro2d.Experience]) -> list[str]:
     """Lines of Markdown: bias and scatter of every kind."""
     heads = ("kind of shot", "shots", "bias (90 % interval)", "scatter", "range", "another shot", "within a shot",
              "measurement", "model alone")  # fmt: skip
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
-    for each in found:
+    for each in experiences:
         if each.right is not None:
             continue
         name = f"{each.sets}: {each.kind}" if each.chosen else each.kind
@@ -384,10 +384,10 @@ def _ratios(found: Iterable[hydro2d.Experience]) -> list[str]:
     return lines
 
 
-def _outcomes(found: Iterable[hydro2d.Experience]) -> list[str]:
+def _outcomes(experiences: Iterable[hydro2d.Experience]) -> list[str]:
     """Lines of Markdown: how many shots perforate, or do not, as measured."""
     lines = ["| set | shots | as measured | 90 % interval |", "|---|---|---|---|"]
-    for each in found:
+    for each in experiences:
         if each.right is not None:
             share = hydro2d.wilson(each.right, each.shots)
             name = f"{each.sets}: something was chosen" if each.chosen else each.sets
@@ -395,14 +395,14 @@ def _outcomes(found: Iterable[hydro2d.Experience]) -> list[str]:
     return lines
 
 
-def _models(found: Sequence[hydro2d.Experience]) -> list[str]:
+def _models(experiences: Sequence[hydro2d.Experience]) -> list[str]:
     """Lines of Markdown: bias, scatter and number of shots of every analytic model, a column for each kind of shot."""
-    kinds = sorted({(each.projectile, each.target, each.ended, each.fit) for each in found},
+    kinds = sorted({(each.projectile, each.target, each.ended, each.fit) for each in experiences},
                    key=lambda kind: (kind[3], kind[2] == ERODED, kind))  # fmt: skip
     heads = [f"{rod}s in {target} that {ended}{', a fit' * fit}" for rod, target, ended, fit in kinds]
     lines = ["| model | " + " | ".join(heads) + " |", "|---" * (len(heads) + 1) + "|"]
-    for name in dict.fromkeys(each.of for each in found):
-        own = {(each.projectile, each.target, each.ended, each.fit): each for each in found if each.of == name}
+    for name in dict.fromkeys(each.of for each in experiences):
+        own = {(each.projectile, each.target, each.ended, each.fit): each for each in experiences if each.of == name}
         cells = []
         for kind in kinds:
             each = own.get(kind)

@@ -123,8 +123,8 @@ class Distribution:
         low, high = self._ends()
         z = ndtri(np.clip(low + u * (high - low), CLOSEST, 1.0 - CLOSEST))
         first, second = self.numbers
-        found = first + second * z if self.kind == "normal" else first * np.exp(math.log(second) * z)
-        return found if self.within is None else np.clip(found, *self.within)
+        values = first + second * z if self.kind == "normal" else first * np.exp(math.log(second) * z)
+        return values if self.within is None else np.clip(values, *self.within)
 
     def points(self, values: Sequence[Any]) -> np.ndarray:
         """The cumulative probability of values in the unit, float64[n]; for labels of levels the middle of their share.

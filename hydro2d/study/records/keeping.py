@@ -108,7 +108,7 @@ def results(summary: Mapping) -> dict[str, object]:
     """The results of a summary by the names of RESULTS, SI; None for those that it does not have."""
     audit = summary.get("conservation") or {}
     dropped = (audit.get("sinks") or {}).get("advection", {}).get("energy_J")
-    found = {
+    values = {
         "status": summary["status"], "stop_reason": summary.get("stop_reason"), "trustworthy": summary.get("trustworthy"),
         "depth_m": summary.get("penetration_depth_m"), "tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
         "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"), "regime": summary.get("regime"),
@@ -119,7 +119,7 @@ def results(summary: Mapping) -> dict[str, object]:
         "radius_ratio": ratio(summary.get("rod_max_radius_m"), summary.get("rod_initial_radius_m")),
         "mass_ratio": ratio(summary.get("rod_mass_kg"), summary.get("rod_initial_mass_kg")),
     }  # fmt: skip
-    return {name: found[name] for name in RESULTS}
+    return {name: values[name] for name in RESULTS}
 
 
 def _text(value) -> str:
@@ -195,15 +195,17 @@ class Keeper:
 
     def fresh_of(self, cases: Iterable[Planned]) -> set[str]:
         """The names of those cases that are up to date, of the plan or not."""
-        known = {row[SETUP] for row in self.rows if row[OF_METHOD] == METHOD}
         wanted = (self.wanted.get(case.name) or Wanted(case, self.axes) for case in cases)
-        return {each.case.name for each in wanted if each.setup in known} if known else set()
+        return set(self._rows_of(wanted))
 
     def rows_of(self, names: Iterable[str]) -> dict[str, Row]:
         """The up to date rows of those cases of the plan that have one."""
+        return self._rows_of(self.wanted[name] for name in names if name in self.wanted)
+
+    def _rows_of(self, wanted: Iterable[Wanted]) -> dict[str, Row]:
+        """The rows of this version of the method by the names of their cases; no deck is hashed where there are none."""
         known = {row[SETUP]: row for row in self.rows if row[OF_METHOD] == METHOD}
-        return {name: known[self.wanted[name].setup] for name in names
-                if name in self.wanted and self.wanted[name].setup in known} if known else {}  # fmt: skip
+        return {each.case.name: known[each.setup] for each in wanted if each.setup in known} if known else {}
 
     def stale(self, names: Sequence[str]) -> int:
         """The number of cases that have a row, but none that is up to date."""

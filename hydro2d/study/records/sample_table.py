@@ -64,26 +64,26 @@ def _results(case: Case, kept: keeping.Row, more: Sequence[str]) -> Row:
     if case.status not in keeping.ENDED:
         return {STATUS: case.status} if not kept else _of_kept(kept)
     summary = case.summary
-    found = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
-    perforated = None if found["depth_m"] is None else perforates(summary)
-    found[PERFORATED] = None if perforated is None else YES if perforated else NO
-    if perforated is False and case.status == DONE and found["stop_reason"] not in CUT:
-        found[RESIDUAL] = 0.0
+    row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
+    perforated = None if row["depth_m"] is None else perforates(summary)
+    row[PERFORATED] = None if perforated is None else YES if perforated else NO
+    if perforated is False and case.status == DONE and row["stop_reason"] not in CUT:
+        row[RESIDUAL] = 0.0
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     others = [name for name in numbers if name.startswith("derived.")]
-    if found["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
+    if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
-    return {STATUS: case.status} | found | {name: numbers.get(name) for name in dict.fromkeys((*others, *more))}
+    return {STATUS: case.status} | row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more))}
 
 
 def _of_kept(kept: keeping.Row) -> Row:
-    found: Row = {name: kept.get(name, "") for name in (STATUS, *RESULTS) if name != PERFORATED}
+    row: Row = {name: kept.get(name, "") for name in (STATUS, *RESULTS) if name != PERFORATED}
     if kept.get("depth_m") and kept[REGIME] != "left the mesh":
         stopped = not kept[RESIDUAL] or kept["stop_reason"].startswith(RESTED)
-        found[PERFORATED] = NO if stopped else YES
+        row[PERFORATED] = NO if stopped else YES
         if stopped and kept[STATUS] == DONE and kept["stop_reason"] not in CUT:
-            found[RESIDUAL] = "0"
-    return found
+            row[RESIDUAL] = "0"
+    return row
 
 
 def read(directory: Path) -> dict[str, list[str]]:

@@ -125,13 +125,13 @@ def most_probable(x: list[np.ndarray], y: np.ndarray) -> tuple[np.ndarray, np.nd
     distances, (mean, spread) = squares(x, x), _prior(len(x))
     d = len(x)
     bounds = list(zip(mean - FARTHEST * spread, mean + FARTHEST * spread, strict=True))
-    found = []
+    searches = []
     for shift in STARTS:
         start = mean.copy()
         start[d : 2 * d] += shift
         start[2 * d + 1 : -1] += shift
-        found.append(minimize(_misfit, start, (distances, y), "L-BFGS-B", jac=True, bounds=bounds))
-    best = min(found, key=lambda each: each.fun).x
+        searches.append(minimize(_misfit, start, (distances, y), "L-BFGS-B", jac=True, bounds=bounds))
+    best = min(searches, key=lambda each: each.fun).x
     return best, _root(best, distances, y)
 
 

@@ -77,12 +77,14 @@ class Samples:
     columns : dict of arrays by name, shapes (runs,)
         ``row`` (of the table of points, from 1), the inputs by their head, such as ``body.rod.velocity [m/s]``, ``status``, and
         the results in SI units. Numbers are float64, NaN where a run has none; all else is text.
+    labels : dict of the label on each axis of the study, by name; empty without axes
     """
 
     def __init__(self, title: str, inputs: Sequence[Distribution], columns: Mapping[str, np.ndarray],
-                 study: Study | None = None, names: Sequence[str] = (), wanted: Sequence[str] = ()):  # fmt: skip
+                 study: Study | None = None, names: Sequence[str] = (), wanted: Sequence[str] = (),
+                 labels: Mapping[str, str] | None = None):  # fmt: skip
         self.title, self.inputs, self.columns, self.wanted = title, tuple(inputs), dict(columns), tuple(wanted)
-        self._study, self._names = study, tuple(names)
+        self._study, self._names, self.labels = study, tuple(names), dict(labels or {})
 
     def __len__(self) -> int:
         return len(self.columns[sampling.AXIS])
@@ -181,8 +183,8 @@ class Samples:
         """The rows with a result, int64[n], and their results, float64[n]: means over the members of a row."""
         values, rows = self.values(result), self.columns[sampling.AXIS].astype(int)
         known = np.isfinite(values)
-        found = np.unique(rows[known])
-        return found, np.array([values[known & (rows == row)].mean() for row in found])
+        different = np.unique(rows[known])
+        return different, np.array([values[known & (rows == row)].mean() for row in different])
 
     # ------------------------------------------------------------------------------------------------ spreads and fractions
 
@@ -247,8 +249,8 @@ class Samples:
     def effects(self, result: str) -> list[Effect]:
         """The effect of each input on a result, the largest first. Raises StudyError as `surrogate` does."""
         made = self.surrogate(result)
-        found = [self._effect(made, number) for number in range(len(self.inputs))]
-        return sorted(found, key=lambda each: -abs(each.high - each.low))
+        effects = [self._effect(made, number) for number in range(len(self.inputs))]
+        return sorted(effects, key=lambda each: -abs(each.high - each.low))
 
     def _effect(self, made: surrogates.Surrogate, number: int) -> Effect:
         each = self.inputs[number]
@@ -313,7 +315,7 @@ def of_study(study: Study) -> list[Samples]:
         own = {name: column[chosen] for name, column in columns.items()}
         names = [case.name for case, take in zip(study.cases, chosen, strict=True) if take]
         title = ", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))])
-        samples.append(Samples(title, inputs, own, study, names, study.sample.results))
+        samples.append(Samples(title, inputs, own, study, names, study.sample.results, dict(zip(axes, labels, strict=True))))
     return samples
 
 

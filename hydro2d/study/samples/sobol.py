@@ -70,10 +70,10 @@ def indices(result: str, surrogate: Surrogate, seed: int = 0) -> Indices:
     cube = qmc.Sobol(2 * inputs, scramble=True, seed=np.random.default_rng(seed)).random(POINTS)
     a, b = cube[:, :inputs], cube[:, inputs:]
     mixed = [np.where(np.arange(inputs) == number, b, a) for number in range(inputs)]
-    found = surrogate.draws(np.vstack([a, b, *mixed]), DRAWS, seed).reshape(DRAWS, inputs + 2, POINTS)
+    values = surrogate.draws(np.vstack([a, b, *mixed]), DRAWS, seed).reshape(DRAWS, inputs + 2, POINTS)
     chosen = np.random.default_rng(seed + 1).integers(POINTS, size=(DRAWS, POINTS))
-    found = np.take_along_axis(found, chosen[:, None, :], axis=2)
-    functions = {"f_A": found[:, 0], "f_B": found[:, 1], "f_AB": found[:, 2:].transpose(1, 0, 2)}
+    values = np.take_along_axis(values, chosen[:, None, :], axis=2)
+    functions = {"f_A": values[:, 0], "f_B": values[:, 1], "f_AB": values[:, 2:].transpose(1, 0, 2)}
     estimate = sobol_indices(func=functions, n=POINTS)
     first, total = (each.reshape(DRAWS, inputs) for each in (estimate.first_order, estimate.total_order))
     ends = 0.5 - 0.5 * LEVEL, 0.5 + 0.5 * LEVEL

@@ -58,13 +58,13 @@ class Surrogate:
         Five sets of numbers of the covariance, as probable as the rows make them, have a fifth of the functions each.
         """
         generator, x = np.random.default_rng(seed), coordinates(self.inputs, cube)
-        found = []
+        functions = []
         with gaussian.one_thread():
             for share in np.array_split(np.arange(number), gaussian.SETS):
                 theta = self._theta + self._root @ generator.standard_normal(len(self._theta))
                 process = gaussian.Process(self._process.x, self._process.y, theta)
-                found.append(process.draws(x, len(share), generator).T)
-        return self._shift + self._unit * np.vstack(found)
+                functions.append(process.draws(x, len(share), generator).T)
+        return self._shift + self._unit * np.vstack(functions)
 
 
 def coordinates(inputs: Sequence[Distribution], cube: np.ndarray) -> list[np.ndarray]:

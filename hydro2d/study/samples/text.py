@@ -21,9 +21,9 @@ def spreads(samples: Samples) -> Table:
     rows = []
     for name in samples.usual:
         unit, factor = readers(name)
-        found = samples.spread(name)
-        low, median, high = (f"{part * factor:.4g}" for part in (found.low, found.median, found.high))
-        rows.append((title(name), f"{median} {unit}".rstrip(), f"{low} to {high} {unit}".rstrip(), str(found.count)))
+        spread = samples.spread(name)
+        low, median, high = (f"{part * factor:.4g}" for part in (spread.low, spread.median, spread.high))
+        rows.append((title(name), f"{median} {unit}".rstrip(), f"{low} to {high} {unit}".rstrip(), str(spread.count)))
     return SPREADS, rows
 
 
@@ -50,11 +50,11 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
 
     Raises StudyError if there are none.
     """
-    found = samples.indices(result)
+    shares = samples.indices(result)
     rows = [(each.input, f"{each.first:.2f}", f"{each.first_low:.2f} to {each.first_high:.2f}", f"{each.total:.2f}",
-             f"{each.total_low:.2f} to {each.total_high:.2f}") for each in found.inputs]  # fmt: skip
-    words = f"{title(result)}: shares of its variance, by a surrogate: {found.surrogate.words} (SI)"
-    return (INDICES, rows), words + (f". Warning: {found.doubt}" if found.doubt else "")
+             f"{each.total_low:.2f} to {each.total_high:.2f}") for each in shares.inputs]  # fmt: skip
+    words = f"{title(result)}: shares of its variance, by a surrogate: {shares.surrogate.words} (SI)"
+    return (INDICES, rows), words + (f". Warning: {shares.doubt}" if shares.doubt else "")
 
 
 def report(samples: Samples) -> Iterator[str]:
