@@ -186,6 +186,12 @@ def load(path: str | Path, overrides: Overrides = (), *, trust: bool = True) -> 
     return _resolve(data, file.stem, overrides, sources, trust)
 
 
+def written(path: str | Path, overrides: Overrides = ()) -> dict:
+    """The tables of a deck file with overrides, as they are written: without defaults, unchecked. Raises DeckError."""
+    sources = Sources()
+    return _laid_over(toml.read(find(path), sources), overrides, sources)
+
+
 def loads(text: str, overrides: Overrides = (), name: str = "deck", folder: str | Path = ".", *, trust: bool = True) -> Deck:
     """Reads a deck from a string; its includes and models are in ``folder``. ``trust`` and DeckError as for ``load``."""
     sources = Sources()

@@ -230,6 +230,18 @@ def override(data: dict, key: str, value, said: str, sources: Sources) -> dict:
     return result
 
 
+def value_of(data: dict, key: str) -> Any:
+    """The value under a key, which addresses entries of arrays as `override` does; None if there is none."""
+    place: Any = data
+    for part in key_parts(key):
+        if isinstance(place, list):
+            index = entry_index(place, part)
+            place = None if index is None else place[index]
+        else:
+            place = place.get(part) if isinstance(place, dict) else None
+    return place
+
+
 def removed(data: dict, key: str, said: str) -> dict:
     """The deck without a key, which then takes its default; an equal deck if it has no such key."""
     *keys, last = key_parts(key)

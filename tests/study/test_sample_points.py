@@ -1,5 +1,8 @@
 """[sample] of a study file: points from distributions and from tables, and refusals before the first run."""
 
+import json
+import tomllib
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -8,6 +11,7 @@ from hydro2d.cli.main import call
 from hydro2d.study.plan import cases, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import Distribution
+from hydro2d.study.plan.sampling import Points
 from tests.study import fake, tubes
 
 BASE = f'deck = "{(tubes.ROOT / fake.BASE).as_posix()}"\n'
@@ -62,6 +66,62 @@ def test_more_points_of_sobol_keep_the_earlier_ones(tmp_path):
     assert many.notes == ("sample.n = 6 is not a power of two, so that the points of Sobol's sequence do not fill the space "
                           "evenly; 4 or 8 would",)
     assert not plan(tmp_path, SOBOL.replace("n = 4", "n = 6").replace("sobol", "latin-hypercube")).notes
+
+
+def test_inputs_relative_to_the_deck(tmp_path):
+    text = BASE + """
+[sample]
+method = "latin-hypercube"
+n = 3
+[sample.input."body.rod.velocity"]
+normal = ["0 km/s", "0.003 km/s"]
+relative = "difference"
+[sample.input."body.rod.diameter"]
+uniform = [0.9, 1.1]
+relative = "factor"
+[[axis]]
+name = "speed"
+key = "body.rod.velocity"
+values = ["1086 m/s", "1.2 km/s"]
+"""
+    lines = refused(tmp_path, text)
+    assert "the axis \"speed\" sets body.rod.velocity as well" in lines[0]
+    base = (tubes.ROOT / fake.BASE).as_posix()
+    (tmp_path / "fast.toml").write_text(f'include = "{base}"\n[[body]]\nname = "rod"\nvelocity = "1200 m/s"\n')
+    shots = f'[axis.variants]\nslow.deck = "{base}"\nfast.deck = "fast.toml"\n'
+    made = plan(tmp_path, text[: text.index("key =")] + shots)
+    velocity, diameter = made.sample.inputs
+    assert (velocity.head, diameter.head) == ("body.rod.velocity (difference) [km/s]", "body.rod.diameter (factor)")
+    assert velocity.words.endswith("standard deviation 0.003 km/s, added to the value of the deck")
+    assert [case.name for case in made.cases] == ["slow_row1", "slow_row2", "slow_row3", "fast_row1", "fast_row2", "fast_row3"]
+    for case, base, row in zip(made.cases, [1.086] * 3 + [1.2] * 3, made.sample.rows * 2, strict=True):
+        given = tomllib.loads(case.text)["body"][0]
+        assert given["velocity"][1] == pytest.approx(1e3 * (base + row[0]), rel=1e-11)
+        assert given["diameter"] == pytest.approx(0.67568e-2 * row[1], rel=1e-11)
+    assert Points.of_data(json.loads(json.dumps(made.sample.data()))).inputs == made.sample.inputs
+
+
+@pytest.mark.parametrize(("key", "said"), [
+    ("body.rod.strength_factor", "the deck gives no value of body.rod.strength_factor, to which"),
+    ("body.rod.material", "'W_alloy' is not a number with its unit"),
+    ("mesh.r", "mesh.r of the deck is ["),
+])  # fmt: skip
+def test_a_deck_without_a_value_to_relate_to_is_refused(tmp_path, key, said):
+    text = f'{BASE}[sample]\nmethod = "sobol"\nn = 2\n[sample.input."{key}"]\nuniform = [0.9, 1.1]\nrelative = "factor"\n'
+    lines = refused(tmp_path, text)
+    assert lines[0].startswith("study.toml:"), lines
+    assert said in lines[0], lines
+
+
+def test_rows_with_changes_that_should_not_matter(tmp_path):
+    made = plan(tmp_path, SOBOL.replace("n = 4", 'n = 4\nby = ["mesh offset"]') + AXIS)
+    starts = [tomllib.loads(case.text)["mesh"]["z_start"] for case in made.cases]
+    assert len(set(starts)) == 4
+    assert starts[:4] == starts[4:], "every row has its own, whatever the case"
+    still = tomllib.loads(plan(tmp_path, SOBOL).cases[0].text)["mesh"]["z_start"]
+    assert all(0.0 < abs(start - still) < 0.7e-3 for start in starts)
+    again = plan(tmp_path, SOBOL.replace("n = 4", 'n = 8\nby = ["mesh offset"]') + AXIS)
+    assert [case.text for case in again.cases[:4]] == [case.text for case in made.cases[:4]], "more rows keep the earlier ones"
 
 
 def test_every_case_of_the_axes_has_the_same_points(tmp_path):
@@ -167,6 +227,14 @@ def test_a_missing_table(tmp_path):
     (('"body.rod.material"]\nchoice = ["W_alloy", "Al5083"]',
       '"mesh.z_start"]\nuniform = ["-1 cm", "-2 mm"]\n[ensemble]\nrepeats = 2'),
      'sample: mesh.z_start: the ensemble changes mesh.z_start by "mesh offset"'),
+    (("1.05]", '1.05]\nrelative = "difference"'), "sample.input: "),
+    (('"3 m/s"]', '"3 m/s"]\nrelative = "factor"'), '"factor": a factor is a plain number, and the numbers are in m/s'),
+    (('"3 m/s"]', '"3 m/s"]\nrelative = "ratio"'), 'relative: unknown value "ratio"'),
+    (('"Al5083"]', '"Al5083"]\nrelative = "factor"'), "relative belongs to numbers, not to choice"),
+    (("n = 4", 'n = 4\nby = ["mesh offset", "mesh offset"]'), "sample.by: names a change twice"),
+    (("n = 4", "n = 4\nby = []"), "sample.by: is empty"),
+    (("n = 4", 'n = 4\nby = ["mesh ofset"]'), 'did you mean "mesh offset"'),
+    (("[sample]", '[ensemble]\nrepeats = 2\n[sample]\nby = ["first step"]'), "sample.by: [ensemble] makes changes already"),
     (("[sample]", '[[axis]]\nname = "row"\nkey = "numerics.courant"\nvalues = [0.4]\n[sample]'), '"row" is the name of the'),
 ])  # fmt: skip
 def test_a_wrong_section_is_refused(tmp_path, change, said):

@@ -147,7 +147,8 @@ class _Planner:
             combinations = self._at_velocities(combinations, interval)
             described.append({"name": velocities.AXIS, "key": interval.key, "values": list(interval.labels)})
         if sample is not None:
-            combinations = self._at_points(combinations, sample)
+            combinations = self._at_points(combinations, bare, files, sample)
+            self._raise()
             described.append({"name": sampling.AXIS, "key": None, "values": [str(n) for n in range(1, len(sample.rows) + 1)]})
         names = distinct(["_".join(choice.short for choice in combination) for combination in combinations])
         planned = [self._repeated(name, *self._case(each), files)
@@ -227,13 +228,23 @@ class _Planner:
         if count > ranges.MOST:
             raise StudyError(f"{self.path}: {of} {count} cases; at most {ranges.MOST} are allowed")
 
+    @property
+    def _changes(self) -> tuple[str, ...]:
+        """The changes that should not matter, of an ensemble or of the rows of a sample."""
+        changing = self.ensemble or self.definition.sample
+        return (changing and changing.by) or ()
+
+    @property
+    def _changer(self) -> str:
+        return "the ensemble" if self.ensemble else "sample.by"
+
     def _free_of_axes(self, axes: list[list[Option]]) -> None:
         """Checks that no axis sets a key that the members of an ensemble change."""
         for number, (axis, choices) in enumerate(zip(self.definition.axis, axes, strict=True)):
             for choice in choices:
-                clash = self.ensemble and members.conflict(self.ensemble.by, choice.settings)
+                clash = members.conflict(self._changes, choice.settings)
                 if clash:
-                    self._say(("axis", number), f'axis "{axis.name}" sets {clash[1]}, and the ensemble changes it by '
+                    self._say(("axis", number), f'axis "{axis.name}" sets {clash[1]}, and {self._changer} changes it by '
                                                 f'"{clash[0]}"; leave out one of them')  # fmt: skip
                     break
 
@@ -321,13 +332,24 @@ class _Planner:
                     shared = ".".join(min(parts, other, key=len))
                     self._say(self._place_of(key), f"sample: {key}: {owner} sets {shared} as well")
             others[parts] = f"the sample ({key})"
-            if clash := self.ensemble and members.conflict(self.ensemble.by, [key]):
-                self._say(self._place_of(key), f'sample: {key}: the ensemble changes {clash[1]} by "{clash[0]}"; leave out one')
+            if clash := members.conflict(self._changes, [key]):
+                self._say(self._place_of(key), (f'sample: {key}: {self._changer} changes {clash[1]} by "{clash[0]}"; '
+                                                "leave out one"))
 
-    def _at_points(self, combinations: list[tuple], sample: sampling.Points) -> list[tuple]:
-        """Every combination at every point."""
-        rows = [Option(str(row), sampling.NAME.format(row), sample.settings(row - 1)) for row in range(1, len(sample.rows) + 1)]
-        return [(*combination, row) for combination in combinations for row in rows]
+    def _at_points(self, combinations: list[tuple], bare: list[tuple], files: dict[str, Path],
+                   sample: sampling.Points) -> list[tuple]:  # fmt: skip
+        """Every combination at every point; `bare` are the cases of the combinations."""
+        at_points = []
+        for combination, (_, base, overrides) in zip(combinations, bare, strict=True):
+            try:
+                tables = decks.written(files[base], overrides) if sample.relative else {}
+                settings = [sample.settings(number, tables) for number in range(len(sample.rows))]
+            except (DeckError, ValueError) as error:
+                self._say(("sample", "input"), f"sample.input: {base}: {error}")
+                continue
+            rows = [Option(str(row), sampling.NAME.format(row), own) for row, own in enumerate(settings, 1)]
+            at_points += [(*combination, row) for row in rows]
+        return at_points
 
     def _check_rows(self, planned: list[list[Planned]], sample: sampling.Points) -> None:
         """Refuses a sample with rows that make a deck invalid: each of them is said once, with its column where it is known."""
@@ -335,12 +357,12 @@ class _Planner:
         for case in (group[0] for group in planned if group and not group[0].text):
             row = int(case.values[sampling.AXIS])
             for line in case.message.splitlines():
-                said[self._row_in_words(row, line, sample)] = None
+                said[self._row_in_words(row, line, sample, case.overrides)] = None
         self.wrong += said
 
-    def _row_in_words(self, row: int, line: str, sample: sampling.Points) -> str:
+    def _row_in_words(self, row: int, line: str, sample: sampling.Points, overrides: list[str]) -> str:
         """The message of a deck for a row of a sample: file, row and column, then what is wrong."""
-        settings = sample.settings(row - 1)
+        settings = dict(map(toml.assignment, overrides))
         said = {f"--set {toml.assigned(each.key, settings[each.key])}: ": each for each in sample.inputs}
         start, of = next(((start, each) for start, each in said.items() if line.startswith(start)), ("", None))
         wrong = line.removeprefix(start)
@@ -463,7 +485,7 @@ class _Planner:
         case = Planned(name, labels, base, overrides, deck.to_toml() if deck else "", message)
         ensemble = self.ensemble
         if ensemble is None:
-            return [case]
+            return [self._by_chance(case, deck, files[base])]
         group = [replace(case, name=members.name(name, number), of=name or self.path.stem, member=number,
                          changed=members.amounts(ensemble, number)) for number in range(ensemble.repeats)]  # fmt: skip
         if deck is None:
@@ -473,6 +495,17 @@ class _Planner:
         except DeckError as error:
             self._say(("ensemble", "by"), f"ensemble.by: {base}: {error}")
             return []
+
+    def _by_chance(self, case: Planned, deck: decks.Deck | None, file: Path) -> Planned:
+        """A case with the changes of its row, if the sample has any."""
+        if deck is None or not self._changes:
+            return case
+        row = int(case.values[sampling.AXIS])
+        try:
+            return _changed(replace(case, changed=members.amounts(self.definition.sample, row)), deck, file)
+        except DeckError as error:
+            self._say(("sample", "by"), f"sample.by: {case.deck}: {error}")
+            return case
 
 
 def _read(file: Path, overrides: list[str]) -> tuple[decks.Deck | None, str]:

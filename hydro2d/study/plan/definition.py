@@ -16,7 +16,7 @@ from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain, read_text
 from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.outcomes.registry import BY_NAME, KINDS
-from hydro2d.study.plan.sample_section import Input, Sample
+from hydro2d.study.plan.sample_section import Change, Input, Sample, different
 
 #: overrides of the decks of a study: "key=value" of a command line, or values by their dotted keys
 Overrides = Sequence[str] | Mapping[str, Any]
@@ -163,17 +163,11 @@ class Transition(Section):
         return self
 
 
-def _different(values: tuple) -> tuple:
-    if len(set(values)) < len(values):
-        raise ValueError("names a change twice")
-    return _filled(values)
-
-
 class Ensemble(Section):
     """Repeats of every case with changes that should not matter; they show how certain its result is."""
 
     repeats: int = Field(ge=2, le=1000, description="number of members of each case; the first is its deck unchanged")
-    by: Annotated[tuple[Literal["mesh offset", "flank offset", "first step"], ...], AfterValidator(_different)] = Field(
+    by: Annotated[tuple[Change, ...], AfterValidator(different)] = Field(
         ("mesh offset", "first step"),
         description="the changes between members: the mesh shifted along z by up to half a cell; the flank of the projectile "
         "moved by up to a quarter of a cell; the first time step reduced by up to four thousandths",
@@ -290,6 +284,8 @@ def _validated(data: dict, sources: Sources) -> Definition:
         raise StudyError(explained(error, data, sources, _TABLES)) from None
     if not (study.axis or study.sample or study.transition or study.ensemble or study.part):
         raise StudyError(f"{sources.where(('axis',), data)}: axis: is missing")
+    if study.sample and study.sample.by and study.ensemble:
+        raise StudyError(f"{sources.where(('sample', 'by'), data)}: sample.by: [ensemble] makes changes already; leave out one")
     if study.transition and study.sample:
         raise StudyError(f"{sources.where(('sample',), data)}: sample: a search takes no [sample], because its velocities "
                          "follow from earlier runs; sample the velocity as well, without [transition]")

@@ -14,13 +14,15 @@ from typing import Any
 import numpy as np
 
 from hydro2d.files import toml
-from hydro2d.study.plan.sample_section import Input
+from hydro2d.study.plan.sample_section import DIFFERENCE, FACTOR, Input
 
 #: significant digits of a value in a deck; the last bits of a quantile may differ between machines
 DIGITS = 9
 #: no point is nearer to 0 or 1: the quantiles there are infinite
 CLOSEST = 2.0**-31
 CHOICE, TABLE = "choice", "table"
+#: the end of a distribution in words
+RELATIVE = {DIFFERENCE: ", added to the value of the deck", FACTOR: ", times the value of the deck"}
 #: smallest probability between the bounds of a distribution
 LEAST = 1e-6
 
@@ -35,6 +37,7 @@ class Distribution:
     numbers, within : parameters and bounds in this unit
     levels, weights : of a choice: its values as text, in order, and the probability of each
     column : of a table, its numbers, sorted
+    relative : "difference" or "factor", for numbers that are added to the value of the deck or multiply it
     """
 
     key: str
@@ -45,11 +48,13 @@ class Distribution:
     levels: tuple[str, ...] = ()
     weights: tuple[float, ...] = ()
     column: tuple[float, ...] = ()
+    relative: str = ""
 
     @property
     def head(self) -> str:
         """The key with its unit, as the head of a column."""
-        return f"{self.key} [{self.unit}]" if self.unit else self.key
+        name = f"{self.key} ({self.relative})" if self.relative else self.key
+        return f"{name} [{self.unit}]" if self.unit else name
 
     @property
     def words(self) -> str:
@@ -65,7 +70,7 @@ class Distribution:
             "normal": f"normal, mean {first:.6g}{unit}, standard deviation {second:.6g}{unit}",
             "lognormal": f"lognormal, median {first:.6g}{unit}, factor {second:.6g}",
             "uniform": f"uniform from {first:.6g} to {second:.6g}{unit}",
-        }[self.kind] + bounds
+        }[self.kind] + bounds + RELATIVE.get(self.relative, "")
 
     def data(self) -> dict[str, Any]:
         """The contents as plain data, for JSON."""
@@ -84,7 +89,7 @@ class Distribution:
             shares = tuple(weight / sum(weights) for weight in weights)
             return cls(key, CHOICE, levels=tuple(map(label, given.choice)), weights=shares)
         numbers, within, unit = given.numbers()
-        made = cls(key, given.kind, unit, numbers, within)
+        made = cls(key, given.kind, unit, numbers, within, relative=given.relative or "")
         low, high = made._ends()
         if high - low < LEAST:
             raise ValueError(f"within: only {high - low:.1g} of the distribution lies between the bounds")

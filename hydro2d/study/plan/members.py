@@ -21,6 +21,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.files import toml
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.study.plan.definition import Ensemble
+from hydro2d.study.plan.sample_section import Sample
 
 #: largest shift of the mesh and of the flank of the projectile, as fractions of a cell; largest reduction of the first step
 SHIFT, FLANK, STEP = 0.5, 0.25, 0.004
@@ -113,11 +114,14 @@ KNOBS = {knob.name: knob for knob in (
 )}  # fmt: skip
 
 
-def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:
-    """The changes of a member by name: fractions of a cell and the factor of the first step; empty for member 0."""
+def amounts(ensemble: Ensemble | Sample, number: int) -> dict[str, float]:
+    """The changes of a member by name: fractions of a cell and the factor of the first step; empty for member 0.
+
+    ensemble : or a sample with ``by``, whose rows are counted from 1
+    """
     if number == 0:
         return {}
-    dimensions, start = len(ensemble.by), random.Random(ensemble.seed).random()
+    dimensions, start = len(ensemble.by), random.Random(ensemble.seed or 0).random()
     phi = 2.0
     for _ in range(100):  # a contraction: x = (1 + x)^(1 / (d + 1))
         phi = (1.0 + phi) ** (1.0 / (dimensions + 1))

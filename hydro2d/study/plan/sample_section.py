@@ -55,6 +55,8 @@ def _filled(values: tuple) -> tuple:
 
 
 Pair = tuple[Quantity, Quantity]
+#: how a number relates to the value of the deck
+DIFFERENCE, FACTOR = "difference", "factor"
 
 
 class Input(Section):
@@ -69,6 +71,10 @@ class Input(Section):
     weights: tuple[float, ...] | None = Field(
         None, description="with choice: how often each value occurs, relative to the others"
     )
+    relative: Literal["difference", "factor"] | None = Field(
+        None, description="the numbers are added to the value of the deck, or multiply it, so that decks of different values "
+        "can share an input"
+    )
 
     @model_validator(mode="after")
     def _one(self):
@@ -81,6 +87,8 @@ class Input(Section):
             self._weighed()
         if self.kind != "choice":
             self._ordered()
+        if self.relative:
+            self._related()
         return self
 
     @property
@@ -94,6 +102,12 @@ class Input(Section):
         if len(self.weights) != len(self.choice) or min(self.weights) <= 0.0:
             raise ValueError(f"weights has {len(self.weights)} numbers, choice {len(self.choice)} values; "
                              "give a positive number for each")
+
+    def _related(self) -> None:
+        if self.kind == "choice":
+            raise ValueError("relative belongs to numbers, not to choice")
+        if self.relative == FACTOR and (unit := self.numbers()[2]):
+            raise ValueError(f'relative = "factor": a factor is a plain number, and the numbers are in {unit}')
 
     def _ordered(self) -> None:
         """Checks the numbers. Raises ValueError."""
@@ -124,6 +138,19 @@ class Input(Section):
         return (first, second), (bounds[0], bounds[1]) if bounds else None, unit
 
 
+#: a change that should not matter
+Change = Literal["mesh offset", "flank offset", "first step"]
+
+
+def different(values: tuple) -> tuple:
+    """The names of changes, each once. Raises ValueError."""
+    if len(set(values)) < len(values):
+        raise ValueError("names a change twice")
+    if not values:
+        raise ValueError("is empty; at least one entry is needed")
+    return values
+
+
 def _by_key(table: Any) -> Any:
     """The tables of [sample.input] by deck key; sample.input.body.rod.velocity and a quoted key are the same."""
     return dict(_leaves(table, "")) if isinstance(table, dict) else table
@@ -152,6 +179,10 @@ class Sample(Section):
     n: int | None = Field(None, ge=2, le=MOST, description="number of points; for sobol a power of two")
     seed: int | None = Field(None, ge=0, le=2**32, description="another seed makes other points; default 0")
     input: Annotated[dict[str, Input], BeforeValidator(_by_key)] = Field({}, description="distribution of each deck key")
+    by: Annotated[tuple[Change, ...], AfterValidator(different)] | None = Field(
+        None, description="changes that should not matter, by another amount in every row, so that what no input explains is "
+        "the chance of a run; their meaning is that of [ensemble]"
+    )
     results: tuple[str, ...] = Field((), description="numbers of summary.json that samples.csv has beside the usual ones")
 
     @model_validator(mode="after")

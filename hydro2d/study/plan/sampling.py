@@ -5,14 +5,16 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from hydro2d.base import units
 from hydro2d.files import toml
 from hydro2d.files.whole import read_text
+from hydro2d.study.plan import relating
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution, label
 from hydro2d.study.plan.sample_section import MOST, Sample
@@ -41,9 +43,20 @@ class Points:
     results: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def settings(self, number: int) -> dict[str, Any]:
-        """The deck keys and values of a point, counted from 0."""
-        return {each.key: value for each, value in zip(self.inputs, self.texts[number], strict=True)}
+    @property
+    def relative(self) -> bool:
+        """Whether an input relates to the value of the deck."""
+        return any(each.relative for each in self.inputs)
+
+    def settings(self, number: int, tables: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
+        """The deck keys and values of a point, counted from 0.
+
+        tables : of the deck, with the values to which inputs relate
+
+        Raises ValueError if the deck has no such value.
+        """
+        values = zip(self.inputs, self.texts[number], strict=True)
+        return {each.key: relating.value(tables, each, text) if each.relative else text for each, text in values}
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Points:

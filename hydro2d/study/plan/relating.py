@@ -1,0 +1,52 @@
+"""Inputs of a sample that relate to the value of the deck: a number that is added to it, or that multiplies it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from hydro2d.base import units
+from hydro2d.files import toml
+from hydro2d.study.plan.distributions import Distribution
+from hydro2d.study.plan.sample_section import FACTOR
+
+#: significant digits of the value in a deck
+DIGITS = 12
+
+
+def value(tables: Mapping[str, Any], each: Distribution, given: float | str) -> float | str:
+    """The value of a deck key for a number of its input.
+
+    tables : of the deck, as they are written;  given : the number of the input, in its unit
+
+    Raises ValueError if the deck has no number under the key, or one of another quantity.
+    """
+    own = toml.value_of(tables, each.key)
+    if own is None:
+        raise ValueError(f"the deck gives no value of {each.key}, to which the input could relate; leave out relative")
+    if isinstance(own, bool) or not isinstance(own, (int, float, str)):
+        raise ValueError(f"{each.key} of the deck is {toml.inline(own)}, not a number")
+    if each.relative == FACTOR:
+        number, unit = _split(own)
+        return _written(number * float(given), unit)
+    if not each.unit:
+        return _written(units.to_si(own, "1") + float(given), "")
+    factor, si = units.of_kinds(f"1 {each.unit}", units.KINDS)
+    amount, _ = _split(given)
+    return _written(units.to_si(own, si) / factor + amount, each.unit)
+
+
+def _split(text: float | str) -> tuple[float, str]:
+    """Number and unit of a value as it is written. Raises ValueError."""
+    if not isinstance(text, str):
+        return float(text), ""
+    number, _, unit = text.strip().partition(" ")
+    try:
+        return float(number), unit.strip()
+    except ValueError:
+        raise ValueError(f"{text!r} is not a number with its unit") from None
+
+
+def _written(number: float, unit: str) -> float | str:
+    value = float(f"{number:.{DIGITS}g}")
+    return f"{value!r} {unit}" if unit else value
