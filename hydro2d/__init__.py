@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
     from hydro2d.study.records.study_directory import Case
+    from hydro2d.study.samples.kept import kept_samples
     from hydro2d.study.samples.objective import Objective
     from hydro2d.study.samples.results import Samples
     from hydro2d.study.search.logit import fit_transition
@@ -61,6 +62,7 @@ _PLACES = {
     "Samples": "hydro2d.study.samples.results",
     "Objective": "hydro2d.study.samples.objective",
     "kept_rows": "hydro2d.study.records.keeping",
+    "kept_samples": "hydro2d.study.samples.kept",
     "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
     "penetration_model": "hydro2d.api",
@@ -109,6 +111,7 @@ __all__ = [
     "fit_transition",
     "impact_of",
     "kept_rows",
+    "kept_samples",
     "method_note",
     "new_figure",
     "open_run",

@@ -170,6 +170,27 @@ def test_kept_rows_replace_runs(tmp_path):
     assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
 
 
+def test_samples_from_kept_rows(tmp_path):
+    text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)
+    directory, _ = swept(tmp_path, failing, text=text)
+    study = next(tmp_path.glob("*.toml"))
+    (samples,) = hydro2d.kept_samples(study)
+    whole = hydro2d.open_study(directory).samples()
+    assert len(samples) == whole.ended.sum() < len(whole), "failed runs are not kept"
+    assert samples.labels == {"cells_across": hydro2d.kept_rows(tmp_path / "kept.csv")[0]["cells_across"]}
+    there = whole.ended
+    for name in ("row", *whole.heads):
+        assert samples.columns[name].tolist() == whole.columns[name][there].tolist()
+    assert samples.values("depth_m") == pytest.approx(whole.values("depth_m")[there], rel=1e-5), "kept with six digits"
+    assert samples.values("regime = eroding").tolist() == whole.values("regime = eroding")[there].tolist()
+    (tmp_path / "kept.csv").write_text((tmp_path / "kept.csv").read_text().replace("strength_factor", "factor"))
+    with pytest.raises(hydro2d.StudyError, match=r"kept\.csv: a row has no body\.rod\.strength_factor: it is of another study"):
+        hydro2d.kept_samples(study)
+    study.write_text(STUDY)
+    with pytest.raises(hydro2d.StudyError, match="has no keep"):
+        hydro2d.kept_samples(study)
+
+
 def test_the_terminal(rough, monkeypatch, tmp_path, capsys):
     client = made_up.Client(outcome)
     monkeypatch.setattr(cluster, "local", lambda *_, **__: client.connect())

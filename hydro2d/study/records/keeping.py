@@ -3,6 +3,7 @@
 A row identifies its run by the labels of the case, cells across the projectile, and member; by the set-up, a hash of everything
 in the deck that can change a result; and by the version of the method. A run with a row of its set-up and of this method is up
 to date, and a sweep does not repeat it. The row of another set-up or method is stale. It stays until its run has been made.
+The row of a run of a sample has the values of its inputs as well.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import io
 import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -22,6 +23,7 @@ from hydro2d.base.terminal import cell, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.whole import read_text, write_text
 from hydro2d.output.directory import DECK
+from hydro2d.study.plan import sampling
 from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.members import cells_across, projectile
@@ -74,10 +76,11 @@ def setup(deck: decks.Deck) -> str:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A case of a plan, with the entries that its row must have to be up to date."""
+    """A case of a plan, with the entries that its row must have to be up to date. ``inputs`` : of a sample, by their heads."""
 
     case: Planned
     axes: tuple[str, ...]
+    inputs: Row = field(default_factory=dict)
 
     @cached_property
     def deck(self) -> decks.Deck:
@@ -101,7 +104,15 @@ class Wanted:
         commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
         entries = {**results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
                    "date": (origin.get("written") or "")[:10]}  # fmt: skip
-        return self.about | {name: _text(value) for name, value in entries.items()}
+        return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
+
+
+def _inputs(plan: Plan, case: Planned) -> Row:
+    """The inputs of a case of a sample by their heads, as text; empty without a sample."""
+    if plan.sample is None:
+        return {}
+    values = plan.sample.rows[int(case.values[sampling.AXIS]) - 1]
+    return {each.head: cell(str(value)) for each, value in zip(plan.sample.inputs, values, strict=True)}
 
 
 def results(summary: Mapping) -> dict[str, object]:
@@ -187,7 +198,8 @@ class Keeper:
         self.rows = read(self.path)
         if self.rows and (strange := [name for name in self.axes if name not in self.rows[0]]):
             raise StudyError(f"{self.path}: is of another study: it has no column {strange[0]}")
-        self.wanted = {case.name: Wanted(case, self.axes) for case in plan.cases if case.text}
+        self.heads = tuple(each.head for each in plan.sample.inputs) if plan.sample else ()
+        self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan, case)) for case in plan.cases if case.text}
 
     def fresh(self, names: Iterable[str]) -> set[str]:
         """Those of the cases of the plan that are up to date."""
@@ -234,7 +246,8 @@ class Keeper:
         self.rows = sorted(kept.values(), key=self._place)
         self.path.parent.mkdir(exist_ok=True)
         text = io.StringIO()
-        table = csv.DictWriter(text, (*self.axes, CELLS, MEMBER, *RESULTS, *ORIGIN), restval="", lineterminator="\n")
+        heads = (*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *ORIGIN)
+        table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")
         table.writeheader()
         table.writerows(self.rows)
         write_text(self.path, text.getvalue())

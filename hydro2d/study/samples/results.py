@@ -306,9 +306,8 @@ def of_study(study: Study) -> list[Samples]:
                          f"rows, and there are {len(study.cases)} runs")
     axes = [axis.name for axis in study.axes[:-1]]
     combinations = [tuple(case.values[name] for name in axes) for case in study.cases]
-    words = {STATUS, "stop_reason", "trustworthy", REGIME, PERFORATED, *(each.head for each in inputs if each.kind == CHOICE)}
-    columns = {name: _array(column, name in words) for name, column in table.items()
-               if name not in axes and not name.endswith(" (axis)")}  # fmt: skip
+    own_columns = {name: column for name, column in table.items() if name not in axes and not name.endswith(" (axis)")}
+    columns = of_columns(own_columns, inputs)
     samples = []
     for labels in dict.fromkeys(combinations):
         chosen = np.array([each == labels for each in combinations])
@@ -317,6 +316,12 @@ def of_study(study: Study) -> list[Samples]:
         title = ", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))])
         samples.append(Samples(title, inputs, own, study, names, study.sample.results, dict(zip(axes, labels, strict=True))))
     return samples
+
+
+def of_columns(table: Mapping[str, list[str]], inputs: Sequence[Distribution]) -> dict[str, np.ndarray]:
+    """The columns of a table of text as arrays: numbers, but for those that hold words."""
+    words = {STATUS, "stop_reason", "trustworthy", REGIME, PERFORATED, *(each.head for each in inputs if each.kind == CHOICE)}
+    return {name: _array(column, name in words) for name, column in table.items()}
 
 
 def _array(column: list[str], words: bool) -> np.ndarray:

@@ -52,8 +52,8 @@ class Indices:
 
     def __getitem__(self, key: str) -> Index:
         """The indices of an input by its deck key, or by its head with the unit. Raises KeyError."""
-        for each in self.inputs:
-            if key in (each.input, each.input.partition(" [")[0]):
+        for each, of in zip(self.inputs, self.surrogate.inputs, strict=True):
+            if key in (each.input, of.key):
                 return each
         raise KeyError(key)
 

@@ -1,0 +1,60 @@
+"""The samples of a study from the rows that it keeps in the folder of its file, without the directories of its runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hydro2d.study.plan import sampling
+from hydro2d.study.plan.definition import StudyError, read
+from hydro2d.study.plan.distributions import Distribution
+from hydro2d.study.plan.sample_section import Sample
+from hydro2d.study.records import keeping, sample_table
+from hydro2d.study.records.keeping import CELLS, MEMBER
+from hydro2d.study.samples.results import Samples, of_columns
+
+
+def kept_samples(study: str | Path) -> list[Samples]:
+    """The samples of a study with ``[sample]`` and ``keep``, from its kept rows: one for each case and number of cells.
+
+    study : the study file
+
+    ``labels`` of each has the labels on the axes, and ``cells_across``. Raises StudyError if the study has no sample, keeps no
+    rows, or if its rows lack the inputs.
+    """
+    study = Path(study)
+    definition = read(study, ())[0]
+    if definition.sample is None or definition.keep is None:
+        raise StudyError(f"{study}: has no {'[sample]' if definition.sample is None else 'keep'}")
+    inputs = _inputs(definition.sample, study.parent)
+    axes = tuple(axis.name for axis in definition.axis)
+    file = study.parent / definition.keep
+    groups: dict[tuple[str, ...], list[keeping.Row]] = {}
+    for row in keeping.read(file):
+        lacking = next((name for name in (*axes, sampling.AXIS, *(each.head for each in inputs)) if not row.get(name)), None)
+        if lacking:
+            raise StudyError(f"{file}: a row has no {lacking}: it is of another study, or of an older version of this one; "
+                             "hydro2d sweep writes it anew")  # fmt: skip
+        groups.setdefault(tuple(row[name] for name in (*axes, CELLS)), []).append(row)
+    if not groups:
+        raise StudyError(f"{file}: has no rows yet")
+    return [_samples(definition.title, inputs, dict(zip((*axes, CELLS), labels, strict=True)), rows, definition.sample.results)
+            for labels, rows in groups.items()]  # fmt: skip
+
+
+def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
+    if sample.table is not None:
+        return sampling.read(folder / sample.table).inputs
+    try:
+        return tuple(Distribution.of_input(key, given) for key, given in sample.input.items())
+    except ValueError as error:
+        raise StudyError(f"sample.input: {error}") from None
+
+
+def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str], rows: list[keeping.Row],
+             wanted: tuple[str, ...]) -> Samples:  # fmt: skip
+    rows = sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER])))
+    table = [{sampling.AXIS: row[sampling.AXIS], MEMBER: row[MEMBER], **{each.head: row[each.head] for each in inputs},
+              **sample_table.of_kept(row)} for row in rows]  # fmt: skip
+    columns = of_columns({name: [str(row.get(name) or "") for row in table] for name in table[0]}, inputs)
+    words = [f"{name} {label}" for name, label in labels.items() if label]
+    return Samples(", ".join([title, *words]), inputs, columns, names=("",) * len(rows), wanted=wanted, labels=labels)
