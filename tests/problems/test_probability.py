@@ -1,0 +1,120 @@
+"""The shots with uncertain inputs: the logistic function, what follows from it, and the tables of the page."""
+
+import functools
+
+import numpy as np
+import pytest
+
+import hydro2d
+from hydro2d.study.plan.distributions import Distribution
+from problems.cth_nose_shape import probability, rigid_rod
+from problems.cth_nose_shape.probability import FACTOR, FRICTION, LAW, PLATE_FACTOR, VELOCITY
+from problems.cth_nose_shape.rigid_rod import Shot
+
+LAWS = ("strong", "weak")
+INPUTS = (
+    Distribution(VELOCITY.partition(" (")[0], "normal", "m/s", (0.0, 3.0), relative="difference"),
+    Distribution(LAW, "choice", levels=LAWS, weights=(0.5, 0.5)),
+    Distribution(FACTOR, "uniform", numbers=(0.92, 1.08)),
+    Distribution(PLATE_FACTOR, "uniform", numbers=(0.87, 1.13)),
+    Distribution(FRICTION, "uniform", numbers=(0.0, 0.05)),
+)
+SHOTS = [shot for shot in rigid_rod.experiments() if shot.nose == "hemispherical"]
+#: half of the rods are held at 1100 (1 + the number of the law), times the factor, over that of the plate; chance by 1 %
+HALF, CHANCE = {"strong": 1180.0, "weak": 1080.0}, 0.01
+
+
+def half(law, factor, plate):
+    return HALF[law] * factor**0.8 / plate**0.5
+
+
+def made_up(shot, number=64, seed=0):
+    """Rows of a shot whose outcomes follow (1) with coefficients that are known."""
+    generator = np.random.default_rng(seed + int(shot.velocity))
+    cube = generator.random((number, len(INPUTS)))
+    columns = {each.head: np.array(each.values(cube[:, at])) for at, each in enumerate(INPUTS)}
+    middle = np.array([half(*each) for each in zip(columns[LAW], columns[FACTOR], columns[PLATE_FACTOR], strict=True)])
+    lost = np.log((shot.velocity + columns[VELOCITY]) / middle) + CHANCE * generator.logistic(size=number) > 0.0
+    columns |= {"row": np.arange(1.0, number + 1), "status": np.full(number, "done"), "perforated": np.full(number, "no"),
+                "depth_m": np.where(lost, 0.2, 0.4), "length_ratio": np.where(lost, 0.3, 0.95)}  # fmt: skip
+    return hydro2d.Samples(str(shot), INPUTS, columns)
+
+
+@functools.cache
+def inferred(seed=0, number=64):
+    return probability.inferred({shot: made_up(shot, number, seed) for shot in SHOTS})
+
+
+def test_the_logistic_function_is_that_of_a_known_case():
+    """With a constant alone, Firth's correction adds half a success and half a failure."""
+    (b,), _ = probability.logistic(np.ones((10, 1)), np.array([1.0] * 3 + [0.0] * 7))
+    assert 1.0 / (1.0 + np.exp(-b)) == pytest.approx(3.5 / 11.0, rel=1e-9)
+    apart, _ = probability.logistic(np.column_stack([np.ones(8), np.arange(8.0) - 3.5]), np.arange(8) > 3)
+    assert np.isfinite(apart).all(), "outcomes that do not overlap"
+
+
+def test_the_velocity_of_the_change_is_found():
+    inside = 0
+    for seed in range(5):
+        inference = inferred(seed)
+        for alloy in rigid_rod.ALLOYS:
+            found = inference.half[alloy]
+            plate = np.roll(inference.at.plate, rigid_rod.ALLOYS.index(alloy))
+            for number, law in enumerate(LAWS):
+                true = half(law, inference.at.factor, plate)[inference.at.law == number].mean()
+                low, high = np.quantile(found[:, inference.at.law == number].mean(axis=1), (0.05, 0.95))
+                inside += low <= true <= high
+    assert inside >= 15, "of twenty 90 % intervals"
+    assert inferred().chance["5083"] == pytest.approx(CHANCE * probability.LOGISTIC, rel=0.6)
+
+
+def test_the_probability_of_all_outcomes_together():
+    """Against the integral over the inputs with the true function."""
+    inference, measured, generator = inferred(number=400), rigid_rod.experiments(), np.random.default_rng(7)
+    factor, plates = generator.uniform(0.92, 1.08, 4000), dict.fromkeys(rigid_rod.ALLOYS)
+    for alloy in plates:
+        plates[alloy] = generator.uniform(0.87, 1.13, 4000)
+    together = inference.of_law(inference.together)
+    for number, law in enumerate(LAWS):
+        product = np.ones(4000)
+        for shot in SHOTS:
+            speed = shot.velocity + generator.normal(0.0, 3.0, 4000)
+            lost = 1.0 / (1.0 + np.exp(-np.log(speed / half(law, factor, plates[shot.alloy])) / CHANCE))
+            product *= 1.0 - lost if measured[shot].rigid else lost
+        low, high = np.quantile(together[:, number], (0.01, 0.99))
+        assert low <= product.mean() <= high
+        assert product.mean() > 0.02
+
+
+def test_rows_with_another_outcome_weigh_less(monkeypatch):
+    monkeypatch.setattr(probability, "STRENGTH", {"strong": (2000.0,) * 3, "weak": (1600.0,) * 3})
+    inference = inferred()
+    stress = np.where(inference.at.law == 0, 2000.0, 1600.0) * inference.at.factor
+    weights = inference.together.mean(axis=0)
+    low, middle, high = probability._quantiles(stress, weights)
+    line = probability.strengths(inference)[2]
+    assert line.startswith("| 0.1 | ")
+    assert f"| {middle:.0f} MPa, {low:.0f} to {high:.0f} |" in line
+    assert high - low < np.quantile(stress, 0.95) - np.quantile(stress, 0.05)
+    assert probability._quantiles(np.arange(101.0), np.ones(101))[1] == 50.0
+
+
+def test_the_tables(monkeypatch):
+    found = {shot: made_up(shot) for shot in SHOTS}
+    lines = probability.outcomes(found)
+    shot = SHOTS[0]
+    right = (found[shot].columns["length_ratio"] > 0.5) == rigid_rod.experiments()[shot].rigid
+    assert f"{right.sum()} of 64" in lines[2]
+    assert len(lines) == 2 + len(SHOTS)
+    inference = inferred()
+    after = [line.split(" | ")[-1] for line in probability.likelihoods(inference)[2:4]]
+    assert sum(float(cell.split(" ")[0]) for cell in after) == pytest.approx(1.0, abs=0.02)
+    assert "| 5083 | 1086 to 1200 m/s | " in probability.halves(inference)[2]
+
+
+def test_what_perforates_reaches_as_far_as_the_plate():
+    sample = made_up(Shot("hemispherical", "5083", 1086.0))
+    sample.columns["perforated"] = np.full(64, "yes")
+    assert set(probability.reach(sample)) == {rigid_rod.PLATE}
+    sample.columns["status"][:3] = "unphysical"
+    assert len(probability.reach(sample)) == len(probability.held(sample)) == 61
