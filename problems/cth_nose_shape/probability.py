@@ -284,7 +284,8 @@ def shares(found: dict[Shot, hydro2d.Samples], result: str = "length_ratio") -> 
         except hydro2d.StudyError:
             lines.append(f"| {shot} | " + " | ".join([""] * len(NAMES)) + f" | | {sample.surrogate(result).q2:.2f} |")
             continue
-        cells = [f"{each.total:.2f} ({each.total_low:.2f} to {each.total_high:.2f})" for each in map(indices.__getitem__, NAMES)]
+        of_inputs = [indices[name] for name in NAMES]
+        cells = [f"{each.total:.2f} ({each.total_low:.2f} to {each.total_high:.2f})" for each in of_inputs]
         variance = np.nanvar(sample.values(result))
         lines.append(f"| {shot} | {' | '.join(cells)} | {indices.surrogate.noise**2 / variance:.2f} "
                      f"| {indices.surrogate.q2:.2f} |")  # fmt: skip
