@@ -3,7 +3,7 @@
 A row identifies its run by the labels of the case, cells across the projectile, and member; by the set-up, a hash of everything
 in the deck that can change a result; and by the version of the method. A run with a row of its set-up and of this method is up
 to date, and a sweep does not repeat it. The row of another set-up or method is stale. It stays until its run has been made.
-The row of a run of a sample has the values of its inputs as well.
+The row of a run of a sample has the values of its inputs as well, and the results that the sample names.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.members import cells_across, projectile
 from hydro2d.study.records import study_directory
+from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case
 from hydro2d.study.records.table import ratio
 
@@ -76,11 +77,15 @@ def setup(deck: decks.Deck) -> str:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A case of a plan, with the entries that its row must have to be up to date. ``inputs`` : of a sample, by their heads."""
+    """A case of a plan, with the entries that its row must have to be up to date.
+
+    inputs : of a sample, by their heads;  more : names of the results that it asks for
+    """
 
     case: Planned
     axes: tuple[str, ...]
     inputs: Row = field(default_factory=dict)
+    more: tuple[str, ...] = ()
 
     @cached_property
     def deck(self) -> decks.Deck:
@@ -104,6 +109,8 @@ class Wanted:
         commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
         entries = {**results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
                    "date": (origin.get("written") or "")[:10]}  # fmt: skip
+        numbers = flatten(summary) if self.more else {}
+        entries |= {name: numbers.get(name) for name in self.more}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 
@@ -199,7 +206,8 @@ class Keeper:
         if self.rows and (strange := [name for name in self.axes if name not in self.rows[0]]):
             raise StudyError(f"{self.path}: is of another study: it has no column {strange[0]}")
         self.heads = tuple(each.head for each in plan.sample.inputs) if plan.sample else ()
-        self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan, case)) for case in plan.cases if case.text}
+        self.more = plan.sample.results if plan.sample else ()
+        self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan, case), self.more) for case in plan.cases if case.text}
 
     def fresh(self, names: Iterable[str]) -> set[str]:
         """Those of the cases of the plan that are up to date."""
@@ -246,7 +254,7 @@ class Keeper:
         self.rows = sorted(kept.values(), key=self._place)
         self.path.parent.mkdir(exist_ok=True)
         text = io.StringIO()
-        heads = (*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *ORIGIN)
+        heads = (*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN)
         table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")
         table.writeheader()
         table.writerows(self.rows)

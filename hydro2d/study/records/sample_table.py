@@ -62,7 +62,7 @@ def _about(case: Case, sample: Points, labels: Mapping[str, str], members: bool)
 def _results(case: Case, kept: keeping.Row, more: Sequence[str]) -> Row:
     """State and results of a case: those of its run, or of the row that the study keeps; only the state before its end."""
     if case.status not in keeping.ENDED:
-        return {STATUS: case.status} if not kept else of_kept(kept)
+        return {STATUS: case.status} if not kept else of_kept(kept, more)
     summary = case.summary
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
     perforated = None if row["depth_m"] is None else perforates(summary)
@@ -76,9 +76,9 @@ def _results(case: Case, kept: keeping.Row, more: Sequence[str]) -> Row:
     return {STATUS: case.status} | row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more))}
 
 
-def of_kept(kept: keeping.Row) -> Row:
-    """State and results of a row that the study keeps."""
-    row: Row = {name: kept.get(name, "") for name in (STATUS, *RESULTS) if name != PERFORATED}
+def of_kept(kept: keeping.Row, more: Sequence[str]) -> Row:
+    """State and results of a row that the study keeps. ``more`` : names of the results that the sample asks for."""
+    row: Row = {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more) if name != PERFORATED}
     if kept.get("depth_m") and kept[REGIME] != "left the mesh":
         stopped = not kept[RESIDUAL] or kept["stop_reason"].startswith(RESTED)
         row[PERFORATED] = NO if stopped else YES

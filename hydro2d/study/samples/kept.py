@@ -54,7 +54,7 @@ def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str
              wanted: tuple[str, ...]) -> Samples:  # fmt: skip
     rows = sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER])))
     table = [{sampling.AXIS: row[sampling.AXIS], MEMBER: row[MEMBER], **{each.head: row[each.head] for each in inputs},
-              **sample_table.of_kept(row)} for row in rows]  # fmt: skip
+              **sample_table.of_kept(row, wanted)} for row in rows]  # fmt: skip
     columns = of_columns({name: [str(row.get(name) or "") for row in table] for name in table[0]}, inputs)
     words = [f"{name} {label}" for name, label in labels.items() if label]
     return Samples(", ".join([title, *words]), inputs, columns, names=("",) * len(rows), wanted=wanted, labels=labels)
