@@ -170,6 +170,17 @@ def test_kept_rows_replace_runs(tmp_path):
     assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
 
 
+def test_values_of_inputs_for_the_surrogate(whole):
+    samples = hydro2d.open_study(whole).samples()
+    velocity, factor = (samples.columns[name] for name in samples.heads)
+    cube = samples.points({"body.rod.strength_factor": factor, samples.heads[0]: velocity})
+    assert cube == pytest.approx(samples.cube(samples.columns["row"]))
+    with pytest.raises(StudyError, match=r'unknown input "velocity"'):
+        samples.points({"velocity": [1100.0]})
+    with pytest.raises(StudyError, match=r"there are no values of body\.rod\.strength_factor"):
+        samples.points({"body.rod.velocity": [1100.0]})
+
+
 def test_samples_from_kept_rows(tmp_path):
     text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)
     directory, _ = swept(tmp_path, failing, text=text)

@@ -232,6 +232,23 @@ class Samples:
         except StudyError as error:
             raise StudyError(f"{result}: {error}") from None
 
+    def points(self, values: Mapping[str, Sequence | np.ndarray]) -> np.ndarray:
+        """Points of the unit cube, float64[n, inputs], for the surrogate: those with these values of the inputs.
+
+        values : of every input by its deck key or its column, in the unit of the column, n each
+
+        Raises StudyError for an unknown or a missing input.
+        """
+        names = {name: each for each in self.inputs for name in (each.key, each.head)}
+        given = {}
+        for name, own in values.items():
+            if name not in names:
+                raise StudyError(unknown("input", name, self.heads))
+            given[names[name]] = own
+        if missing := [each.head for each in self.inputs if each not in given]:
+            raise StudyError(f"there are no values of {missing[0]}")
+        return np.column_stack([each.points(given[each]) for each in self.inputs])
+
     def cube(self, rows: np.ndarray) -> np.ndarray:
         """The points of rows in the unit cube, float64[n, inputs]: the cumulative probability of each value."""
         at = {int(row): number for number, row in reversed(list(enumerate(self.columns[sampling.AXIS])))}
