@@ -51,7 +51,7 @@ LAWS = {"Steinberg-Guinan": "tungsten into aluminium", "Johnson-Cook, sintered":
         "Johnson-Cook, 90W": "tungsten into aluminium, 90W-7Ni-3Fe", "Johnson-Cook, Y925": "tungsten into aluminium, Y925"}
 #: relative standard deviation of measurements where a source gives it: Odermatt's fit, 2 to 3 % (problems/long_rods/README.md)
 ERRORS = {"tungsten into armour steel": 0.03, HARDNESS: 0.03}
-#: measured length of the bar of problems/classic, mm: Johnson & Cook (1983), quoted from memory
+#: measured length of the bar of problems/classic, mm: Johnson & Cook (1983), as copper_bars.csv has it
 BAR_LENGTH = 16.2
 #: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv, and of the bars in classic
 LONG_ROD, BARS = 6.5, {"methods.csv": 8.0, "methods_fine.csv": 16.0}

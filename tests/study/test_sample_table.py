@@ -1,6 +1,7 @@
 """samples.csv: the same file to the byte however the runs were made; kept rows; the commands and the page of a sample."""
 
 import csv
+import re
 import signal
 import time
 
@@ -11,7 +12,7 @@ import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
-from hydro2d.study.records import sample_table, study_directory
+from hydro2d.study.records import keeping, sample_table, study_directory
 from hydro2d.study.report.report import report
 from hydro2d.study.run import cluster, sweep
 from hydro2d.study.run.case import Outcome
@@ -168,6 +169,17 @@ def test_kept_rows_replace_runs(tmp_path):
         assert float(kept["depth_m"]) == pytest.approx(float(row["depth_m"]), rel=1e-5)
         assert (kept["row"], kept["regime"], kept["status"]) == (row["row"], row["regime"], "done")
     assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
+
+
+def test_kept_inputs_are_numbers_even_below_zero(tmp_path):
+    """Text that begins with a minus has an apostrophe before it in a table, so that no spreadsheet takes it for a formula."""
+    text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)
+    relative = re.sub(r"(velocity.*\n)uniform = .*", r'\1uniform = ["-9 m/s", "-1 m/s"]\nrelative = "difference"', text)
+    assert relative != text
+    plan = cases.plan(made_up.study_file(tmp_path, relative), quiet=True)
+    head = plan.sample.inputs[0].head
+    for case, row in zip(plan.cases, plan.sample.rows, strict=True):
+        assert float(keeping.Keeper(plan).wanted[case.name].inputs[head]) == row[0] < 0.0
 
 
 def test_values_of_inputs_for_the_surrogate(whole):

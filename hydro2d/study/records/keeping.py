@@ -119,7 +119,8 @@ def _inputs(plan: Plan, case: Planned) -> Row:
     if plan.sample is None:
         return {}
     values = plan.sample.rows[int(case.values[sampling.AXIS]) - 1]
-    return {each.head: cell(str(value)) for each, value in zip(plan.sample.inputs, values, strict=True)}
+    return {each.head: cell(value) if isinstance(value, str) else repr(value)
+            for each, value in zip(plan.sample.inputs, values, strict=True)}  # fmt: skip
 
 
 def results(summary: Mapping) -> dict[str, object]:
