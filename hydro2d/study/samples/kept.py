@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from hydro2d.deck import deck as decks
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError, read
 from hydro2d.study.plan.distributions import Distribution
@@ -16,12 +17,12 @@ from hydro2d.study.samples.results import Samples, of_columns
 def kept_samples(study: str | Path) -> list[Samples]:
     """The samples of a study with ``[sample]`` and ``keep``, from its kept rows: one for each case and number of cells.
 
-    study : the study file
+    study : the study file, or the path of a shipped one below ``problems``
 
     ``labels`` of each has the labels on the axes, and ``cells_across``. Raises StudyError if the study has no sample, keeps no
-    rows, or if its rows lack the inputs.
+    rows, or if its rows lack the inputs; DeckError if there is no such file.
     """
-    study = Path(study)
+    study = decks.find(study)
     definition = read(study, ())[0]
     if definition.sample is None or definition.keep is None:
         raise StudyError(f"{study}: has no {'[sample]' if definition.sample is None else 'keep'}")
