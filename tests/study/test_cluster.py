@@ -10,6 +10,7 @@ import pytest
 import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.records import sample_table
 from hydro2d.study.run import cluster
 from tests.study import tubes
 
@@ -59,6 +60,18 @@ def test_members_on_a_cluster_have_the_bits_of_those_on_this_machine(tmp_path, o
     there, here = ([tubes.bits(tmp_path / place / "cases" / name) for name in names] for place in ("cluster", "here"))
     assert there == here
     assert here[0] != here[1]
+
+
+@pytest.mark.thorough
+def test_a_sample_on_a_cluster_is_the_same_table(tmp_path, others):
+    study = 'title = "Tubes"\ndeck = "tube.toml"\n[set]\nstop.time = 0.01\n[sample]\nmethod = "sobol"\nn = 2\n'
+    sample = 'by = ["first step"]\n[sample.input."body.low.pressure"]\nuniform = [0.1, 0.2]\n'
+    file = tubes.write(tmp_path, study + sample)
+    assert call(["sweep", str(file), "--scheduler", others(1), "--out", str(tmp_path / "cluster")]) == 0
+    assert call(["sweep", str(file), "--workers", "1", "--out", str(tmp_path / "here")]) == 0
+    tables = [(tmp_path / place / sample_table.FILE).read_bytes() for place in ("cluster", "here")]
+    assert tables[0] == tables[1]
+    assert tables[0].count(b"done") == 2
 
 
 @pytest.mark.thorough
