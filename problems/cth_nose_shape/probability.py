@@ -22,6 +22,7 @@ coefficients of (1) are known to within the error of their fit; the intervals ar
 from __future__ import annotations
 
 import argparse
+import contextlib
 import functools
 import sys
 from dataclasses import dataclass
@@ -275,20 +276,38 @@ def halves(inference: Inference) -> list[str]:
     return lines
 
 
-def shares(found: dict[Shot, hydro2d.Samples], result: str = "length_ratio") -> list[str]:
+def shares(found: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[str]:
     """Lines of Markdown: the Sobol indices of a result for each shot, with interactions, and the error of the surrogate."""
-    lines = [f"| shot | {' | '.join(NAMES.values())} | unexplained | Q2 |", "|---" * (3 + len(NAMES)) + "|"]
+    lines = [f"| shot | {' | '.join(NAMES.values())} | Q2 |", "|---" * (2 + len(NAMES)) + "|"]
     for shot, sample in found.items():
-        try:
+        cells = [""] * len(NAMES)
+        with contextlib.suppress(hydro2d.StudyError):  # the surrogate is too poor for indices
             indices = sample.indices(result)
-        except hydro2d.StudyError:
-            lines.append(f"| {shot} | " + " | ".join([""] * len(NAMES)) + f" | | {sample.surrogate(result).q2:.2f} |")
-            continue
-        of_inputs = [indices[name] for name in NAMES]
-        cells = [f"{each.total:.2f} ({each.total_low:.2f} to {each.total_high:.2f})" for each in of_inputs]
-        variance = np.nanvar(sample.values(result))
-        lines.append(f"| {shot} | {' | '.join(cells)} | {indices.surrogate.noise**2 / variance:.2f} "
-                     f"| {indices.surrogate.q2:.2f} |")  # fmt: skip
+            of_inputs = [indices[name] for name in NAMES]
+            cells = [f"{each.total:.2f} ({each.total_low:.2f} to {each.total_high:.2f})" for each in of_inputs]
+        lines.append(f"| {shot} | {' | '.join(cells)} | {sample.surrogate(result).q2:.2f} |")
+    return lines
+
+
+def validation(found: dict[Shot, hydro2d.Samples], cells: float = 5.5) -> list[str]:
+    """Lines of Markdown: how far the mean depth is from the measured one, and the uncertainties by cause, cm (ASME V&V 20).
+
+    u_num : of the members of each law in results/twelve_shots.csv;  u_input : of the rows, without u_num
+    """
+    members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in found]
+    lines = ["| shot | measured | computed minus measured | u_num | u_input | over u_val |", "|---" * 6 + "|"]
+    for shot, sample in found.items():
+        by_law: dict[str, list[float]] = {}
+        for run in members:
+            if run.shot == shot:
+                by_law.setdefault(run.column, []).append(run.reach)
+        numerical = float(np.mean([np.var(depths, ddof=1) for depths in by_law.values() if len(depths) > 1]))
+        of_rows = float(np.var(reach(sample), ddof=1))
+        told = rigid_rod.experiments()[shot]
+        error = float(reach(sample).mean()) - 1e2 * told.depth
+        of_inputs = max(of_rows - numerical, 0.0)
+        lines.append(f"| {shot} | {told} | {error:+.1f} cm | {numerical**0.5:.1f} | {of_inputs**0.5:.1f} "
+                     f"| {error / (numerical + of_inputs) ** 0.5:+.1f} |")  # fmt: skip
     return lines
 
 
@@ -336,7 +355,8 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         found = samples()
         inference = inferred(found)
-        for lines in (outcomes(found), likelihoods(inference), strengths(inference), halves(inference), shares(found)):
+        for lines in (outcomes(found), validation(found), likelihoods(inference), strengths(inference), halves(inference),
+                      shares(found)):  # fmt: skip
             print("\n".join([*lines, ""]))
         if given.figure:
             hydro2d.save_figure(draw(found), given.figure)

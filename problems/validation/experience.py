@@ -53,6 +53,9 @@ LAWS = {"Steinberg-Guinan": "tungsten into aluminium", "Johnson-Cook, sintered":
 ERRORS = {"tungsten into armour steel": 0.03, HARDNESS: 0.03}
 #: measured length of the bar of problems/classic, mm: Johnson & Cook (1983), as copper_bars.csv has it
 BAR_LENGTH = 16.2
+#: that bar in copper_bars.csv; cells across the radius of the sample; yield stress and hardening of copper as published, MPa
+SAME_BAR, CELLS_OF_BARS = "Johnson-190", 8.0
+PUBLISHED = {"materials.copper.strength.yield_stress": (90.0,), "materials.copper.strength.hardening": (292.0,)}
 #: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv, and of the bars in classic
 LONG_ROD, BARS = 6.5, {"methods.csv": 8.0, "methods_fine.csv": 16.0}
 #: significant digits of a number in the file
@@ -222,12 +225,21 @@ def driven() -> list[Shot]:
 
 
 def bars() -> list[Shot]:
-    """The length of a Taylor bar of copper, with every advection on two meshes."""
+    """The lengths of Taylor bars of copper: one with every advection on two meshes, the others by the surrogate of a sample."""
     runs = [(run.value / BAR_LENGTH, cells) for name, cells in BARS.items()
             for run in classic.read(PROBLEMS / "classic" / "results" / name)
             if (run.shot, run.sliding, run.status) == ("taylor_bar", "none", "trusted")]  # fmt: skip
     ratios, cells = zip(*runs, strict=True)
-    return [Shot(BAR, "length", impact("classic/taylor_bar.toml"), "", ratios, velocity=190.0, cells=cells)]
+    what = impact("classic/taylor_bar.toml")
+    compared = [Shot(BAR, "length", what, "", ratios, velocity=190.0, cells=cells)]
+    measured = {row["bar"]: row for row in kept.rows(HERE / "copper_bars.csv", ("bar", "velocity_m_s", "final_length_mm"))}
+    for sample in hydro2d.kept_samples(HERE / "copper_bars.toml"):
+        row = measured[sample.labels["bar"]]
+        if row["bar"] != SAME_BAR:
+            length = float(sample.surrogate("bodies.bar.length_m")(sample.points(PUBLISHED))[0])
+            compared.append(Shot(BAR, "length", what, "", (1e3 * length / float(row["final_length_mm"]),),
+                                 velocity=float(row["velocity_m_s"]), cells=(CELLS_OF_BARS,)))  # fmt: skip
+    return compared
 
 
 def shields() -> list[Shot]:
