@@ -69,6 +69,15 @@ def test_sums_have_no_interactions_and_choices_have_levels():
     assert [len(figure.axes) for figure in (samples.scatter("y"), samples.tornado("y"))] == [2, 1]
 
 
+def test_the_ends_of_a_bar_stand_apart_even_on_one_side_of_the_middle():
+    samples = sample(ANGLES[:1], lambda x1: (x1 + 0.5) ** 2, 64, 0)
+    (effect,), axes = samples.effects("y"), samples.tornado("y").axes[0]
+    middle = float(samples.surrogate("y")(np.array([[0.5]]))[0])
+    assert min(effect.low, effect.high) > middle
+    places = sorted((text.xy[0], text.get_ha()) for text in axes.texts)
+    assert places == [(pytest.approx(middle), "right"), (pytest.approx(max(effect.low, effect.high)), "left")]
+
+
 def test_chance_is_told_from_the_inputs():
     noise = 0.3 * np.random.default_rng(3).standard_normal(128)
     samples = sample(ANGLES[:2], lambda x1, x2: x1 + 0.0 * x2 + noise, 128, 0)

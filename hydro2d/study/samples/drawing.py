@@ -72,11 +72,13 @@ def tornado(samples, result: str):
     figure, ((place,),) = figures.new_figure(6.4, 1.3 + 0.45 * len(effects))
     for number, each in enumerate(effects):
         ends = each.low * factor, each.high * factor
-        for end, at, colour in zip(ends, (each.at_low, each.at_high), ("C0", "C1"), strict=True):
+        for end, colour in sorted(zip(ends, ("C0", "C1"), strict=True), key=lambda bar: -abs(bar[0] - middle)):
             place.barh(number, end - middle, left=middle, color=colour, height=0.6)
-            outwards = "right" if end < middle else "left"
-            place.annotate(verbatim(at), (end, number), (-3 if end < middle else 3, 0), textcoords="offset points", ha=outwards,
-                           va="center", fontsize=7)  # fmt: skip
+        (low, at_low), (high, at_high) = sorted(zip(ends, (each.at_low, each.at_high), strict=True))
+        sides = (at_low, min(low, middle), -3, "right"), (at_high, max(high, middle), 3, "left")  # both may lie on one side
+        for at, end, offset, side in sides:
+            place.annotate(verbatim(at), (end, number), (offset, 0), textcoords="offset points", ha=side, va="center",
+                           fontsize=7)  # fmt: skip
     place.set_yticks(range(len(effects)), [verbatim(each.input) for each in effects], fontsize=8)
     place.invert_yaxis()
     place.margins(x=0.25)
