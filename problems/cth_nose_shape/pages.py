@@ -9,13 +9,14 @@ With --check nothing is written, and the status is 1 if a page has another table
 from __future__ import annotations
 
 import argparse
+import functools
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import hydro2d
 from problems import kept
-from problems.cth_nose_shape import findings, members, rigid_rod, transitions
+from problems.cth_nose_shape import findings, members, probability, rigid_rod, transitions
 
 HERE = Path(__file__).parent
 PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape"))
@@ -71,6 +72,20 @@ def _of_advection(make: Callable[[findings.Runs], list[str]]) -> Callable[[], li
     return lines
 
 
+@functools.cache
+def _samples() -> dict[rigid_rod.Shot, hydro2d.Samples]:
+    return probability.samples()
+
+
+@functools.cache
+def _inferred() -> probability.Inference:
+    return probability.inferred(_samples())
+
+
+def _uncertain_notes() -> list[str]:
+    return rigid_rod.notes(rigid_rod.read(RESULTS / "uncertain_shots.csv", USUAL))
+
+
 TABLES: dict[str, Callable[[], list[str]]] = {
     "shots": _shots, "scores": _scores, "meshes": _meshes, "holes": _holes, "transitions": _transitions,
     "hemispherical": _of_advection(lambda found: findings.depths(found, HEMISPHERICAL)),
@@ -79,6 +94,12 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "schemes": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "advection")),
     "failures": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "failure")),
     "slidings": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "sliding")),
+    "uncertain_outcomes": lambda: [*probability.outcomes(_samples()), *_uncertain_notes()],
+    "uncertain_depths": lambda: probability.validation(_samples()),
+    "uncertain_laws": lambda: probability.likelihoods(_inferred()),
+    "uncertain_strengths": lambda: probability.strengths(_inferred()),
+    "uncertain_velocities": lambda: probability.halves(_inferred()),
+    "uncertain_shares": lambda: probability.shares(_samples()),
 }  # fmt: skip
 
 

@@ -246,9 +246,9 @@ def strengths(inference: Inference) -> list[str]:
     """Lines of Markdown: the flow stress of the rod at three strains before and after the experiments."""
     weights = inference.together.mean(axis=0)
     stress = np.array([STRENGTH[law] for law in inference.laws])[inference.at.law] * inference.at.factor[:, None]
-    lines = ["| plastic strain | before: median, 5 to 95 % | after: median, 5 to 95 % |", "|---|---|---|"]
+    lines = ["| | before: median, 5 to 95 % | after: median, 5 to 95 % |", "|---|---|---|"]
     for strain, values in zip(STRAINS, stress.T, strict=True):
-        lines.append(f"| {strain:g} | {_before_and_after(values, weights, 0, ' MPa')} |")
+        lines.append(f"| flow stress at a plastic strain of {strain:g} | {_before_and_after(values, weights, 0, ' MPa')} |")
     for number, law in enumerate(inference.laws):
         chosen = inference.at.law == number
         lines.append(f"| factor of {law} | {_before_and_after(inference.at.factor[chosen], weights[chosen], 2)} |")
@@ -263,7 +263,7 @@ def _before_and_after(values: np.ndarray, weights: np.ndarray, digits: int, unit
 
 def halves(inference: Inference) -> list[str]:
     """Lines of Markdown: the velocity of the change for each plate, with its uncertainty by cause."""
-    lines = ["| plate | experiments | half of the rods | u_num | u_input | of it with one law | u_fit |", "|---" * 7 + "|"]
+    lines = ["| plate | experiments | half of the rods | u_num, m/s | u_input, m/s | u_input with one law, m/s | u_fit, m/s |", "|---" * 7 + "|"]
     for alloy in ALLOYS:
         rods = sorted((shot.velocity, told.rigid) for shot, told in rigid_rod.experiments().items()
                       if shot.alloy == alloy and shot in inference.seen)  # fmt: skip

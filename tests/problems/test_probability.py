@@ -93,7 +93,7 @@ def test_rows_with_another_outcome_weigh_less(monkeypatch):
     weights = inference.together.mean(axis=0)
     low, middle, high = probability._quantiles(stress, weights)
     line = probability.strengths(inference)[2]
-    assert line.startswith("| 0.1 | ")
+    assert line.startswith("| flow stress at a plastic strain of 0.1 | ")
     assert f"| {middle:.0f} MPa, {low:.0f} to {high:.0f} |" in line
     assert high - low < np.quantile(stress, 0.95) - np.quantile(stress, 0.05)
     assert probability._quantiles(np.arange(101.0), np.ones(101))[1] == 50.0
