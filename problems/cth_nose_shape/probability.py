@@ -263,7 +263,8 @@ def _before_and_after(values: np.ndarray, weights: np.ndarray, digits: int, unit
 
 def halves(inference: Inference) -> list[str]:
     """Lines of Markdown: the velocity of the change for each plate, with its uncertainty by cause."""
-    lines = ["| plate | experiments | half of the rods | u_num, m/s | u_input, m/s | u_input with one law, m/s | u_fit, m/s |", "|---" * 7 + "|"]
+    heads = ("plate", "experiments", "half of the rods", "u_num, m/s", "u_input, m/s", "u_input with one law, m/s", "u_fit, m/s")
+    lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for alloy in ALLOYS:
         rods = sorted((shot.velocity, told.rigid) for shot, told in rigid_rod.experiments().items()
                       if shot.alloy == alloy and shot in inference.seen)  # fmt: skip

@@ -8,10 +8,12 @@ import pytest
 from scipy import stats
 
 from hydro2d.cli.main import call
-from hydro2d.study.plan import cases, sampling
+from hydro2d.study.plan import cases, members, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import Distribution
+from hydro2d.study.plan.sample_section import Sample
 from hydro2d.study.plan.sampling import Points
+from hydro2d.study.plan.scaling import Size
 from tests.study import fake, tubes
 
 BASE = f'deck = "{(tubes.ROOT / fake.BASE).as_posix()}"\n'
@@ -122,6 +124,18 @@ def test_rows_with_changes_that_should_not_matter(tmp_path):
     assert all(0.0 < abs(start - still) < 0.7e-3 for start in starts)
     again = plan(tmp_path, SOBOL.replace("n = 4", 'n = 8\nby = ["mesh offset"]') + AXIS)
     assert [case.text for case in again.cases[:4]] == [case.text for case in made.cases[:4]], "more rows keep the earlier ones"
+    with pytest.raises(StudyError, match=r"members: sample\.by makes changes already"):
+        cases.plan(tmp_path / "study.toml", quiet=True, size=Size(2))
+
+
+def test_changes_do_not_go_along_with_the_inputs():
+    sample = Sample.model_validate({"method": "sobol", "n": 64, "by": ["mesh offset", "first step"], "input": {
+        "a": {"uniform": [0, 1]}, "b": {"uniform": [0, 1]}, "c": {"uniform": [0, 1]}}})  # fmt: skip
+    rows = sampling.points(sample, [Distribution.of_input(key, each) for key, each in sample.input.items()], None).rows
+    changes = [list(members.amounts_of_row(sample, row).values()) for row in range(1, 65)]
+    between = np.corrcoef(np.array(rows).T, np.array(changes).T)[:3, 3:]
+    assert np.abs(between).max() < 0.3, "2.4 standard deviations of independent numbers"
+    assert np.ptp(changes, axis=0) == pytest.approx([1.0, 0.004], rel=0.1), "from one end to the other"
 
 
 def test_every_case_of_the_axes_has_the_same_points(tmp_path):

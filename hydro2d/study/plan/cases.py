@@ -502,7 +502,7 @@ class _Planner:
             return case
         row = int(case.values[sampling.AXIS])
         try:
-            return _changed(replace(case, changed=members.amounts(self.definition.sample, row)), deck, file)
+            return _changed(replace(case, changed=members.amounts_of_row(self.definition.sample, row)), deck, file)
         except DeckError as error:
             self._say(("sample", "by"), f"sample.by: {case.deck}: {error}")
             return case

@@ -114,19 +114,30 @@ KNOBS = {knob.name: knob for knob in (
 )}  # fmt: skip
 
 
-def amounts(ensemble: Ensemble | Sample, number: int) -> dict[str, float]:
-    """The changes of a member by name: fractions of a cell and the factor of the first step; empty for member 0.
-
-    ensemble : or a sample with ``by``, whose rows are counted from 1
-    """
+def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:
+    """The changes of a member by name: fractions of a cell and the factor of the first step; empty for member 0."""
     if number == 0:
         return {}
-    dimensions, start = len(ensemble.by), random.Random(ensemble.seed or 0).random()
+    dimensions, start = len(ensemble.by), random.Random(ensemble.seed).random()
     phi = 2.0
     for _ in range(100):  # a contraction: x = (1 + x)^(1 / (d + 1))
         phi = (1.0 + phi) ** (1.0 / (dimensions + 1))
     points = [(start + number * phi ** -(k + 1)) % 1.0 for k in range(dimensions)]
-    return {name: round(KNOBS[name].value(point), DIGITS) for name, point in zip(ensemble.by, points, strict=True)}
+    return _changes(ensemble.by, points)
+
+
+def amounts_of_row(sample: Sample, row: int) -> dict[str, float]:
+    """The changes of a row of a sample by name; rows are counted from 1. They are drawn at random, by the seed and the row.
+
+    A sequence that fills the unit cube evenly, as that of members, would go along with that of the inputs.
+    """
+    generator = random.Random(f"{sample.seed or 0}, row {row}")
+    return _changes(sample.by or (), [generator.random() for _ in sample.by or ()])
+
+
+def _changes(by: Iterable[str], points: Iterable[float]) -> dict[str, float]:
+    """Changes by name, from a point between 0 and 1 for each."""
+    return {name: round(KNOBS[name].value(point), DIGITS) for name, point in zip(by, points, strict=True)}
 
 
 def allowed(deck: decks.Deck) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
 from hydro2d.study.plan import meshes
-from hydro2d.study.plan.definition import Definition, Ensemble
+from hydro2d.study.plan.definition import Definition, Ensemble, StudyError
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,8 @@ class Size:
     def ensemble(self, definition: Definition) -> Ensemble | None:
         """How the members are made; without [ensemble] in the study, by its defaults."""
         given = definition.ensemble
+        if self.members is not None and definition.sample is not None and definition.sample.by:
+            raise StudyError("members: sample.by makes changes already, other ones in every row; leave out one of them")
         if self.members is None or (given is None and self.members == 1):
             return given
         return (given or Ensemble(repeats=2)).model_copy(update={"repeats": self.members})
