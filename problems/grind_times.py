@@ -4,7 +4,7 @@
     python -m problems.grind_times [bench.json ...] [--check]
 
 adds what `hydro2d bench` measured to grind_times.csv and fills the table of docs/explanation/speed.md from that file. The rows
-of a machine replace older ones of the same machine. Without a file the page is filled alone. With --check nothing is written,
+of a case replace older ones of the same machine. Without a file the page is filled alone. With --check nothing is written,
 and the status is 1 if the page has another table.
 """
 
@@ -45,9 +45,9 @@ def of_bench(path: Path) -> list[Row]:
 
 
 def added(old: list[Row], new: list[Row]) -> list[Row]:
-    """All rows, those of machines that were measured anew replaced."""
-    machines = {(row["processor"], row["cores"]) for row in new}
-    return [*(row for row in old if (row["processor"], row["cores"]) not in machines), *new]
+    """All rows, those of cases that a machine measured anew replaced."""
+    cases = {(row["processor"], row["cores"], row["case"]) for row in new}
+    return [*(row for row in old if (row["processor"], row["cores"], row["case"]) not in cases), *new]
 
 
 def table(rows: list[Row]) -> list[str]:

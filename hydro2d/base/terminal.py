@@ -81,6 +81,11 @@ def cell(text: str) -> str:
     return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
 
 
+def of_cell(text: str) -> str:
+    """The text that `cell` made a cell of."""
+    return text[1:] if text.startswith("'") and cell(text[1:]) == text else text
+
+
 def width() -> int:
     """Width of the terminal that shows the output, characters; NO_TERMINAL without one, unless COLUMNS is set."""
     return shutil.get_terminal_size((NO_TERMINAL, 24)).columns

@@ -161,6 +161,14 @@ def _parsed(text: str, unit: str) -> float:
     return float(f"{si:.15g}")  # 18.16 g/cm^3 is 18160, not 18159.999999999996
 
 
+def parts(text: str) -> tuple[float, str]:
+    """The number of a quantity and its unit, as it is written: "1.2 km/s" is 1.2 and "km/s". Raises ValueError."""
+    match = _NUMBER.match(text)
+    if match is None:
+        raise ValueError(f'"{text}" is not a number with its unit')
+    return float(match.group(1)), match.group(2)
+
+
 def written(value, unit: str) -> tuple[str, float]:
     """The common unit in which a quantity is written, and its factor; the SI unit ``unit`` for numbers and other text."""
     match = _NUMBER.match(value) if isinstance(value, str) else None

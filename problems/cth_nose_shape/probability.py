@@ -4,19 +4,23 @@
 
 prints tables in Markdown from the rows that `uncertain_shots.toml` keeps in results/uncertain_shots.csv, and draws the depths.
 
-A rod is held if two thirds of its length are left. The probability that it is, p(x), is a logistic function of the inputs x of
-a row, one function for each plate, fitted to the rows of its three shots by maximum likelihood with Firth's correction:
+A rod is held if two thirds of its length are left; the rod of an experiment is held if it went deeper than the hydrodynamic
+limit. The probability p that it is not held is a logistic function of the impact velocity v and the other inputs x of a row,
 
-    logit (1 - p) = b_0 + b_v ln v + b_law + b_f ln f + b_p ln f_plate + b_mu mu                                   (1)
+    logit p = (ln v - m(x)) / s,    m(x) = m_law + c_f ln f + c_p ln f_plate + c_mu mu,                            (1)
 
-with the impact velocity v, a constant for each law, the factors f on the strengths and the friction mu. Its width is chance,
-and all else that the inputs do not explain. Given x, the outcomes of shots are independent; the law, f and mu are the same for
-all shots, f_plate for all shots into a plate, and the error of v is that of a shot. So
+with a constant for each law, the factors f on the strengths and the friction mu. Half of the rods are held at the velocity
+exp m. The width s is chance, and all else that the inputs do not explain. Each plate has a function of its own, from the rows
+of the three shots into it: its numbers are drawn from their likelihood, between wide bounds, within which each of them, and
+ln s, is as probable everywhere. Where rows next to each other do not have both outcomes, they only bound s from above.
+
+Given x, the outcomes of shots are independent; the law, f and mu are the same for all shots, f_plate for all shots into a
+plate, and the error of v is that of a shot. So
 
     L(law) = mean over x of prod_shots p_shot(outcome that was seen; x)                                            (2)
 
-is the probability that a law gives all outcomes together, and p(x) of (2) weighs points x after the experiments (Bayes). The
-coefficients of (1) are known to within the error of their fit; the intervals are those of draws from it.
+is the probability that a law gives all outcomes together, and the product weighs points x after the experiments (Bayes).
+Intervals are those of the draws.
 """
 
 from __future__ import annotations
@@ -25,6 +29,7 @@ import argparse
 import contextlib
 import functools
 import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -46,13 +51,15 @@ NAMES = {VELOCITY: "velocity", LAW: "law", FACTOR: "factor of the rod", PLATE_FA
 STRAINS = (0.1, 0.5, 1.0)
 STRENGTH = {"Steinberg-Guinan": (1991.0, 2157.0, 2170.0), "JC-sintered": (2100.0, 1967.0, 1547.0),
             "JC-90W": (1777.0, 1430.0, 1072.0), "JC-Y925": (1755.0, 1528.0, 1190.0)}  # fmt: skip
-#: draws of the inputs for each law, and of the coefficients; the seed of both
-DRAWS, FITS, SEED = 2000, 200, 1
+#: draws of the inputs for each law, and of the numbers of (1); the seed of both; walkers and their steps, half to settle
+DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
+#: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_mu
+CHANCE, LAWS_WITHIN, BOUNDS = (0.003, 0.05), (-0.4, 0.4), ((0.0, 3.0), (-3.0, 0.0), (-20.0, 20.0))
 #: probability of intervals, their ends, and those of a spread
 ENDS, SPREAD = (0.05, 0.95), (0.1, 0.9)
 #: standard deviation of a logistic variable of scale 1
 LOGISTIC = np.pi / np.sqrt(3.0)
-#: velocity at which the terms of (1) vanish, m/s
+#: unit of velocities in (1), m/s
 USUAL = 1100.0
 
 
@@ -93,36 +100,39 @@ class Points:
     friction: np.ndarray
 
     def terms(self, laws: int) -> np.ndarray:
-        """The terms of (1) without the first, that of the velocity first, float64[n, 4 + laws]: a column for each law."""
-        return np.column_stack([np.log(self.velocity / USUAL), np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate),
-                                self.friction])  # fmt: skip
+        """The terms of m, float64[n, laws + 3]: a column for each law, ln f, ln f_plate, mu."""
+        return np.column_stack([np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate), self.friction])
 
 
-@dataclass(frozen=True)
-class Fit:
-    """The logistic function of a plate: its coefficients, float64[k], and draws from their error, float64[FITS, k]."""
+def walk(density: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, seed: Sequence[int]) -> np.ndarray:
+    """Points drawn from a density between bounds, float64[FITS, k], by walkers that step along lines through one another.
 
-    best: np.ndarray
-    draws: np.ndarray
+    density : the logarithm of the density at points, float64[n], from float64[n, k];  low, high : bounds, float64[k]
 
-
-def logistic(terms: np.ndarray, outcome: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients, float64[k], and their covariance, of logit P(outcome) = terms @ coefficients; terms float64[n, k].
-
-    Maximises the likelihood with Firth's correction, which keeps it finite where the outcomes do not overlap: Biometrika 80
-    (1993) 27. Raises ValueError if it does not converge.
+    The walkers begin at the best of many points between the bounds. The size and the directions of their steps follow from the
+    places of the others: Goodman and Weare, Comm. App. Math. Comp. Sci. 5 (2010) 65.
     """
-    b = np.zeros(terms.shape[1])
-    for _ in range(500):
-        p = 1.0 / (1.0 + np.exp(-terms @ b))
-        weighted = terms * (p * (1.0 - p))[:, None]
-        covariance = np.linalg.inv(terms.T @ weighted)
-        leverage = np.einsum("ij,jk,ik->i", weighted, covariance, terms)
-        step = covariance @ (terms.T @ (outcome - p + leverage * (0.5 - p)))
-        b = b + step * min(1.0, 2.0 / np.abs(step).max())
-        if np.abs(step).max() < 1e-8:
-            return b, covariance
-    raise ValueError("the logistic regression does not converge")
+    generator, dimensions = np.random.default_rng(seed), len(low)
+
+    def logarithm(places: np.ndarray) -> np.ndarray:
+        within = np.all((places > low) & (places < high), axis=1)
+        return np.where(within, density(np.clip(places, low, high)), -np.inf)
+
+    tried = low + generator.random((20 * WALKERS, dimensions)) * (high - low)
+    places = tried[np.argsort(logarithm(tried))[-WALKERS:]]
+    here, drawn, half = logarithm(places), [], WALKERS // 2
+    for step in range(STEPS):
+        for moving, others in ((slice(half), slice(half, None)), (slice(half, None), slice(half))):
+            partners = places[others][generator.integers(half, size=half)]
+            stretch = 0.5 * (1.0 + generator.random(half)) ** 2  # between 1/2 and 2, as often as 1/sqrt of it
+            there = partners + stretch[:, None] * (places[moving] - partners)
+            at = logarithm(there)
+            taken = np.log(generator.random(half)) < (dimensions - 1) * np.log(stretch) + at - here[moving]
+            places[moving] = np.where(taken[:, None], there, places[moving])
+            here[moving] = np.where(taken, at, here[moving])
+        if step >= STEPS // 2:
+            drawn.append(places.copy())
+    return np.concatenate(drawn[:: WALKERS * len(drawn) // FITS])[:FITS]
 
 
 def points(shot: Shot, sample: hydro2d.Samples, laws: list[str]) -> Points:
@@ -138,14 +148,20 @@ def laws_of(found: dict[Shot, hydro2d.Samples]) -> list[str]:
     return list(next(each.levels for each in inputs if each.head == LAW))
 
 
-def fitted(found: dict[Shot, hydro2d.Samples], alloy: str) -> Fit:
-    """The function (1) of a plate, from all shots into it."""
+def fitted(found: dict[Shot, hydro2d.Samples], alloy: str) -> np.ndarray:
+    """Draws of the numbers of (1) for a plate, from all shots into it, float64[FITS, 1 + laws + 3]: ln s and those of m."""
     laws = laws_of(found)
-    there = {shot: sample for shot, sample in found.items() if shot.alloy == alloy}
-    terms = np.vstack([points(shot, sample, laws).terms(len(laws)) for shot, sample in there.items()])
-    lost = np.concatenate([~held(sample) for sample in there.values()])
-    best, covariance = logistic(terms, lost.astype(float))
-    return Fit(best, np.random.default_rng(SEED).multivariate_normal(best, covariance, FITS, method="cholesky"))
+    there = [(points(shot, sample, laws), ~held(sample)) for shot, sample in found.items() if shot.alloy == alloy]
+    terms = np.vstack([at.terms(len(laws)) for at, _ in there])
+    speed = np.concatenate([np.log(at.velocity / USUAL) for at, _ in there])
+    sign = np.where(np.concatenate([lost for _, lost in there]), -1.0, 1.0)
+    widths = np.log(np.array(CHANCE) / LOGISTIC)
+    low, high = np.array([widths, *[LAWS_WITHIN] * len(laws), *BOUNDS]).T
+
+    def density(numbers: np.ndarray) -> np.ndarray:
+        return -np.logaddexp(0.0, sign * (speed - numbers[:, 1:] @ terms.T) * np.exp(-numbers[:, :1])).sum(axis=1)
+
+    return walk(density, low, high, (SEED, ALLOYS.index(alloy)))
 
 
 def drawn(found: dict[Shot, hydro2d.Samples]) -> tuple[Points, np.ndarray]:
@@ -166,15 +182,15 @@ class Inference:
 
     laws, alloys : in the order of the arrays;  at : points of the inputs
     seen : probability of the outcome of each shot at each point, for each draw of the coefficients, dict of float64[FITS, n]
-    half : velocity at which half of the rods are held, m/s, float64[alloys, FITS, n];  chance : its standard deviation by
-    chance, as a fraction of it, float64[alloys]
+    half : velocity at which half of the rods are held, m/s, float64[FITS, n] by alloy
+    chance : standard deviation of the velocity of the change of a rod by chance, as a fraction, float64[FITS] by alloy
     """
 
     laws: list[str]
     at: Points
     seen: dict[Shot, np.ndarray]
     half: dict[str, np.ndarray]
-    chance: dict[str, float]
+    chance: dict[str, np.ndarray]
 
     @functools.cached_property
     def together(self) -> np.ndarray:
@@ -194,16 +210,14 @@ def inferred(found: dict[Shot, hydro2d.Samples]) -> Inference:
     # the plates are of two alloys, whose factors are independent of each other: the second takes them in another order
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
-        fit = fitted(found, alloy)
-        own = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction)
-        others = own.terms(len(laws))[:, 1:]
-        load = fit.draws[:, 1:] @ others.T
-        half[alloy] = USUAL * np.exp(np.clip(-load / fit.draws[:, :1], -1.0, 1.0))
-        chance[alloy] = float(LOGISTIC / fit.best[0])
+        numbers = fitted(found, alloy)
+        terms = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction).terms(len(laws))
+        middle, width = numbers[:, 1:] @ terms.T, np.exp(numbers[:, :1])
+        half[alloy], chance[alloy] = USUAL * np.exp(middle), LOGISTIC * width[:, 0]
         for number, shot in enumerate(found):
             if shot.alloy == alloy:
-                velocity = np.log((shot.velocity + errors[number]) / USUAL)
-                lost = 1.0 / (1.0 + np.exp(-(fit.draws[:, :1] * velocity + load)))
+                speed = np.log((shot.velocity + errors[number]) / USUAL)
+                lost = 1.0 / (1.0 + np.exp(np.clip((middle - speed) / width, -500.0, 500.0)))
                 seen[shot] = 1.0 - lost if measured[shot].rigid else lost
     return Inference(laws, at, {shot: seen[shot] for shot in found}, half, chance)
 
@@ -262,8 +276,12 @@ def _before_and_after(values: np.ndarray, weights: np.ndarray, digits: int, unit
 
 
 def halves(inference: Inference) -> list[str]:
-    """Lines of Markdown: the velocity of the change for each plate, with its uncertainty by cause."""
-    heads = ("plate", "experiments", "half of the rods", "u_num, m/s", "u_input, m/s", "u_input with one law, m/s", "u_fit, m/s")
+    """Lines of Markdown: the velocity of the change for each plate, with its uncertainties by cause, m/s.
+
+    u_num : chance, median and 5 to 95 % of the draws;  u_input : of all inputs, and of those besides the law
+    u_fit : of the median, by the number of rows
+    """
+    heads = ("plate", "experiments", "half of the rods", "u_num", "u_input", "u_input with one law", "u_fit")
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for alloy in ALLOYS:
         rods = sorted((shot.velocity, told.rigid) for shot, told in rigid_rod.experiments().items()
@@ -271,10 +289,18 @@ def halves(inference: Inference) -> list[str]:
         bracket = f"{max(at for at, rigid in rods if rigid):g} to {min(at for at, rigid in rods if not rigid):g} m/s"
         half = inference.half[alloy]
         middle = float(np.median(half))
-        of_inputs, within = half.std(axis=1).mean(), half.reshape(FITS, len(inference.laws), -1).std(axis=2).mean()
-        lines.append(f"| {alloy} | {bracket} | {middle:.0f} m/s | {inference.chance[alloy] * middle:.0f} | {of_inputs:.0f} "
-                     f"| {within:.0f} | {half.mean(axis=1).std():.0f} |")  # fmt: skip
+        low, chance, high = middle * np.quantile(inference.chance[alloy], (ENDS[0], 0.5, ENDS[1]))
+        of_inputs = np.median(_width(half, axis=1))
+        within = np.median(_width(half.reshape(FITS, len(inference.laws), -1), axis=2))
+        lines.append(f"| {alloy} | {bracket} | {middle:.0f} m/s | {chance:.0f} ({low:.0f} to {high:.0f}) | {of_inputs:.0f} "
+                     f"| {within:.0f} | {_width(np.median(half, axis=1), axis=0):.0f} |")  # fmt: skip
     return lines
+
+
+def _width(values: np.ndarray, axis: int) -> np.ndarray:
+    """Half of the range that holds 68 % of values, along an axis: the standard deviation of normal ones."""
+    low, high = np.quantile(values, (0.16, 0.84), axis=axis)
+    return 0.5 * (high - low)
 
 
 def shares(found: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[str]:
@@ -291,24 +317,28 @@ def shares(found: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[
 
 
 def validation(found: dict[Shot, hydro2d.Samples], cells: float = 5.5) -> list[str]:
-    """Lines of Markdown: how far the mean depth is from the measured one, and the uncertainties by cause, cm (ASME V&V 20).
+    """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input, and u_num, cm.
 
-    u_num : of the members of each law in results/twelve_shots.csv;  u_input : of the rows, without u_num
+    u_input : standard deviation of the rows of a law, without u_num
+    u_num : of the members of a law in results/twelve_shots.csv, mean over the laws: chance, not the size of the cells
     """
     members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in found]
-    lines = ["| shot | measured | computed minus measured | u_num | u_input | over u_val |", "|---" * 6 + "|"]
+    laws = laws_of(found)
+    heads = ("shot", "measured", *laws, "u_num")
+    lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for shot, sample in found.items():
         by_law: dict[str, list[float]] = {}
         for run in members:
             if run.shot == shot:
                 by_law.setdefault(run.column, []).append(run.reach)
         numerical = float(np.mean([np.var(depths, ddof=1) for depths in by_law.values() if len(depths) > 1]))
-        of_rows = float(np.var(reach(sample), ddof=1))
-        told = rigid_rod.experiments()[shot]
-        error = float(reach(sample).mean()) - 1e2 * told.depth
-        of_inputs = max(of_rows - numerical, 0.0)
-        lines.append(f"| {shot} | {told} | {error:+.1f} cm | {numerical**0.5:.1f} | {of_inputs**0.5:.1f} "
-                     f"| {error / (numerical + of_inputs) ** 0.5:+.1f} |")  # fmt: skip
+        told, law = rigid_rod.experiments()[shot], column(sample, LAW)
+        cells_of_shot = []
+        for each in laws:
+            depths = reach(sample)[law == each]
+            of_inputs = max(float(np.var(depths, ddof=1)) - numerical, 0.0)
+            cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f}")
+        lines.append(f"| {shot} | {told} | {' | '.join(cells_of_shot)} | {numerical**0.5:.1f} |")
     return lines
 
 

@@ -55,5 +55,4 @@ def test_intervals_contain_the_constants_of_made_up_lengths(fit):
         for name, values in zip(names, (fit["yields"], fit["hardenings"], stress), strict=True):
             low, _, high = fit["interval"](values, weights)
             inside[name] += low <= values[true] <= high
-    print(inside)
-    assert all(32 <= number for number in inside.values()), inside
+    assert all(32 <= number <= 39 for number in inside.values()), inside

@@ -8,7 +8,7 @@ import pytest
 from scipy import stats
 
 from hydro2d.cli.main import call
-from hydro2d.study.plan import cases, members, sampling
+from hydro2d.study.plan import cases, members, relating, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import Distribution
 from hydro2d.study.plan.sample_section import Sample
@@ -105,7 +105,7 @@ values = ["1086 m/s", "1.2 km/s"]
 
 @pytest.mark.parametrize(("key", "said"), [
     ("body.rod.strength_factor", "the deck gives no value of body.rod.strength_factor, to which"),
-    ("body.rod.material", "'W_alloy' is not a number with its unit"),
+    ("body.rod.material", '"W_alloy" is not a number with its unit'),
     ("mesh.r", "mesh.r of the deck is ["),
 ])  # fmt: skip
 def test_a_deck_without_a_value_to_relate_to_is_refused(tmp_path, key, said):
@@ -113,6 +113,17 @@ def test_a_deck_without_a_value_to_relate_to_is_refused(tmp_path, key, said):
     lines = refused(tmp_path, text)
     assert lines[0].startswith("study.toml:"), lines
     assert said in lines[0], lines
+
+
+def test_units_that_do_not_begin_at_zero_relate_to_nothing(tmp_path):
+    warm = f'include = "{(tubes.ROOT / fake.BASE).as_posix()}"\n[[body]]\nname = "rod"\ntemperature = "20 degC"\n'
+    (tmp_path / "warm.toml").write_text(warm)
+    for numbers in ('uniform = ["1 degC", "2 degC"]\nrelative = "difference"', 'uniform = [0.9, 1.1]\nrelative = "factor"'):
+        text = f'deck = "warm.toml"\n[sample]\nmethod = "sobol"\nn = 2\n[sample.input."body.rod.temperature"]\n{numbers}\n'
+        assert "degC does not begin at zero" in refused(tmp_path, text)[0]
+    kelvin = Distribution("k", "uniform", "K", (-1.0, 1.0), relative="difference")
+    assert relating.value({"k": "20 degC"}, kelvin, "-0.5 K") == "292.65 K"
+    assert relating.value({"k": "1086m/s"}, Distribution("k", "uniform", relative="factor"), 1.5) == "1629.0 m/s"
 
 
 def test_rows_with_changes_that_should_not_matter(tmp_path):

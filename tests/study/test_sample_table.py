@@ -171,6 +171,32 @@ def test_kept_rows_replace_runs(tmp_path):
     assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
 
 
+def test_words_that_begin_with_a_minus_come_back(tmp_path):
+    """From the kept rows and from samples.csv, in which they have an apostrophe."""
+    text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)
+    text = re.sub(r"(velocity.*\n)uniform = .*", r'\1choice = ["1000 m/s", "+1100 m/s"]', text)
+    directory, _ = swept(tmp_path, text=text)
+    assert "'+1100" in (tmp_path / "kept.csv").read_text()
+    (kept,), whole = hydro2d.kept_samples(next(tmp_path.glob("*.toml"))), hydro2d.open_study(directory).samples()
+    for samples in (kept, whole):
+        assert set(samples.columns["body.rod.velocity"]) == {"1000 m/s", "+1100 m/s"}
+        assert samples.cube(np.arange(1, 15)).shape == (14, 2)
+    assert {row["body.rod.velocity"] for row in hydro2d.kept_rows(directory)} == {"1000 m/s", "+1100 m/s"}
+    assert set(kept.columns["method"]) == {hydro2d.kept_rows(directory)[0]["method"]}
+
+
+def test_rows_without_a_new_column_are_made_again(tmp_path):
+    text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)
+    swept(tmp_path, text=text)
+    more = text.replace('["rod_core_mass_kg"]', '["rod_core_mass_kg", "time_s", "cycles"]')
+    assert "14 runs up to date" in keeping.Keeper(cases.plan(made_up.study_file(tmp_path, text), quiet=True)).in_words(
+        [f"row{n}" for n in range(1, 15)])  # fmt: skip
+    keeper = keeping.Keeper(cases.plan(made_up.study_file(tmp_path, more), quiet=True))
+    assert len(keeper.fresh(f"row{n}" for n in range(1, 15))) == 14, "the columns are there under other names"
+    keeper = keeping.Keeper(cases.plan(made_up.study_file(tmp_path, more.replace('"time_s"', '"wall_s", "x"')), quiet=True))
+    assert keeper.fresh(f"row{n}" for n in range(1, 15)) == set()
+
+
 def test_kept_inputs_are_numbers_even_below_zero(tmp_path):
     """Text that begins with a minus has an apostrophe before it in a table, so that no spreadsheet takes it for a formula."""
     text = STUDY.replace("[sample]", 'keep = "kept.csv"\n[sample]', 1)

@@ -31,20 +31,19 @@ def value(tables: Mapping[str, Any], each: Distribution, given: float | str) -> 
         return _written(number * float(given), unit)
     if not each.unit:
         return _written(units.to_si(own, "1") + float(given), "")
-    factor, si = units.of_kinds(f"1 {each.unit}", units.KINDS)
     amount, _ = _split(given)
+    factor, si = units.of_kinds(f"1 {each.unit}", units.KINDS)
     return _written(units.to_si(own, si) / factor + amount, each.unit)
 
 
 def _split(text: float | str) -> tuple[float, str]:
-    """Number and unit of a value as it is written. Raises ValueError."""
+    """Number and unit of a value as it is written; the unit must begin at zero, as degC does not. Raises ValueError."""
     if not isinstance(text, str):
         return float(text), ""
-    number, _, unit = text.strip().partition(" ")
-    try:
-        return float(number), unit.strip()
-    except ValueError:
-        raise ValueError(f"{text!r} is not a number with its unit") from None
+    number, unit = units.parts(text)
+    if unit and units.of_kinds(f"0 {unit}", units.KINDS)[0] != 0.0:
+        raise ValueError(f'"{text}": {unit} does not begin at zero; write the value of the deck in another unit')
+    return number, unit
 
 
 def _written(number: float, unit: str) -> float | str:

@@ -19,7 +19,7 @@ from functools import cached_property
 from pathlib import Path
 
 from hydro2d.base.method_version import METHOD
-from hydro2d.base.terminal import cell, several
+from hydro2d.base.terminal import cell, of_cell, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.whole import read_text, write_text
 from hydro2d.output.directory import DECK
@@ -52,13 +52,14 @@ class KeptRow(Row):
     """A run of a study in a few numbers: a row of a file of kept rows, the text of each column by its name.
 
     The columns are those of a file that a study keeps: the labels of the case on the axes, ``cells_across`` the projectile,
-    ``member`` of the ensemble, ``status``, the results in SI units, and ``setup``, ``method``, ``commit`` and ``date``. The
-    text of a result that the run does not have is empty.
+    ``member`` of the ensemble, ``status``, the results in SI units, and ``setup``, ``method``, ``commit`` and ``date``; of a
+    sample also its inputs, after the labels, and the results that it names. The text of a result that the run does not have is
+    empty.
     """
 
     @property
     def labels(self) -> dict[str, str]:
-        """The labels of the case by axis, and ``cells_across``, without those that are empty."""
+        """The labels of the case by axis, the inputs of a sample, and ``cells_across``, without those that are empty."""
         others = {MEMBER, *RESULTS, *ORIGIN}
         return {name: text for name, text in self.items() if text and name not in others}
 
@@ -100,7 +101,7 @@ class Wanted:
         """The columns that identify the run."""
         radius = projectile(self.deck)[1]
         cells = "" if radius is None else f"{cells_across(self.deck, radius):.4g}"
-        return {**{name: cell(self.case.values[name]) for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
+        return {**{name: self.case.values[name] for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
 
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
@@ -114,13 +115,13 @@ class Wanted:
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 
-def _inputs(plan: Plan, case: Planned) -> Row:
+def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
     """The inputs of a case of a sample by their heads, as text; empty without a sample."""
-    if plan.sample is None:
+    if sample is None:
         return {}
-    values = plan.sample.rows[int(case.values[sampling.AXIS]) - 1]
-    return {each.head: cell(value) if isinstance(value, str) else repr(value)
-            for each, value in zip(plan.sample.inputs, values, strict=True)}  # fmt: skip
+    values = sample.rows[int(case.values[sampling.AXIS]) - 1]
+    return {each.head: value if isinstance(value, str) else repr(value)
+            for each, value in zip(sample.inputs, values, strict=True)}  # fmt: skip
 
 
 def results(summary: Mapping) -> dict[str, object]:
@@ -144,7 +145,16 @@ def results(summary: Mapping) -> dict[str, object]:
 def _text(value) -> str:
     if value is None:
         return ""
-    return f"{value:.{DIGITS}g}" if isinstance(value, float) else cell(str(value))
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
+
+
+def _safe(text: str) -> str:
+    """A text of a row as a cell of a file; a number stays as it is, also below zero."""
+    try:
+        float(text)
+    except ValueError:
+        return cell(text)
+    return text
 
 
 def kept_rows(path: str | Path) -> list[KeptRow]:
@@ -162,7 +172,8 @@ def read(path: Path) -> list[KeptRow]:
     """The rows of a file; none if there is no such file. Raises StudyError."""
     if not path.exists():
         return []
-    rows = [KeptRow(row) for row in csv.DictReader(read_text(path, StudyError).splitlines())]
+    lines = csv.DictReader(read_text(path, StudyError).splitlines())
+    rows = [KeptRow({name: of_cell(text or "") for name, text in row.items()}) for row in lines]
     if rows and (missing := {*ORIGIN, *RESULTS, CELLS, MEMBER} - set(rows[0])):
         raise StudyError(f"{path}: holds no rows of a study: it has no column {', '.join(sorted(missing))}")
     return rows
@@ -171,13 +182,13 @@ def read(path: Path) -> list[KeptRow]:
 def _of_directory(directory: Path) -> list[KeptRow]:
     """The rows of the ended runs of a study directory. Raises StudyError, DeckError."""
     study = study_directory.read(directory)
-    axes = tuple(axis.name for axis in study.axes)
-    rows = []
+    axes, sample, rows = tuple(axis.name for axis in study.axes), study.sample, []
     for case in study.cases:
         if case.status in ENDED:
             text = read_text(case.directory / DECK, StudyError)
             planned = Planned(case.name, case.values, case.base, list(case.overrides), text, "", case.of, case.member)
-            rows.append(KeptRow(Wanted(planned, axes).row(case)))
+            wanted = Wanted(planned, axes, _inputs(sample, planned), sample.results if sample else ())
+            rows.append(KeptRow(wanted.row(case)))
     return rows
 
 
@@ -208,7 +219,8 @@ class Keeper:
             raise StudyError(f"{self.path}: is of another study: it has no column {strange[0]}")
         self.heads = tuple(each.head for each in plan.sample.inputs) if plan.sample else ()
         self.more = plan.sample.results if plan.sample else ()
-        self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan, case), self.more) for case in plan.cases if case.text}
+        self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan.sample, case), self.more)
+                       for case in plan.cases if case.text}  # fmt: skip
 
     def fresh(self, names: Iterable[str]) -> set[str]:
         """Those of the cases of the plan that are up to date."""
@@ -225,8 +237,12 @@ class Keeper:
 
     def _rows_of(self, wanted: Iterable[Wanted]) -> dict[str, Row]:
         """The rows of this version of the method by the names of their cases; no deck is hashed where there are none."""
-        known = {row[SETUP]: row for row in self.rows if row[OF_METHOD] == METHOD}
+        known = {row[SETUP]: row for row in self.rows if row[OF_METHOD] == METHOD and self._is_whole(row)}
         return {each.case.name: known[each.setup] for each in wanted if each.setup in known} if known else {}
+
+    def _is_whole(self, row: Row) -> bool:
+        """Whether a row has all columns of a sample; inputs and results may have been named since it was written."""
+        return all(row.get(head) for head in self.heads) and all(name in row for name in self.more)
 
     def stale(self, names: Sequence[str]) -> int:
         """The number of cases that have a row, but none that is up to date."""
@@ -255,10 +271,10 @@ class Keeper:
         self.rows = sorted(kept.values(), key=self._place)
         self.path.parent.mkdir(exist_ok=True)
         text = io.StringIO()
-        heads = (*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN)
+        heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN))
         table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")
         table.writeheader()
-        table.writerows(self.rows)
+        table.writerows({name: _safe(text) for name, text in row.items()} for row in self.rows)
         write_text(self.path, text.getvalue())
 
     def _place(self, row: Row) -> tuple:

@@ -9,6 +9,7 @@ import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from hydro2d.base.terminal import of_cell
 from hydro2d.files.strange import own
 from hydro2d.files.whole import read_text, write_text
 from hydro2d.study.plan import sampling
@@ -95,4 +96,4 @@ def read(directory: Path) -> dict[str, list[str]]:
     lines = list(csv.reader(read_text(file, StudyError).splitlines(), strict=True))
     if not lines or any(len(line) != len(lines[0]) for line in lines) or sampling.AXIS not in lines[0]:
         raise StudyError(f"{file} is not a table of a sample")
-    return {name: [line[number] for line in lines[1:]] for number, name in enumerate(lines[0])}
+    return {of_cell(name): [of_cell(line[number]) for line in lines[1:]] for number, name in enumerate(lines[0])}

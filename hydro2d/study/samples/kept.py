@@ -19,8 +19,9 @@ def kept_samples(study: str | Path) -> list[Samples]:
 
     study : the study file, or the path of a shipped one below ``problems``
 
-    ``labels`` of each has the labels on the axes, and ``cells_across``. Raises StudyError if the study has no sample, keeps no
-    rows, or if its rows lack the inputs; DeckError if there is no such file.
+    ``labels`` of each has the labels on the axes, and ``cells_across``. Rows of other versions of the method and of older
+    set-ups are among them: ``columns["method"]`` tells the version of each. Raises StudyError if the study has no sample, keeps
+    no rows, or if its rows lack the inputs; DeckError if there is no such file.
     """
     study = decks.find(study)
     definition = read(study, ())[0]
@@ -34,7 +35,7 @@ def kept_samples(study: str | Path) -> list[Samples]:
         lacking = next((name for name in (*axes, sampling.AXIS, *(each.head for each in inputs)) if not row.get(name)), None)
         if lacking:
             raise StudyError(f"{file}: a row has no {lacking}: it is of another study, or of an older version of this one; "
-                             "hydro2d sweep writes it anew")  # fmt: skip
+                             "run its study again to write it anew")  # fmt: skip
         groups.setdefault(tuple(row[name] for name in (*axes, CELLS)), []).append(row)
     if not groups:
         raise StudyError(f"{file}: has no rows yet")
@@ -55,7 +56,8 @@ def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str
              wanted: tuple[str, ...]) -> Samples:  # fmt: skip
     rows = sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER])))
     table = [{sampling.AXIS: row[sampling.AXIS], MEMBER: row[MEMBER], **{each.head: row[each.head] for each in inputs},
-              **sample_table.of_kept(row, wanted)} for row in rows]  # fmt: skip
-    columns = of_columns({name: [str(row.get(name) or "") for row in table] for name in table[0]}, inputs)
+              **sample_table.of_kept(row, wanted), keeping.OF_METHOD: row[keeping.OF_METHOD]} for row in rows]  # fmt: skip
+    names = dict.fromkeys(name for row in table for name in row)
+    columns = of_columns({name: [str(row.get(name) or "") for row in table] for name in names}, inputs)
     words = [f"{name} {label}" for name, label in labels.items() if label]
     return Samples(", ".join([title, *words]), inputs, columns, names=("",) * len(rows), wanted=wanted, labels=labels)

@@ -19,7 +19,7 @@ from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
 from hydro2d.study.records.differences import flatten
-from hydro2d.study.records.keeping import MEMBER
+from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.record import is_number
 from hydro2d.study.records.sample_table import NO, PERFORATED, REGIME, RESIDUAL, STATUS, YES
 from hydro2d.study.records.study_directory import DONE, Study
@@ -105,7 +105,7 @@ class Samples:
     @property
     def results(self) -> list[str]:
         """The names of the results of the table."""
-        about = {sampling.AXIS, MEMBER, STATUS, *self.heads}
+        about = {sampling.AXIS, MEMBER, STATUS, OF_METHOD, *self.heads}
         return [name for name in self.columns if name not in about]
 
     @property
@@ -337,7 +337,8 @@ def of_study(study: Study) -> list[Samples]:
 
 def of_columns(table: Mapping[str, list[str]], inputs: Sequence[Distribution]) -> dict[str, np.ndarray]:
     """The columns of a table of text as arrays: numbers, but for those that hold words."""
-    words = {STATUS, "stop_reason", "trustworthy", REGIME, PERFORATED, *(each.head for each in inputs if each.kind == CHOICE)}
+    choices = (each.head for each in inputs if each.kind == CHOICE)
+    words = {STATUS, OF_METHOD, "stop_reason", "trustworthy", REGIME, PERFORATED, *choices}
     return {name: _array(column, name in words) for name, column in table.items()}
 
 
