@@ -137,7 +137,7 @@ KINDS = (
          "A copper bar on a rigid wall, at the left, after 20 and 60 µs. Plastic strain above the axis, temperature below.",
          '--field plastic_strain --mirror temperature --time "20 us" --time "60 us" --window "0 mm,27 mm,10 mm"',
          (("length at the end", "17.38 mm in a Lagrangian solution with the same constants; 16.2 mm in the experiment of "
-           "Johnson and Cook (recalled)", length),)),
+           "Johnson and Cook", length),)),
     Kind("whipple", "A Whipple shield",
          "A ball of aluminium breaks up on a bumper at 6 km/s, and its debris hits the wall behind. Materials above the axis, "
          "density below, after 9 and 25 µs. Only cells that are half full are drawn, so thin debris is not to be seen.",

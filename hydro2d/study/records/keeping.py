@@ -172,11 +172,11 @@ def read(path: Path) -> list[KeptRow]:
     """The rows of a file; none if there is no such file. Raises StudyError."""
     if not path.exists():
         return []
-    lines = csv.DictReader(read_text(path, StudyError).splitlines())
-    rows = [KeptRow({name: of_cell(text or "") for name, text in row.items()}) for row in lines]
+    lines = csv.DictReader(read_text(path, StudyError).splitlines(), restval="")
+    rows = list(lines)
     if rows and (missing := {*ORIGIN, *RESULTS, CELLS, MEMBER} - set(rows[0])):
         raise StudyError(f"{path}: holds no rows of a study: it has no column {', '.join(sorted(missing))}")
-    return rows
+    return [KeptRow({name: of_cell(row[name]) for name in lines.fieldnames or ()}) for row in rows]
 
 
 def _of_directory(directory: Path) -> list[KeptRow]:
