@@ -47,6 +47,7 @@ NOT_RUN = {
     "python -m tests.trials.campaign": "5000 runs: an hour; tests/trials/test_mutants.py has some of them",
     "python -m tests.trials.crowd": "1000 decks: a quarter of an hour; tests/trials/test_crowd.py has some of them",
     "hydro2d bench": "minutes",
+    "python -m problems.grind_times": "it needs what `hydro2d bench` measured; tests/problems/test_grind_times.py",
     "python docs/gallery.py": "half an hour; tests/regression/test_gallery.py has it in short form",
     "hydro2d diverge": "runs of a few cycles have no time in common; tests/study/test_divergence.py has made-up ones",
     "hydro2d plot runs/ball -o debris.png": "nothing flies behind a plate yet; tests/results/test_line_figures.py draws debris",
