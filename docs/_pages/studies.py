@@ -30,6 +30,8 @@ OTHERS = {
     "whipple_shots": ("whipple_shots.png", "python -m problems.whipple.read --figure whipple_shots.png"),
     "drag": ("contact_skin.png", "hydro2d plot runs/drag/cases/contact_8.5 -o contact_skin.png --field plastic_strain --mirror "
              "velocity:z --time '200 us' --window '170 mm,205 mm,10 mm'"),
+    "uncertain_shots": ("uncertain_shots.png", "python -m problems.cth_nose_shape.probability --figure uncertain_shots.png"),
+    "copper_bars": ("fit_constants.png", "# the program of docs/how-to/fit-constants.md draws the picture"),
 }  # fmt: skip
 HEADING = """## Studies
 
@@ -58,7 +60,12 @@ class Study:
     @property
     def picture(self) -> str | None:
         """The picture in docs/_static."""
-        return f"gallery_{self.name}.png" if self.results else OTHERS.get(self.name, (None,))[0]
+        return f"gallery_{self.name}.png" if self.has_chart else OTHERS.get(self.name, (None,))[0]
+
+    @property
+    def has_chart(self) -> bool:
+        """Whether its kept results are drawn; those of a sample are not, since its inputs are no axes."""
+        return bool(self.results) and self.name not in OTHERS
 
     def axes(self) -> list[str]:
         """The columns of the kept results that are axes."""
@@ -154,7 +161,7 @@ def _order(label: str) -> tuple:
 def draw(folder: Path) -> None:
     """Draws the charts of all studies with kept results."""
     for study in studies():
-        if study.results:
+        if study.has_chart:
             with tempfile.TemporaryDirectory() as place:
                 file = Path(place) / study.picture
                 figures.save_figure(chart(study), file)
@@ -171,12 +178,14 @@ def sections() -> list[str]:
         verb = "transition" if search else "sweep"
         minutes, count = study.minutes(), len(study.plan.cases) if study.plan else 0
         told = f"At most {count} runs" if search else f"{count} runs" if count else "Several of the studies here"
+        if study.plan and study.plan.sample and len(study.results) < count:
+            told += f", of which {len(study.results)} are kept"
         told += f", {spoken(60.0 * minutes)} in all" if minutes else ""
         page = f"`{Path(path).parent}/README.md` says what came out"
         lines = [f"### {study.name}", "", f"{study.title}. {told}; {page}.", ""]
         if study.picture:
             lines += [f"![{study.title}](_static/{study.picture})", ""]
         lines += ["```text", f"hydro2d {verb} {path}"]
-        lines += [OTHERS[study.name][1]] if study.name in OTHERS and not study.results else []
+        lines += [OTHERS[study.name][1]] if study.name in OTHERS else []
         parts.append("\n".join([*lines, "```", ""]))
     return parts
