@@ -65,9 +65,9 @@ USUAL = 1100.0
 
 def samples(cells: float = 5.5, nose: str = rigid_rod.NOSES["hemi"]) -> dict[Shot, hydro2d.Samples]:
     """The rows of every shot of rods with this nose, on so many cells across the radius. Raises StudyError, OSError."""
-    by_shot = {Shot.named(each.labels[rigid_rod.SHOTS]): each for each in hydro2d.kept_samples(STUDY)
-               if float(each.labels[rigid_rod.CELLS]) == cells}  # fmt: skip
-    return {shot: each for shot, each in by_shot.items() if shot is not None and shot.nose == nose}
+    named = {Shot.named(each.labels[rigid_rod.SHOTS]): each for each in hydro2d.kept_samples(STUDY)
+             if float(each.labels[rigid_rod.CELLS]) == cells}  # fmt: skip
+    return {shot: each for shot, each in named.items() if shot is not None and shot.nose == nose}
 
 
 def held(sample: hydro2d.Samples) -> np.ndarray:
@@ -142,16 +142,16 @@ def points(shot: Shot, sample: hydro2d.Samples, laws: list[str]) -> Points:
                   column(sample, FRICTION))  # fmt: skip
 
 
-def laws_of(found: dict[Shot, hydro2d.Samples]) -> list[str]:
+def laws_of(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     """The laws of a study in its order."""
-    inputs = next(iter(found.values())).inputs
+    inputs = next(iter(by_shot.values())).inputs
     return list(next(each.levels for each in inputs if each.head == LAW))
 
 
-def fitted(found: dict[Shot, hydro2d.Samples], alloy: str) -> np.ndarray:
+def fitted(by_shot: dict[Shot, hydro2d.Samples], alloy: str) -> np.ndarray:
     """Draws of the numbers of (1) for a plate, from all shots into it, float64[FITS, 1 + laws + 3]: ln s and those of m."""
-    laws = laws_of(found)
-    there = [(points(shot, sample, laws), ~held(sample)) for shot, sample in found.items() if shot.alloy == alloy]
+    laws = laws_of(by_shot)
+    there = [(points(shot, sample, laws), ~held(sample)) for shot, sample in by_shot.items() if shot.alloy == alloy]
     terms = np.vstack([at.terms(len(laws)) for at, _ in there])
     speed = np.concatenate([np.log(at.velocity / USUAL) for at, _ in there])
     sign = np.where(np.concatenate([lost for _, lost in there]), -1.0, 1.0)
@@ -164,24 +164,24 @@ def fitted(found: dict[Shot, hydro2d.Samples], alloy: str) -> np.ndarray:
     return walk(density, low, high, (SEED, ALLOYS.index(alloy)))
 
 
-def drawn(found: dict[Shot, hydro2d.Samples]) -> tuple[Points, np.ndarray]:
+def drawn(by_shot: dict[Shot, hydro2d.Samples]) -> tuple[Points, np.ndarray]:
     """Points of the inputs without an error of the velocity, DRAWS for each law; and that error for each shot, m/s."""
-    sample = next(iter(found.values()))
+    sample = next(iter(by_shot.values()))
     by_head = {each.head: each for each in sample.inputs}
     generator = np.random.default_rng(SEED)
-    number = DRAWS * len(laws_of(found))
+    number = DRAWS * len(laws_of(by_shot))
     factor, plate, friction = (by_head[name].quantiles(generator.random(number)) for name in (FACTOR, PLATE_FACTOR, FRICTION))
-    law = np.repeat(np.arange(len(laws_of(found))), DRAWS)
-    errors = by_head[VELOCITY].quantiles(generator.random((len(found), number)))
+    law = np.repeat(np.arange(len(laws_of(by_shot))), DRAWS)
+    errors = by_head[VELOCITY].quantiles(generator.random((len(by_shot), number)))
     return Points(np.full(number, USUAL), law, factor, plate, friction), errors
 
 
 @dataclass(frozen=True)
 class Inference:
-    """What the rows say of the outcomes that were seen.
+    """The probabilities of the outcomes that were seen, at points drawn from the inputs, for each draw of the numbers of (1).
 
-    laws, alloys : in the order of the arrays;  at : points of the inputs
-    seen : probability of the outcome of each shot at each point, for each draw of the coefficients, dict of float64[FITS, n]
+    laws : in the order of their numbers;  at : points of the inputs, those of a law one after another
+    seen : probability of the outcome of each shot at each point, float64[FITS, n] by shot
     half : velocity at which half of the rods are held, m/s, float64[FITS, n] by alloy
     chance : standard deviation of the velocity of the change of a rod by chance, as a fraction, float64[FITS] by alloy
     """
@@ -194,7 +194,7 @@ class Inference:
 
     @functools.cached_property
     def together(self) -> np.ndarray:
-        """Probability of all outcomes together at each point, for each draw of the coefficients, float64[FITS, n]."""
+        """Probability of all outcomes together at each point, for each draw, float64[FITS, n]."""
         return functools.reduce(np.multiply, self.seen.values())
 
     def of_law(self, values: np.ndarray) -> np.ndarray:
@@ -202,35 +202,35 @@ class Inference:
         return values.reshape(FITS, len(self.laws), -1).mean(axis=2)
 
 
-def inferred(found: dict[Shot, hydro2d.Samples]) -> Inference:
+def inferred(by_shot: dict[Shot, hydro2d.Samples]) -> Inference:
     """Fits (1) and evaluates it at points drawn from the distributions of the inputs."""
-    laws, measured = laws_of(found), rigid_rod.experiments()
-    at, errors = drawn(found)
+    laws, measured = laws_of(by_shot), rigid_rod.experiments()
+    at, errors = drawn(by_shot)
     seen, half, chance = {}, {}, {}
     # the plates are of two alloys, whose factors are independent of each other: the second takes them in another order
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
-        numbers = fitted(found, alloy)
+        numbers = fitted(by_shot, alloy)
         terms = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction).terms(len(laws))
         middle, width = numbers[:, 1:] @ terms.T, np.exp(numbers[:, :1])
         half[alloy], chance[alloy] = USUAL * np.exp(middle), LOGISTIC * width[:, 0]
-        for number, shot in enumerate(found):
+        for number, shot in enumerate(by_shot):
             if shot.alloy == alloy:
                 speed = np.log((shot.velocity + errors[number]) / USUAL)
                 lost = 1.0 / (1.0 + np.exp(np.clip((middle - speed) / width, -500.0, 500.0)))
                 seen[shot] = 1.0 - lost if measured[shot].rigid else lost
-    return Inference(laws, at, {shot: seen[shot] for shot in found}, half, chance)
+    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance)
 
 
 # ---------------------------------------------------------------------------------------------------- tables
 
 
-def outcomes(found: dict[Shot, hydro2d.Samples]) -> list[str]:
+def outcomes(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     """Lines of Markdown: depth and outcome of every shot, and how often each law gives the outcome that was seen."""
-    laws, measured = laws_of(found), rigid_rod.experiments()
+    laws, measured = laws_of(by_shot), rigid_rod.experiments()
     heads = ("shot", "experiment", "depth: median, 10 to 90 %", "as seen", *laws)
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
-    for shot, sample in found.items():
+    for shot, sample in by_shot.items():
         right = held(sample) == measured[shot].rigid
         law = column(sample, LAW)
         by_law = [f"{right[law == each].sum()} of {(law == each).sum()}" for each in laws]
@@ -303,10 +303,10 @@ def _width(values: np.ndarray, axis: int) -> np.ndarray:
     return 0.5 * (high - low)
 
 
-def shares(found: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[str]:
+def shares(by_shot: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[str]:
     """Lines of Markdown: the Sobol indices of a result for each shot, with interactions, and the error of the surrogate."""
     lines = [f"| shot | {' | '.join(NAMES.values())} | Q2 |", "|---" * (2 + len(NAMES)) + "|"]
-    for shot, sample in found.items():
+    for shot, sample in by_shot.items():
         cells = [""] * len(NAMES)
         with contextlib.suppress(hydro2d.StudyError):  # the surrogate is too poor for indices
             indices = sample.indices(result)
@@ -316,17 +316,17 @@ def shares(found: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[
     return lines
 
 
-def validation(found: dict[Shot, hydro2d.Samples], cells: float = 5.5) -> list[str]:
+def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = 5.5) -> list[str]:
     """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input, and u_num, cm.
 
     u_input : standard deviation of the rows of a law, without u_num
     u_num : of the members of a law in results/twelve_shots.csv, mean over the laws: chance, not the size of the cells
     """
-    members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in found]
-    laws = laws_of(found)
+    members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in by_shot]
+    laws = laws_of(by_shot)
     heads = ("shot", "measured", *laws, "u_num")
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
-    for shot, sample in found.items():
+    for shot, sample in by_shot.items():
         by_law: dict[str, list[float]] = {}
         for run in members:
             if run.shot == shot:
@@ -358,12 +358,12 @@ def _quantiles(values: np.ndarray, weights: np.ndarray) -> tuple[float, float, f
 # ---------------------------------------------------------------------------------------------------- figure
 
 
-def draw(found: dict[Shot, hydro2d.Samples]):
+def draw(by_shot: dict[Shot, hydro2d.Samples]):
     """A matplotlib Figure: the depths of the rows of every shot by law, their 10 to 90 %, and the experiments."""
     figure, panels = hydro2d.new_figure(9.6, 4.6, 1, len(ALLOYS), sharey=True)
-    measured, laws = rigid_rod.experiments(), laws_of(found)
+    measured, laws = rigid_rod.experiments(), laws_of(by_shot)
     for alloy, axes in zip(ALLOYS, panels[0], strict=True):
-        there = {shot: sample for shot, sample in found.items() if shot.alloy == alloy}
+        there = {shot: sample for shot, sample in by_shot.items() if shot.alloy == alloy}
         for number, law in enumerate(laws):
             dots = [(shot.velocity + 7.0 * (number - 1.5), depth) for shot, sample in there.items()
                     for depth in reach(sample)[column(sample, LAW) == law]]  # fmt: skip
@@ -384,13 +384,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--figure", type=Path, help="also draws the depths")
     given = parser.parse_args(arguments)
     try:
-        found = samples()
-        inference = inferred(found)
-        for lines in (outcomes(found), validation(found), likelihoods(inference), strengths(inference), halves(inference),
-                      shares(found)):  # fmt: skip
+        by_shot = samples()
+        inference = inferred(by_shot)
+        for lines in (outcomes(by_shot), validation(by_shot), likelihoods(inference), strengths(inference), halves(inference),
+                      shares(by_shot)):  # fmt: skip
             print("\n".join([*lines, ""]))
         if given.figure:
-            hydro2d.save_figure(draw(found), given.figure)
+            hydro2d.save_figure(draw(by_shot), given.figure)
     except (hydro2d.Error, OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -68,11 +68,11 @@ def test_the_velocity_and_the_chance_of_the_change_are_found():
     for seed in range(5):
         inference = inferred(seed)
         for alloy in rigid_rod.ALLOYS:
-            found = inference.half[alloy]
+            halves = inference.half[alloy]
             plate = np.roll(inference.at.plate, rigid_rod.ALLOYS.index(alloy))
             for number, law in enumerate(LAWS):
                 true = half(law, inference.at.factor, plate)[inference.at.law == number].mean()
-                low, high = np.quantile(found[:, inference.at.law == number].mean(axis=1), (0.05, 0.95))
+                low, high = np.quantile(halves[:, inference.at.law == number].mean(axis=1), (0.05, 0.95))
                 inside += low <= true <= high
             low, high = np.quantile(inference.chance[alloy], (0.05, 0.95))
             chances += low <= CHANCE * probability.LOGISTIC <= high
@@ -113,10 +113,10 @@ def test_rows_with_another_outcome_weigh_less(monkeypatch):
 
 
 def test_the_tables(monkeypatch):
-    found = {shot: made_up(shot) for shot in SHOTS}
-    lines = probability.outcomes(found)
+    by_shot = {shot: made_up(shot) for shot in SHOTS}
+    lines = probability.outcomes(by_shot)
     shot = SHOTS[0]
-    right = (found[shot].columns["length_ratio"] > 0.5) == rigid_rod.experiments()[shot].rigid
+    right = (by_shot[shot].columns["length_ratio"] > 0.5) == rigid_rod.experiments()[shot].rigid
     assert f"{right.sum()} of 64" in lines[2]
     assert len(lines) == 2 + len(SHOTS)
     inference = inferred()
