@@ -123,6 +123,13 @@ def _imported(file: Path) -> frozenset[Path]:
     return frozenset(there for name in names for there in _files_of(name))
 
 
+def _packages_around(file: Path) -> list[Path]:
+    """The packages of hydro2d, eos or strength that a file is in, except hydro2d itself."""
+    if ROOT not in file.parents:
+        return []
+    return _files_of(".".join(file.parent.relative_to(ROOT).parts))
+
+
 def _files_of(name: str) -> list[Path]:
     """The file of a module of hydro2d, eos or strength and those of the packages around it; none for other modules.
 
@@ -139,7 +146,9 @@ def _files_of(name: str) -> list[Path]:
 def seen_by(file: Path) -> frozenset[Path]:
     """A file, those of this package, and every other file of hydro2d that it imports, directly or through others.
 
-    Models are chosen by lists of names: a file that sees the `dispatch` of `eos` or `strength` sees all of the folder.
+    The packages around a file count as imported: Python runs them first, and that of the kernels declares the names of handles,
+    whose order compiled phases contain. Models are chosen by lists of names: a file that sees the `dispatch` of `eos` or
+    `strength` sees all of the folder.
     """
     seen, waiting = {each for each in HERE.glob("*.py") if each.name not in NO_CODE}, [file]
     while waiting:
@@ -147,7 +156,7 @@ def seen_by(file: Path) -> frozenset[Path]:
         if each in seen:
             continue
         seen.add(each)
-        waiting += _imported(each)
+        waiting += [*_imported(each), *_packages_around(each)]
         if each.stem == "dispatch":
             waiting += each.parent.glob("*.py")
     return frozenset(seen)

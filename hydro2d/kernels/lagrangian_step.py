@@ -6,6 +6,7 @@ other parts that the first reads.
 
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.kernels import (
+    audit_sums,
     boundaries,
     cracks,
     cut_cells,
@@ -37,7 +38,7 @@ close_cells = Phase(
     "close_cells",
     """Pressure, sound speed, artificial viscosity and allowed step of every cell, void where a cell fractures; contact nodes.
 
-    Without contact, least_row says where the step is least; with it, first_slot how many slots the nodes need.
+    Without contact, least_row and cause say where and why the step is least; with it, first_slot how many slots the nodes need.
     """,
     boundaries.ghost_vertices_r,
     boundaries.ghost_vertices_z,
@@ -52,12 +53,16 @@ close_cells = Phase(
     unless("contact",
            thermodynamics.limit_step,
            WAIT,
-           alone(thermodynamics.least_step)),
+           alone(thermodynamics.least_step),
+           alone(thermodynamics.step_cause)),
 )  # fmt: skip
 
 find_contact = Phase(
     "find_contact",
-    "Where two groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.",
+    """Where two groups meet: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
+
+    Then, as in `close_cells` without contact, where and why the step is least.
+    """,
     contact_geometry.contact_lines,
     WAIT,
     contact_geometry.face_apertures,
@@ -69,11 +74,6 @@ find_contact = Phase(
     thermodynamics.limit_step,
     WAIT,
     alone(thermodynamics.least_step),
-)
-
-find_cause = Phase(
-    "find_cause",
-    "Which cell of the row with the least time step allows it, and which of the bounds it is.",
     alone(thermodynamics.step_cause),
 )
 
@@ -97,6 +97,7 @@ accelerate = Phase(
     WAIT,
     when("contact", alone(contact_velocities.heat_contact_nodes)),
     alone(boundaries.sum_drag),
+    alone(audit_sums.sum_acceleration),
 )
 
 deform = Phase(

@@ -4,7 +4,7 @@
 """
 
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
-from hydro2d.kernels import boundaries, centroids, column_ranges, edge_sums, interfaces, momentum, remap, vertex_forces
+from hydro2d.kernels import audit_sums, boundaries, centroids, column_ranges, interfaces, momentum, remap, vertex_forces
 from hydro2d.kernels.contact import contact_motion, contact_volumes
 
 carry_bodies = Phase(
@@ -32,7 +32,8 @@ carry_bodies = Phase(
     unless("dj", remap.sweep_r),
     WAIT,
     centroids.carry_centroids,
-    alone(edge_sums.sum_outflow),
+    alone(audit_sums.sum_outflow),
+    alone(audit_sums.find_turned),
 )  # fmt: skip
 
 carry_momentum = Phase(
@@ -47,7 +48,8 @@ carry_momentum = Phase(
     when("both", given(momentum.deposit, ranges="active_range")),
     remap.tidy,
     WAIT,
-    alone(edge_sums.sum_kinetic_outflow),
+    alone(audit_sums.sum_kinetic_outflow),
+    alone(audit_sums.sum_momentum),
     vertex_forces.vertex_masses,  # by the old ranges: cells that bodies have left have no mass
     column_ranges.find_body_ranges,
     WAIT,

@@ -44,7 +44,7 @@ class ActiveBox:
 
     def reaches(self) -> list[bool]:
         """Whether it has reached the low and the high edge along z, and along r."""
-        return [here == there for here, there in zip(self.box, self._all, strict=True)]
+        return [True] * 4 if self.is_all else [here == there for here, there in zip(self.box, self._all, strict=True)]
 
     def begin(self) -> None:
         """Becomes the smallest box around everything that moves or is under pressure or stress and the driving edges, plus the

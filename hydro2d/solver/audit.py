@@ -102,10 +102,11 @@ class Audit:
         return cls(start, _noise(start, speeds), {name: Sink(np.zeros(state.bodies)) for name in (*SINKS, *own)},
                    {name: ContactTransfer() for name in CONTACT_TRANSFERS if state.groups > 1})
 
-    def add(self, name: str, mass=0.0, momentum: float = 0.0, energy: float = 0.0) -> None:
-        """Adds to a sink a loss from the totals."""
+    def add(self, name: str, mass: np.ndarray | None = None, momentum: float = 0.0, energy: float = 0.0) -> None:
+        """Adds to a sink a loss from the totals; mass per body [m]."""
         sink = self.sinks[name]
-        sink.mass += mass
+        if mass is not None:
+            sink.mass += mass
         sink.momentum += momentum
         sink.energy += energy
 

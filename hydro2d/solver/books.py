@@ -28,14 +28,15 @@ class Books:
 
     def acceleration(self) -> None:
         """Enters losses and gains by the speed limit, contact, dashpots, edges and sources."""
-        s, (j0, j1, _, _), cycle = self._state, self._cycle.box, self._cycle
-        if np.count_nonzero(s.limited[2, j0:j1 + 1]):  # any() would make a boolean array
-            self.audit.add("speed_limit", momentum=float(s.limited[0, j0:j1 + 1].sum()),
-                           energy=float(s.limited[1, j0:j1 + 1].sum()))
-        cycle.contact.account(j0, j1, self.audit)
-        if s.transmitted.any():
-            self.audit.add("transmitted", momentum=float(s.transmitted[0]), energy=float(s.transmitted[1]))
-        for edge, (momentum, energy) in zip(self._edges, s.walls.sum(axis=2).tolist(), strict=True):
+        s, cycle = self._state, self._cycle
+        momentum, energy, number = s.limited_sum.tolist()
+        if number:
+            self.audit.add("speed_limit", momentum=momentum, energy=energy)
+        cycle.contact.account(self.audit)
+        momentum, energy = s.transmitted.tolist()
+        if momentum != 0.0 or energy != 0.0:
+            self.audit.add("transmitted", momentum=momentum, energy=energy)
+        for edge, (momentum, energy) in zip(self._edges, s.walls_sum.tolist(), strict=True):
             if momentum != 0.0 or energy != 0.0:
                 self.audit.add(edge.sink, momentum=momentum, energy=energy)
         cycle.sources.account(self.audit)
@@ -52,28 +53,28 @@ class Books:
         if not any(edges):
             return
         first, last = cycle.box[:2] if di else cycle.box[2:]
-        for side, (opened, (out, back)) in enumerate(zip(edges, self._state.outflow, strict=True)):
-            if opened:
-                cycle.courses.crossed(di, side, first, last, cycle.mesh.velocity * cycle.dt)
-            if opened and out.any():
-                self.audit.add("outflow", mass=out[1:].copy(), energy=float(out[0]))
-            if opened and back.any():
-                self.audit.add("inflow", mass=back[1:].copy(), energy=float(back[0]))
+        for side, (opened, ways) in enumerate(zip(edges, self._state.outflow.tolist(), strict=True)):
+            if not opened:
+                continue
+            cycle.courses.crossed(di, side, first, last, cycle.mesh.velocity * cycle.dt)
+            for name, (energy, *mass) in zip(("outflow", "inflow"), ways, strict=True):
+                if energy != 0.0 or any(mass):
+                    self.audit.add(name, mass=np.array(mass), energy=energy)
 
     def momentum(self, di: int) -> None:
         """Enters amounts discarded by the advection of momentum and removed by the tidying."""
-        s, (j0, j1, _, _) = self._state, self._cycle.box
-        before, after, p_gained, k_cut, _ = s.momentum_sums[:, j0:j1 + 1].sum(axis=1)
-        lost = before - after - self._kinetic_outflow(di)
-        if self._cycle.method.both:
-            lost -= s.deposited[j0:j1].sum()
-        self.audit.add("advection", momentum=-float(p_gained), energy=float(lost - k_cut))
-        self.audit.add("ke_bound", energy=float(k_cut))
+        s = self._state
+        before, after, p_gained, k_cut, _ = s.momentum_sum.tolist()
+        lost = before - after - self._kinetic_outflow(di) - float(s.deposited_sum[0])
+        self.audit.add("advection", momentum=-p_gained, energy=lost - k_cut)
+        if k_cut != 0.0:
+            self.audit.add("ke_bound", energy=k_cut)
         for edge, j in self._rows_that_hold:
-            if j0 <= j <= j1:
+            if self._cycle.box[0] <= j <= self._cycle.box[1]:
                 self.audit.add(edge.sink, momentum=float(s.momentum_sums[4, j]))
-        internal, kinetic, axial, _, *mass = s.removed[:, j0:j1].sum(axis=1)
-        self.audit.add("cutoff", mass=np.array(mass), momentum=float(axial), energy=float(internal + kinetic))
+        internal, kinetic, axial, _, *mass = s.removed_sum.tolist()
+        if any(mass) or internal + kinetic != 0.0 or axial != 0.0:
+            self.audit.add("cutoff", mass=np.array(mass), momentum=axial, energy=internal + kinetic)
 
     def _kinetic_outflow(self, di: int) -> float:
         """Enters the momentum that went through open edges and returns the kinetic energy that left with it."""

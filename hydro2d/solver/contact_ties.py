@@ -96,8 +96,8 @@ class NoContact:
     def find(self, parts, given) -> None:
         """Finds where the groups meet; parts : int64[n + 1], rows;  given : Given."""
 
-    def account(self, j0: int, j1: int, audit: Audit) -> None:
-        """Enters into the audit the transfers of contact between groups and walls in the rows j0 to j1 of the step."""
+    def account(self, audit: Audit) -> None:
+        """Enters into the audit the transfers of contact between groups and walls in the step."""
 
 
 class Contact(NoContact):
@@ -116,10 +116,10 @@ class Contact(NoContact):
             self.ties = slots(2 * needed)
         given.run(lagrangian_step.find_contact)
 
-    def account(self, j0: int, j1: int, audit: Audit) -> None:
-        """Enters into the audit the transfers of contact between groups and walls in the rows j0 to j1 of the step."""
-        pushed, *heats, walls = self.state.transfer[:, j0:j1 + 1].sum(axis=1)
-        audit.add("walls", momentum=float(walls))
-        audit.transfer("contact", momentum=float(pushed), energy=float(heats[0]))
-        audit.transfer("friction", energy=float(heats[1]))
-        audit.transfer("under-filled nodes", energy=float(heats[2]))
+    def account(self, audit: Audit) -> None:
+        """Enters into the audit the transfers of contact between groups and walls in the step."""
+        pushed, *heats, walls = self.state.transfer_sum.tolist()
+        audit.add("walls", momentum=walls)
+        audit.transfer("contact", momentum=pushed, energy=heats[0])
+        audit.transfer("friction", energy=heats[1])
+        audit.transfer("under-filled nodes", energy=heats[2])

@@ -192,7 +192,9 @@ class Crater:
         The radius is NaN if there is no wall, and while the row is no deeper than the plate has bent.
         """
         order = slice(None, None, 1 if self.direction > 0 else -1)
-        _, way, _ = self._bends(wall[order], filled[order], self._depth(self.sim.grid.z_edges)[order])
+        edges, way = self._depth(self.sim.grid.z_edges)[order], np.zeros(wall.shape[1])
+        if edges[-1] > self.rear:  # else no rear in the mesh has moved
+            _, way, _ = self._bends(wall[order], filled[order], edges)
         depth = float(self._depth(self.sim.grid.zc[self.sim.grid.inside[0]][last]))
         if 0.0 < way.max() and depth <= way.max():
             return depth, np.nan

@@ -140,7 +140,6 @@ class Cycle:
 
     def choose_step(self) -> None:
         """The time step, with the cell and the term that set it."""
-        self.given.run(lagrangian_step.find_cause)
         dt, self.cause = time_step.chosen(self)
         self.refusals.small_step(dt, self.cause)
         self.dt = dt

@@ -43,11 +43,10 @@ class Refusals:
     def turned_cells(self, second: int) -> None:
         """Raises UnphysicalState if the faces of a cell sweep more than its volume, in both directions or in the second one, so
         that no remap can recover its contents."""
-        s, (j0, j1, _, _) = self._cycle.state, self._cycle.box
-        if s.turned[j0:j1, 0].max() < 0:
+        s = self._cycle.state
+        j, i, m = s.first_turned.tolist()
+        if j < 0:
             return
-        j = j0 + int(np.argmax(s.turned[j0:j1, 0] >= 0))
-        i, m = s.turned[j].tolist()
         share = s.pre_sweep_volume[j, i] / self._cycle.grid.volume[j, i]
         raise UnphysicalState(
             f"{self._where(j, i, m)}: the step of {self._cycle.dt:.3g} s turned the cell inside out"

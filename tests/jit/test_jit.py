@@ -21,6 +21,7 @@ from numba.np import arrayobj
 
 from hydro2d import jit
 from hydro2d.jit import cache, options
+from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.mesh.fields import LANE_ROWS, LANES
 from strength import dispatch, lanes
 from strength.layout import ROW
@@ -94,6 +95,17 @@ def test_constants_of_any_folder_are_among_the_sources():
     assert "hydro2d/mesh/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
     assert "hydro2d/mesh/fields.py" in seen_by("hydro2d/kernels/remap.py")
     assert not {"hydro2d/__init__.py", "hydro2d/files/whole.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
+
+
+def test_the_names_of_handles_are_among_the_sources_of_every_phase():
+    """Phases contain places in the table of names: three were once kept when names came in between, and read other arrays."""
+    everything = [value for module in (lagrangian_step, remap_step) for value in vars(module).values()]
+    phases = {value for value in everything if isinstance(value, jit.Phase)}
+    assert len(phases) == 12
+    for phase in phases:
+        files = {Path(run.kernel.__wrapped__.__code__.co_filename).resolve() for run in phase.runs()}
+        seen = {name.relative_to(ROOT).as_posix() for file in files for name in cache.seen_by(file)}
+        assert {"hydro2d/kernels/names.py", "hydro2d/mesh/fields.py"} <= seen, phase.__name__
 
 
 #: features that numba does not promise to keep: (object, attribute, words that its signature must have)

@@ -6,7 +6,7 @@ import pytest
 from hydro2d import jit
 from hydro2d.jit import WAIT, Phase, alone, given, unless, when
 from hydro2d.jit.phases import When, chosen
-from hydro2d.kernels import column_ranges, edge_sums, lagrangian_step, momentum, remap_step, thermodynamics
+from hydro2d.kernels import audit_sums, column_ranges, lagrangian_step, momentum, remap_step, thermodynamics
 
 PHASES = {name: value for module in (lagrangian_step, remap_step) for name, value in vars(module).items()
           if isinstance(value, Phase)}
@@ -51,7 +51,7 @@ def test_arguments_of_a_phase():
     ((unless("parts", WAIT),), "parts is no number"),
     (("barrier",), "'barrier' is no step"),
     ((lambda part: None,), "is no kernel"),
-    ((edge_sums,), "is no kernel"),
+    ((audit_sums,), "is no kernel"),
 ], ids=lambda value: None if isinstance(value, tuple) else value)  # fmt: skip
 def test_lists_that_make_no_sense_are_refused(steps, message):
     with pytest.raises(ValueError, match=message):

@@ -200,9 +200,9 @@ OFTEN = [
     ("deform", "contact_volumes.heat_evened_cells", "even_z"), ("deform", "contact_volumes.contact_work", "fz"),
     ("deform", "contact_checkerboard.damp_pressures", "room"), ("deform", "deformation.deform", "vof"),
     ("carry_bodies", "interfaces.interface_volumes", "flux_volume"), ("carry_bodies", "contact_volumes.contact_fluxes", "size"),
-    ("carry_bodies", "remap.sweep_z", "flux"), ("carry_bodies", "edge_sums.sum_outflow", "edge_flux"),
+    ("carry_bodies", "remap.sweep_z", "flux"), ("carry_bodies", "audit_sums.sum_outflow", "edge_flux"),
     ("carry_momentum", "momentum.sweep_momentum", "flux_mass"), ("carry_momentum", "momentum.deposit", "deficit"),
-    ("carry_momentum", "edge_sums.sum_kinetic_outflow", "cell_mass"),
+    ("carry_momentum", "audit_sums.sum_kinetic_outflow", "cell_mass"),
     ("carry_momentum", "column_ranges.widen_ranges", "group_ranges"),
 ]  # fmt: skip
 NEEDED = [*RARE, *(pytest.param(*each, marks=pytest.mark.slow) for each in OFTEN)]

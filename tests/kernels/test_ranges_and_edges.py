@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import boundaries, column_ranges, edge_sums, mesh_motion, triad
+from hydro2d.kernels import audit_sums, boundaries, column_ranges, mesh_motion, triad
 from hydro2d.kernels.column_ranges import NOTHING
 from hydro2d.mesh.fields import RHO, SRR, SRZ, E
 from tests.kernels.cells import Cells
@@ -196,7 +196,7 @@ def test_outflow_and_inflow_are_summed_separately():
     cells.edge_flux[:, 0, 1, 3], cells.edge_flux[:, 1, 1, 3] = (2.0, 3.0), (8.0, 30.0)
     cells.edge_flux[1, 0, 0, 4], cells.edge_flux[1, 1, 0, 4] = -1.0, -5.0
     cells.edge_flux[1, 0, 0, 6] = 100.0  # beyond the active box
-    cells.call(edge_sums.sum_outflow, di=1)
+    cells.call(audit_sums.sum_outflow, di=1)
     assert cells.outflow[0].tolist() == [[0, 0, 0], [-8, 0, -2]]
     assert cells.outflow[1].tolist() == [[30, 0, 3], [-5, -1, 0]]
 
@@ -205,8 +205,42 @@ def test_momentum_that_goes_out_and_that_comes_in():
     cells = Cells()
     cells.edge_dual[0, 1, :, 6] = 2.0, 7.0, 3.0, 1.0, 0.5  # the last vertex of the box counts
     cells.edge_dual[0, 0, :, 2] = 1.0, 7.0, -4.0, 0.25, 1.0
-    cells.call(edge_sums.sum_kinetic_outflow, di=1)
+    cells.call(audit_sums.sum_kinetic_outflow, di=1)
     assert cells.kinetic_outflow.tolist() == [[[0, 0], [4, -1.25]], [[3, 1.5], [0, 0]]]
+
+
+def test_what_the_rows_of_vertices_lose_is_summed_over_the_active_box():
+    """Rows 2 to 6 of vertices are those of the box; edges count in all rows."""
+    cells = Cells(bodies=2, group=[0, 1])
+    cells.limited[...], cells.transfer[...] = np.arange(27.0).reshape(3, 9), -np.arange(45.0).reshape(5, 9)
+    cells.walls[3, 1] = np.arange(9.0)
+    cells.limited_sum[...], cells.walls_sum[...], cells.transfer_sum[...] = 9.0, 9.0, 9.0
+    cells.call(audit_sums.sum_acceleration, contact=True)
+    assert cells.limited_sum.tolist() == [20.0, 65.0, 110.0]
+    assert cells.transfer_sum.tolist() == [-20.0, -65.0, -110.0, -155.0, -200.0]
+    assert cells.walls_sum.tolist() == [[0, 0], [0, 0], [0, 0], [0, 36.0]]
+
+
+@pytest.mark.parametrize("both", [True, False])
+def test_what_a_sweep_discards_is_summed_over_the_active_box(both):
+    """Rows 2 to 6 of vertices, and 2 to 5 of cells; what vertices give to cells only if the advection keeps both."""
+    cells = Cells(bodies=2)
+    cells.momentum_sums[...], cells.removed[...] = np.arange(45.0).reshape(5, 9), np.arange(54.0).reshape(6, 9)
+    cells.deposited[...], cells.deposited_sum[...] = np.arange(9.0), 7.0
+    cells.call(audit_sums.sum_momentum, both=both)
+    assert cells.momentum_sum.tolist() == [20.0, 65.0, 110.0, 155.0, 200.0]
+    assert cells.removed_sum.tolist() == [14.0, 50.0, 86.0, 122.0, 158.0, 194.0]
+    assert cells.deposited_sum.tolist() == [14.0 if both else 0.0]
+
+
+def test_the_first_cell_turned_inside_out():
+    cells = Cells(bodies=2)
+    cells.turned[...] = -1
+    cells.call(audit_sums.find_turned)
+    assert cells.first_turned[0] == -1
+    cells.turned[1], cells.turned[4], cells.turned[5] = (3, 0), (5, 1), (2, 0)  # the first is not in the active box
+    cells.call(audit_sums.find_turned)
+    assert cells.first_turned.tolist() == [4, 5, 1]
 
 
 # ------------------------------------------------------------------------------------------------ a mesh that travels

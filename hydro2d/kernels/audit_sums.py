@@ -1,7 +1,64 @@
-"""Fluxes through the edges of the mesh in a sweep, summed along each edge for the audit."""
+"""Sums for the audit: of what the rows have lost in a phase, and of what went through the edges of the mesh in a sweep."""
 
-from hydro2d.jit import serial
+from hydro2d.jit import plus, rowwise, serial
 from hydro2d.kernels.column_ranges import outer_rows
+
+
+@rowwise
+def sum_rows(amounts, first, last, total):
+    """Writes into total [k] the sums of amounts [k, row] over some rows."""
+    for k in range(amounts.shape[0]):
+        row_sum = 0.0
+        for j in range(first, last):
+            row_sum = plus(row_sum, amounts[k, j])
+        total[k] = row_sum
+
+
+@serial
+def sum_acceleration(w):
+    """What the speed limit, the edges and the contact have taken in all rows of vertices while the velocities changed.
+
+    Reads    limited [3, j]; walls [edge, 2, j]; with two groups, transfer [5, j]
+    Writes   limited_sum [3]; walls_sum [edge, 2]; transfer_sum [5]
+    """
+    j0, j1 = outer_rows(w.parts)
+    sum_rows(w.limited, j0, j1 + 1, w.limited_sum)
+    for edge in range(4):
+        sum_rows(w.walls[edge], 0, w.walls.shape[2], w.walls_sum[edge])
+    if w.contact:
+        sum_rows(w.transfer, j0, j1 + 1, w.transfer_sum)
+
+
+@serial
+def find_turned(w):
+    """The first cell that the step turned inside out.
+
+    Reads    turned [j, 2]
+    Writes   first_turned [3]: row, -1 for none, column, body
+    """
+    j0, j1 = outer_rows(w.parts)
+    w.first_turned[0] = -1
+    for j in range(j0, j1):
+        if w.turned[j, 0] >= 0:
+            w.first_turned[0], w.first_turned[1], w.first_turned[2] = j, w.turned[j, 0], w.turned[j, 1]
+            break
+
+
+@serial
+def sum_momentum(w):
+    """What the advection of momentum and the tidying have taken in all rows of a sweep.
+
+    Reads    momentum_sums [5, j]; removed [4 + m, j]; with both, deposited [j]
+    Writes   momentum_sum [5]; removed_sum [4 + m]; deposited_sum [1]
+    """
+    j0, j1 = outer_rows(w.parts)
+    sum_rows(w.momentum_sums, j0, j1 + 1, w.momentum_sum)
+    sum_rows(w.removed, j0, j1, w.removed_sum)
+    given = 0.0
+    if w.both:
+        for j in range(j0, j1):
+            given = plus(given, w.deposited[j])
+    w.deposited_sum[0] = given
 
 
 @serial
