@@ -1,17 +1,16 @@
 """Sums for the audit: of what the rows have lost in a phase, and of what went through the edges of the mesh in a sweep."""
 
-from hydro2d.jit import plus, rowwise, serial
+from hydro2d.jit import plus, point, serial
 from hydro2d.kernels.column_ranges import outer_rows
 
 
-@rowwise
-def sum_rows(amounts, first, last, total):
-    """Writes into total [k] the sums of amounts [k, row] over some rows."""
-    for k in range(amounts.shape[0]):
-        row_sum = 0.0
-        for j in range(first, last):
-            row_sum = plus(row_sum, amounts[k, j])
-        total[k] = row_sum
+@point
+def row_sum(amounts):
+    """Sum over all rows; those beyond the active box have never lost anything."""
+    total = 0.0
+    for j in range(amounts.shape[0]):
+        total = plus(total, amounts[j])
+    return total
 
 
 @serial
@@ -21,12 +20,14 @@ def sum_acceleration(w):
     Reads    limited [3, j]; walls [edge, 2, j]; with two groups, transfer [5, j]
     Writes   limited_sum [3]; walls_sum [edge, 2]; transfer_sum [5]
     """
-    j0, j1 = outer_rows(w.parts)
-    sum_rows(w.limited, j0, j1 + 1, w.limited_sum)
+    for k in range(3):
+        w.limited_sum[k] = row_sum(w.limited[k])
     for edge in range(4):
-        sum_rows(w.walls[edge], 0, w.walls.shape[2], w.walls_sum[edge])
+        w.walls_sum[edge, 0] = row_sum(w.walls[edge, 0])
+        w.walls_sum[edge, 1] = row_sum(w.walls[edge, 1])
     if w.contact:
-        sum_rows(w.transfer, j0, j1 + 1, w.transfer_sum)
+        for k in range(5):
+            w.transfer_sum[k] = row_sum(w.transfer[k])
 
 
 @serial
@@ -51,14 +52,11 @@ def sum_momentum(w):
     Reads    momentum_sums [5, j]; removed [4 + m, j]; with both, deposited [j]
     Writes   momentum_sum [5]; removed_sum [4 + m]; deposited_sum [1]
     """
-    j0, j1 = outer_rows(w.parts)
-    sum_rows(w.momentum_sums, j0, j1 + 1, w.momentum_sum)
-    sum_rows(w.removed, j0, j1, w.removed_sum)
-    given = 0.0
-    if w.both:
-        for j in range(j0, j1):
-            given = plus(given, w.deposited[j])
-    w.deposited_sum[0] = given
+    for k in range(5):
+        w.momentum_sum[k] = row_sum(w.momentum_sums[k])
+    for k in range(w.removed.shape[0]):
+        w.removed_sum[k] = row_sum(w.removed[k])
+    w.deposited_sum[0] = row_sum(w.deposited) if w.both else 0.0
 
 
 @serial

@@ -209,28 +209,27 @@ def test_momentum_that_goes_out_and_that_comes_in():
     assert cells.kinetic_outflow.tolist() == [[[0, 0], [4, -1.25]], [[3, 1.5], [0, 0]]]
 
 
-def test_what_the_rows_of_vertices_lose_is_summed_over_the_active_box():
-    """Rows 2 to 6 of vertices are those of the box; edges count in all rows."""
+def test_what_the_rows_of_vertices_lose_is_summed():
     cells = Cells(bodies=2, group=[0, 1])
     cells.limited[...], cells.transfer[...] = np.arange(27.0).reshape(3, 9), -np.arange(45.0).reshape(5, 9)
     cells.walls[3, 1] = np.arange(9.0)
     cells.limited_sum[...], cells.walls_sum[...], cells.transfer_sum[...] = 9.0, 9.0, 9.0
     cells.call(audit_sums.sum_acceleration, contact=True)
-    assert cells.limited_sum.tolist() == [20.0, 65.0, 110.0]
-    assert cells.transfer_sum.tolist() == [-20.0, -65.0, -110.0, -155.0, -200.0]
+    assert cells.limited_sum.tolist() == [36.0, 117.0, 198.0]
+    assert cells.transfer_sum.tolist() == [-36.0, -117.0, -198.0, -279.0, -360.0]
     assert cells.walls_sum.tolist() == [[0, 0], [0, 0], [0, 0], [0, 36.0]]
 
 
 @pytest.mark.parametrize("both", [True, False])
-def test_what_a_sweep_discards_is_summed_over_the_active_box(both):
-    """Rows 2 to 6 of vertices, and 2 to 5 of cells; what vertices give to cells only if the advection keeps both."""
+def test_what_a_sweep_discards_is_summed(both):
+    """What vertices give to cells only if the advection keeps both."""
     cells = Cells(bodies=2)
     cells.momentum_sums[...], cells.removed[...] = np.arange(45.0).reshape(5, 9), np.arange(54.0).reshape(6, 9)
     cells.deposited[...], cells.deposited_sum[...] = np.arange(9.0), 7.0
     cells.call(audit_sums.sum_momentum, both=both)
-    assert cells.momentum_sum.tolist() == [20.0, 65.0, 110.0, 155.0, 200.0]
-    assert cells.removed_sum.tolist() == [14.0, 50.0, 86.0, 122.0, 158.0, 194.0]
-    assert cells.deposited_sum.tolist() == [14.0 if both else 0.0]
+    assert cells.momentum_sum.tolist() == [36.0, 117.0, 198.0, 279.0, 360.0]
+    assert cells.removed_sum.tolist() == [36.0, 117.0, 198.0, 279.0, 360.0, 441.0]
+    assert cells.deposited_sum.tolist() == [36.0 if both else 0.0]
 
 
 def test_the_first_cell_turned_inside_out():
