@@ -262,6 +262,16 @@ def test_the_page(rough, whole, tmp_path):
                                                                                   "sample_01_depth_m_tornado.png"}  # fmt: skip
 
 
+def test_the_page_of_a_sample_at_one_velocity_draws_the_runs_against_an_input(rough, tmp_path):
+    """Not against the row, whose number means nothing."""
+    text = STUDY.replace('"body.rod.velocity"]\nuniform = ["1000 m/s", "1200 m/s"]',
+                         '"body.rod.material"]\nchoice = ["W_alloy", "W_sintered"]')
+    directory, _ = swept(tmp_path, lambda velocity, deck: outcome(1086.0, deck), text)
+    page = Page(report([directory], tmp_path / "report", say=lambda line: None).read_text(encoding="utf-8"))
+    assert "Depth against body.rod.strength_factor (SI)" in page.text
+    assert "Depth against row" not in page.text
+
+
 def test_a_study_without_a_sample(tmp_path):
     study = fake.write_study(tmp_path / "plain", {"velocity": fake.velocities(1086, 1200)})
     with pytest.raises(StudyError, match="is not a study with"):

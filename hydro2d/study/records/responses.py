@@ -13,6 +13,7 @@ from hydro2d.output.history import unit
 from hydro2d.results.summaries import NUMBERS, UNITS
 from hydro2d.running.columns import SUMMARY
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.distributions import CHOICE
 from hydro2d.study.records.differences import flatten, text
 from hydro2d.study.records.record import Record, is_number
 from hydro2d.study.records.study_directory import Axis, Study
@@ -146,14 +147,17 @@ def is_velocity(axis: Axis) -> bool:
 def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
     """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes the case.
 
-    At one velocity the cases are drawn side by side, since all marks would otherwise lie above one another.
+    A sample without other axes is drawn against the first of its inputs that is a number. At one velocity the cases are drawn side by side, since all marks would otherwise lie above one another.
     """
     speeds = {record.velocity for record in records} - {None}
-    axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1]
+    axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1 and not axis.is_of_points]
     if len(speeds) > 1 or len(records) == 1 and speeds and not axes:
         return impact(records)
     numeric = [axis for axis in axes if axis.order is None]
-    return (numeric or axes or [_cases(records)])[0]
+    inputs = study.sample.inputs if study.sample and not axes else ()
+    keys = {key for record in records for key in flatten(record.deck or {})}
+    sampled = [variable(study, records, each.key, "--x") for each in inputs if each.kind != CHOICE and each.key in keys]
+    return (numeric or axes or sampled or [_cases(records)])[0]
 
 
 def variable(study: Study, records: Sequence[Record], name: str, option: str) -> Variable:
