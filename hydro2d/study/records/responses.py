@@ -147,7 +147,8 @@ def is_velocity(axis: Axis) -> bool:
 def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
     """The impact velocity if it varies, else the first numeric axis, else the first axis; without axes the case.
 
-    A sample without other axes is drawn against the first of its inputs that is a number. At one velocity the cases are drawn side by side, since all marks would otherwise lie above one another.
+    A sample without other axes is drawn against the first of its inputs that is a number. At one velocity the cases are drawn
+    side by side, since all marks would otherwise lie above one another.
     """
     speeds = {record.velocity for record in records} - {None}
     axes = [of_axis(axis, study) for axis in study.axes if len(axis.values) > 1 and not axis.is_of_points]
