@@ -13,21 +13,25 @@ def row_sum(amounts):
     return total
 
 
+@point
+def sum_rows(amounts, sums):
+    """Writes into sums [k] the `row_sum` of each of amounts [k, j]."""
+    for k in range(sums.shape[0]):
+        sums[k] = row_sum(amounts[k])
+
+
 @serial
 def sum_acceleration(w):
-    """What the speed limit, the edges and the contact have taken in all rows of vertices while the velocities changed.
+    """Losses to the speed limit, the edges and the contact while the velocities change, summed over all rows of vertices.
 
     Reads    limited [3, j]; walls [edge, 2, j]; with two groups, transfer [5, j]
     Writes   limited_sum [3]; walls_sum [edge, 2]; transfer_sum [5]
     """
-    for k in range(3):
-        w.limited_sum[k] = row_sum(w.limited[k])
+    sum_rows(w.limited, w.limited_sum)
     for edge in range(4):
-        w.walls_sum[edge, 0] = row_sum(w.walls[edge, 0])
-        w.walls_sum[edge, 1] = row_sum(w.walls[edge, 1])
+        sum_rows(w.walls[edge], w.walls_sum[edge])
     if w.contact:
-        for k in range(5):
-            w.transfer_sum[k] = row_sum(w.transfer[k])
+        sum_rows(w.transfer, w.transfer_sum)
 
 
 @serial
@@ -39,23 +43,20 @@ def find_turned(w):
     """
     j0, j1 = outer_rows(w.parts)
     w.first_turned[0] = -1
-    for j in range(j0, j1):
+    for j in range(j1 - 1, j0 - 1, -1):
         if w.turned[j, 0] >= 0:
             w.first_turned[0], w.first_turned[1], w.first_turned[2] = j, w.turned[j, 0], w.turned[j, 1]
-            break
 
 
 @serial
 def sum_momentum(w):
-    """What the advection of momentum and the tidying have taken in all rows of a sweep.
+    """Losses in the advection of momentum and the tidying of a sweep, summed over all rows.
 
     Reads    momentum_sums [5, j]; removed [4 + m, j]; with both, deposited [j]
     Writes   momentum_sum [5]; removed_sum [4 + m]; deposited_sum [1]
     """
-    for k in range(5):
-        w.momentum_sum[k] = row_sum(w.momentum_sums[k])
-    for k in range(w.removed.shape[0]):
-        w.removed_sum[k] = row_sum(w.removed[k])
+    sum_rows(w.momentum_sums, w.momentum_sum)
+    sum_rows(w.removed, w.removed_sum)
     w.deposited_sum[0] = row_sum(w.deposited) if w.both else 0.0
 
 

@@ -100,12 +100,15 @@ class Crater:
         """For every column of cells the depth of its face and the motion of its rear, m, and whether it is whole; (nr,) each.
 
         A column that lacks less than half a cell of the target's thickness is whole, and the missing part is no hole. Gaps in
-        it, as of a spall, do not move its face; a column less than half full takes the values of the next one outside.
+        it, as of a spall, do not move its face; a column less than half full takes the values of the next one outside. All
+        are zero while the rear is beyond the mesh, where nothing is known of it.
 
         wall, filled : from `_walls`, along the rod's flight;  edges : of their rows, as depths
         """
         height = np.diff(edges)
         face, way, whole = np.zeros(wall.shape[1]), np.zeros(wall.shape[1]), np.zeros(wall.shape[1], dtype=bool)
+        if edges[-1] <= self.rear:
+            return face, way, whole
         for i in range(wall.shape[1] - 1, -1, -1):
             cells = np.nonzero(wall[:, i])[0]
             if not len(cells):
@@ -124,8 +127,6 @@ class Crater:
         """Walls with every column of cells moved back by its motion with the plate: that of its rear."""
         order = slice(None, None, 1 if self.direction > 0 else -1)
         edges = self._depth(self.sim.grid.z_edges)[order]
-        if edges[-1] <= self.rear:
-            return walls
         wall, filled = (cells[order].copy() for cells in walls)
         face, way, whole = self._bends(wall, filled, edges)
         for i in np.nonzero(way * np.where(whole, face, 1.0) > 0.0)[0]:
@@ -192,9 +193,7 @@ class Crater:
         The radius is NaN if there is no wall, and while the row is no deeper than the plate has bent.
         """
         order = slice(None, None, 1 if self.direction > 0 else -1)
-        edges, way = self._depth(self.sim.grid.z_edges)[order], np.zeros(wall.shape[1])
-        if edges[-1] > self.rear:  # else no rear in the mesh has moved
-            _, way, _ = self._bends(wall[order], filled[order], edges)
+        _, way, _ = self._bends(wall[order], filled[order], self._depth(self.sim.grid.z_edges)[order])
         depth = float(self._depth(self.sim.grid.zc[self.sim.grid.inside[0]][last]))
         if 0.0 < way.max() and depth <= way.max():
             return depth, np.nan

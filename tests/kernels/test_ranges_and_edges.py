@@ -222,7 +222,7 @@ def test_what_the_rows_of_vertices_lose_is_summed():
 
 @pytest.mark.parametrize("both", [True, False])
 def test_what_a_sweep_discards_is_summed(both):
-    """What vertices give to cells only if the advection keeps both."""
+    """The energy that vertices give to cells is among it only if the advection keeps both."""
     cells = Cells(bodies=2)
     cells.momentum_sums[...], cells.removed[...] = np.arange(45.0).reshape(5, 9), np.arange(54.0).reshape(6, 9)
     cells.deposited[...], cells.deposited_sum[...] = np.arange(9.0), 7.0

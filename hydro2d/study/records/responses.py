@@ -155,10 +155,19 @@ def usual_variable(study: Study, records: Sequence[Record]) -> Variable:
     if len(speeds) > 1 or len(records) == 1 and speeds and not axes:
         return impact(records)
     numeric = [axis for axis in axes if axis.order is None]
-    inputs = study.sample.inputs if study.sample and not axes else ()
-    keys = {key for record in records for key in flatten(record.deck or {})}
-    sampled = [variable(study, records, each.key, "--x") for each in inputs if each.kind != CHOICE and each.key in keys]
-    return (numeric or axes or sampled or [_cases(records)])[0]
+    return (numeric or axes or [_first_input(study, records) or _cases(records)])[0]
+
+
+def _first_input(study: Study, records: Sequence[Record]) -> Variable | None:
+    """The first input of a sample that is a number; None without a sample, or if no deck of the runs has such a key."""
+    numbers = [each.key for each in study.sample.inputs if each.kind != CHOICE] if study.sample else []
+    flat = _flat(records) if numbers else {}
+    return next((_of_key(key, flat) for key in numbers if any(key in deck for deck in flat.values())), None)
+
+
+def _flat(records: Sequence[Record]) -> dict[str, dict[str, object]]:
+    """The decks of the runs, by case, as values by key."""
+    return {record.case.name: flatten(record.deck) for record in records if record.deck}
 
 
 def variable(study: Study, records: Sequence[Record], name: str, option: str) -> Variable:
@@ -170,10 +179,10 @@ def variable(study: Study, records: Sequence[Record], name: str, option: str) ->
         return impact(records)
     if axis is not None:
         return of_axis(axis, study)
-    flat = {record.case.name: flatten(record.deck) for record in records if record.deck}
+    flat = _flat(records)
     keys = {key for deck in flat.values() for key in deck}
     if name in keys:
-        return _of_key(name, {case: deck[name] for case, deck in flat.items() if deck.get(name) is not None})
+        return _of_key(name, flat)
     known = numbers(records)
     if name in known:
         quantity = response(name)
@@ -230,8 +239,9 @@ def _in_one_unit(labels: Sequence[str]) -> tuple[str, dict[str, float]] | None:
     return si.pop(), {label: float(f"{float(match[1]) * COMMON[match[2]][1]:.12g}") for label, match in matches.items()}
 
 
-def _of_key(key: str, values: Mapping[str, object]) -> Variable:
-    """A deck key: numbers in SI, else words in the order in which they occur."""
+def _of_key(key: str, decks: Mapping[str, Mapping[str, object]]) -> Variable:
+    """A key of decks by case: numbers in SI, else words in the order in which they occur."""
+    values = {case: deck[key] for case, deck in decks.items() if deck.get(key) is not None}
     if all(is_number(value) for value in values.values()):
         return Variable(key, f"{key} (SI)", {case: float(value) for case, value in values.items()})
     words = {case: text(value) for case, value in values.items()}
