@@ -110,6 +110,8 @@ def key_problem(data: dict, key: str) -> str | None:
                 return f"{spelled(path)}: {unknown('entry', part, names)}"
             path, place = (*path, index), place[index]
             continue
+        if path and place is not None and not isinstance(place, dict):
+            return f"{spelled(path)} is a value and has no key {part}"
         allowed = _allowed_keys(path, data)
         if allowed and part not in allowed:
             problem = _no_such_key((*path, part), allowed)

@@ -212,6 +212,10 @@ def test_a_table(tmp_path):
     ("body.rod.velocity [m/s],body.rod.material\n1086\n", "x.csv: row 1 has 1 cells, and the head 2"),
     ("body.rod.velocity [m/s],body.rod.material\n1086,\n", 'x.csv: row 1, column "body.rod.material": is empty'),
     ("body.rod.velocity [m/s]\n", "x.csv: needs a line of heads and at least one row"),
+    ("body.rod.velocity [m/s];body.rod.strength_factor\n1086;1\n", "x.csv: the cells are separated by semicolons; write commas"),
+    ("body.rod.velocity [m/s]\tbody.rod.material\n1086\tW_alloy\n", "x.csv: the cells are separated by tabs"),
+    ("body.rod.velocity.x.y\n1\n", 'x.csv: column "body.rod.velocity.x.y": no deck has the key body.rod.velocity.x.y: '
+     "body[0].velocity is a value and has no key x"),
     ('body.rod.velocity [m/s]\n"1\n', "x.csv: is not a table with commas: unexpected end of data"),
     ("body.rod.velcity [m/s]\n1086\n", 'x.csv: column "body.rod.velcity [m/s]": no deck has the key body.rod.velcity: body[0]: '
      'unknown key "velcity"; did you mean "velocity"?'),
@@ -224,6 +228,14 @@ def test_a_table(tmp_path):
 def test_a_wrong_table_is_refused_before_the_first_run(tmp_path, table, said):
     lines = refused(tmp_path, f'{BASE}[sample]\ntable = "x.csv"\n', table)
     assert lines[0].startswith(said), lines
+
+
+def test_a_mistake_of_many_rows_is_said_once(tmp_path):
+    table = "body.rod.velocity [kg],body.rod.material\n" + "".join(f"{row},W_aloy\n" for row in range(40))
+    lines = refused(tmp_path, f'{BASE}[sample]\ntable = "x.csv"\n', table)
+    assert len(lines) == 2 and all(line.endswith("; 39 more rows are wrong in the same way") for line in lines), lines
+    one_more = refused(tmp_path, f'{BASE}[sample]\ntable = "x.csv"\n', "body.rod.strength_factor\n-1\n1\n-2.5e-3\n")
+    assert [line.endswith("is -1; 1 more row is wrong in the same way") for line in one_more] == [True], one_more
 
 
 def test_a_missing_table(tmp_path):

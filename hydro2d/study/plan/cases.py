@@ -27,6 +27,7 @@ from hydro2d.study.plan.scaling import AS_IT_IS, Size
 
 #: longest part of the name of a case that comes from one axis
 LONGEST = 40
+_NUMBER = re.compile(r"[-+]?\d[\d.]*(e[-+]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -352,27 +353,30 @@ class _Planner:
         return at_points
 
     def _check_rows(self, planned: list[list[Planned]], sample: sampling.Points) -> None:
-        """Refuses a sample with rows that make a deck invalid: each of them is said once, with its column where it is known."""
-        said: dict[str, None] = {}
+        """Refuses a sample with rows that make a deck invalid: each mistake once, by its first row, whatever its numbers."""
+        said: dict[tuple, dict[int, str]] = {}
         for case in (group[0] for group in planned if group and not group[0].text):
             row = int(case.values[sampling.AXIS])
             for line in case.message.splitlines():
-                said[self._row_in_words(row, line, sample, case.overrides)] = None
-        self.wrong += said
+                of, message = self._row_in_words(row, line, sample, case.overrides)
+                said.setdefault((of, _NUMBER.sub("", line)), {}).setdefault(row, message)
+        for rows in said.values():
+            first, *others = rows.values()
+            self.wrong.append(first + _alike(len(others)))
 
-    def _row_in_words(self, row: int, line: str, sample: sampling.Points, overrides: list[str]) -> str:
-        """The message of a deck for a row of a sample: file, row and column, then what is wrong."""
+    def _row_in_words(self, row: int, line: str, sample: sampling.Points, overrides: list[str]) -> tuple[str, str]:
+        """The input that a message of a deck is about, or "", and the message: file, row and column, then what is wrong."""
         settings = dict(map(toml.assignment, overrides))
         said = {f"--set {toml.assigned(each.key, settings[each.key])}: ": each for each in sample.inputs}
         start, of = next(((start, each) for start, each in said.items() if line.startswith(start)), ("", None))
-        wrong = line.removeprefix(start)
+        wrong, key = line.removeprefix(start), of.key if of else ""
         if sample.table:
             file = self.path.parent / self.definition.sample.table
-            return f"{sampling.place(file, row, of.head)}: {wrong}" if of else f"{file}: row {row}: {wrong}"
+            return key, f"{sampling.place(file, row, of.head)}: {wrong}" if of else f"{file}: row {row}: {wrong}"
         if of is None:
-            return f"{self.sources.where(('sample',), self.data)}: sample: row {row}: {wrong}"
-        where = self.sources.where(self._place_of(of.key), self.data)
-        return f"{where}: {_spelled_input(of.key)}: row {row} has {settings[of.key]}: {wrong}"
+            return key, f"{self.sources.where(('sample',), self.data)}: sample: row {row}: {wrong}"
+        where = self.sources.where(self._place_of(key), self.data)
+        return key, f"{where}: {_spelled_input(key)}: row {row} has {settings[key]}: {wrong}"
 
     # ------------------------------------------------------------------------------------------------ the velocity of impact
 
@@ -521,6 +525,11 @@ def _changed(case: Planned, deck: decks.Deck, file: Path) -> Planned:
     overrides = [*case.overrides, *members.overrides(deck, case.changed)]
     changed, message = _read(file, overrides)
     return replace(case, overrides=overrides, text=changed.to_toml() if changed else "", message=message)
+
+
+def _alike(others: int) -> str:
+    """The end of a message about a row, if others have the same mistake."""
+    return f"; {others} more {'row is' if others == 1 else 'rows are'} wrong in the same way" if others else ""
 
 
 def _spelled_input(key: str) -> str:

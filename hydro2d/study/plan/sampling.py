@@ -24,6 +24,9 @@ AXIS, NAME = "row", "row{}"
 #: a head with a unit; the index of an entry is a part of its key
 _HEAD = re.compile(r"(.*?\S)\s*\[(?!\d+\])([^\[\]]*)\]")
 
+#: marks between cells that a table must not have, as spreadsheets write them where numbers have commas
+_OTHER_MARKS = {";": "semicolons", "\t": "tabs"}
+
 
 @dataclass(frozen=True)
 class Points:
@@ -149,6 +152,8 @@ def _cells(file: Path) -> tuple[list[str], list[list[str]]]:
         lines.pop()
     if len(lines) < 2:
         raise StudyError(f"{file}: needs a line of heads and at least one row")
+    if len(lines[0]) == 1 and (other := next((mark for mark in _OTHER_MARKS if mark in lines[0][0]), "")):
+        raise StudyError(f"{file}: the cells are separated by {_OTHER_MARKS[other]}; write commas, and points in numbers")
     if len(lines) - 1 > MOST:
         raise StudyError(f"{file}: has {len(lines) - 1} rows; at most {MOST} are allowed")
     return [head.strip() for head in lines[0]], lines[1:]
