@@ -270,6 +270,7 @@ def test_a_missing_table(tmp_path):
     (('"Al5083"]', '"Al5083"]\nrelative = "factor"'), "relative belongs to numbers, not to choice"),
     (("n = 4", 'n = 4\nby = ["mesh offset", "mesh offset"]'), "sample.by: names a change twice"),
     (("n = 4", "n = 4\nby = []"), "sample.by: is empty"),
+    (("n = 4", 'n = 4\nresults = ["regime"]'), "sample.results: regime is a word, and samples.csv has it anyway"),
     (("n = 4", 'n = 4\nby = ["mesh ofset"]'), 'did you mean "mesh offset"'),
     (("[sample]", '[ensemble]\nrepeats = 2\n[sample]\nby = ["first step"]'), "sample.by: [ensemble] makes changes already"),
     (("[sample]", '[[axis]]\nname = "row"\nkey = "numerics.courant"\nvalues = [0.4]\n[sample]'), '"row" is the name of the'),

@@ -1,6 +1,7 @@
 """samples.csv: the same file to the byte however the runs were made; kept rows; the commands and the page of a sample."""
 
 import csv
+import itertools
 import re
 import signal
 import time
@@ -18,6 +19,7 @@ from hydro2d.study.run import cluster, sweep
 from hydro2d.study.run.case import Outcome
 from hydro2d.study.run.choice import Choice
 from hydro2d.study.samples import results, sobol
+from hydro2d.study.samples import text as text_of
 from tests.study import fake, made_up, tubes
 from tests.study.html import Page
 
@@ -250,6 +252,25 @@ def test_the_terminal(rough, monkeypatch, tmp_path, capsys):
         assert word in said, word
     assert call(["sweep", str(tmp_path / "out"), "--status"]) == 0
     assert "Q2 =" in capsys.readouterr().out
+
+
+def test_asked_results_are_shown_or_missed(rough, tmp_path):
+    """One that does not vary is shown without shares, one that no run has is said with the nearest name."""
+    asked = ["depth_m", "residual_velocity_m_s", "bodies.rod.mass_kg", "cycles", "bodies.rod.mas_kg"]
+    text = STUDY.replace('["rod_core_mass_kg"]', str(asked).replace("'", '"'))
+    rounded = (1.0 + 1e-12 * n for n in itertools.count())
+
+    def made(velocity, deck):
+        return outcome(velocity, deck) | {"exit_time_s": None, "bodies": {"rod": {"mass_kg": next(rounded)}}}
+
+    directory, _ = swept(tmp_path, made, text)
+    table, samples = rows(directory), hydro2d.open_study(directory).samples()
+    assert {row["residual_velocity_m_s"] for row in table} == {"0.0"}, "a rod that stops, whether or not it is asked for"
+    assert samples.usual == ["depth_m", "residual_velocity_m_s", "bodies.rod.mass_kg", "cycles"], "also more than the usual three"
+    lines = list(text_of.report(samples))
+    assert any('no run has such a number: unknown result "bodies.rod.mas_kg"; did you mean "bodies.rod.mass_kg"' in line
+               for line in lines)  # fmt: skip
+    assert "bodies.rod.mass_kg: the result is the same in every row: no input decides it" in lines
 
 
 def test_the_page(rough, whole, tmp_path):

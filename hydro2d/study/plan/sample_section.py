@@ -151,6 +151,18 @@ def different(values: tuple) -> tuple:
     return values
 
 
+#: results that are words, which every table of results has
+WORDS = ("status", "stop_reason", "trustworthy", "regime", "perforated")
+
+
+def _numbers(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of results that can be numbers. Raises ValueError."""
+    for name in names:
+        if name in WORDS:
+            raise ValueError(f"{name} is a word, and samples.csv has it anyway; name numbers of summary.json")
+    return names
+
+
 def _by_key(table: Any) -> Any:
     """The tables of [sample.input] by deck key; sample.input.body.rod.velocity and a quoted key are the same."""
     return dict(_leaves(table, "")) if isinstance(table, dict) else table
@@ -183,7 +195,9 @@ class Sample(Section):
         None, description="changes that should not matter, by another amount in every row, so that what no input explains is "
         "the chance of a run; their meaning is that of [ensemble]"
     )
-    results: tuple[str, ...] = Field((), description="numbers of summary.json that samples.csv has beside the usual ones")
+    results: Annotated[tuple[str, ...], AfterValidator(_numbers)] = Field(
+        (), description="numbers of summary.json that samples.csv has beside the usual ones"
+    )
 
     @model_validator(mode="after")
     def _one_way(self):

@@ -74,7 +74,8 @@ def _results(case: Case, kept: keeping.Row, more: Sequence[str]) -> Row:
     others = [name for name in numbers if name.startswith("derived.")]
     if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
-    return {STATUS: case.status} | row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more))}
+    row = {STATUS: case.status} | row
+    return row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}
 
 
 def of_kept(kept: keeping.Row, more: Sequence[str]) -> Row:

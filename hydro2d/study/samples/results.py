@@ -14,7 +14,7 @@ import numpy as np
 from hydro2d.base.errors import unknown
 from hydro2d.mesh.regime import REGIMES
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
-from hydro2d.study.plan import sampling
+from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
@@ -29,7 +29,7 @@ from hydro2d.study.samples import sobol, surrogates
 OUTCOMES = (REGIME, PERFORATED)
 #: their words, whether or not a run has them
 WORDS = {REGIME: REGIMES, PERFORATED: (YES, NO)}
-#: results that the summary of a sample shows, if they vary; most of them with indices
+#: results that the summary of a sample shows if they vary; most of them beside those that the study asks for
 USUAL, MOST_USUAL = ("depth_m", RESIDUAL, "length_ratio"), 3
 #: points of the cube at which the effect of an input is taken: 10 % and 90 % of its values
 LOW, HIGH = 0.1, 0.9
@@ -110,10 +110,21 @@ class Samples:
 
     @property
     def usual(self) -> list[str]:
-        """The results that are shown if none is named: those that the study asks for, the depth, and others, if they vary."""
+        """The results that are shown if none is named: those that the study asks for, and depth and others if they vary."""
+        asked = [name for name in self.wanted if len(_finite(self.values(name)))]
         others = [name for name in self.results if name.startswith(("derived.", "bodies."))]
-        chosen = [name for name in dict.fromkeys((*self.wanted, *USUAL, *others)) if name in self.columns]
-        return [name for name in chosen if len(set(_finite(self.values(name)))) > 1][:MOST_USUAL]
+        varied = [name for name in dict.fromkeys((*USUAL, *others)) if name in self.columns and name not in asked
+                  and surrogates.vary(_finite(self.values(name)))]  # fmt: skip
+        return [*asked, *varied[: max(0, MOST_USUAL - len(asked))]]
+
+    @property
+    def missed(self) -> list[str]:
+        """Messages about results that the study asks for and that no run has, though some are done."""
+        if not self.ended.any():
+            return []
+        empty = [name for name in self.wanted if not len(_finite(self.values(name)))]
+        known = self._known.difference(empty, sample_section.WORDS)
+        return [f"sample.results: no run has such a number: {unknown('result', name, known)}" for name in empty]
 
     # ------------------------------------------------------------------------------------------------ one number a run
 
@@ -167,8 +178,7 @@ class Samples:
             return self.columns[name]
         summaries = self._summaries
         if not any(name in each for each in summaries):
-            known = {*self.results, *(key for each in summaries for key in each)}
-            raise StudyError(unknown("result", name, known))
+            raise StudyError(unknown("result", name, self._known))
         return np.array([each.get(name, np.nan) for each in summaries], dtype=float)
 
     @cached_property
@@ -178,6 +188,11 @@ class Samples:
         summaries = [cases[name].summary if name in cases else {} for name in self._names or [""] * len(self)]
         return [{key: value for key, value in flatten(each).items() if is_number(value) and not key.startswith("provenance.")}
                 for each in summaries]  # fmt: skip
+
+    @property
+    def _known(self) -> set[str]:
+        """The names of results, of the table and of the summaries."""
+        return set(self.results).union(*self._summaries)
 
     def by_row(self, result: str) -> tuple[np.ndarray, np.ndarray]:
         """The rows with a result, int64[n], and their results, float64[n]: means over the members of a row."""
@@ -338,7 +353,7 @@ def of_study(study: Study) -> list[Samples]:
 def of_columns(table: Mapping[str, list[str]], inputs: Sequence[Distribution]) -> dict[str, np.ndarray]:
     """The columns of a table of text as arrays: numbers, but for those that hold words."""
     choices = (each.head for each in inputs if each.kind == CHOICE)
-    words = {STATUS, OF_METHOD, "stop_reason", "trustworthy", REGIME, PERFORATED, *choices}
+    words = {*sample_section.WORDS, OF_METHOD, *choices}
     return {name: _array(column, name in words) for name, column in table.items()}
 
 

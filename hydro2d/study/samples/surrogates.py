@@ -17,6 +17,8 @@ from hydro2d.study.samples import gaussian
 
 #: most rows by which the numbers of the covariance are found; fewest rows of a surrogate beyond one for each input
 MOST_FITTED, FEWEST = 400, 5
+#: a result whose relative standard deviation is smaller than this is the same in every row but for round-off
+SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -81,10 +83,11 @@ def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) ->
     """
     x, values = coordinates(inputs, cube), np.asarray(values, dtype=float)
     if len(values) < len(inputs) + FEWEST:
-        raise StudyError(f"a surrogate of {len(inputs)} inputs needs at least {len(inputs) + FEWEST} rows with a result, and "
-                         f"there are {len(values)}")
+        count = f"{len(inputs)} input{'s' if len(inputs) > 1 else ''}"
+        raise StudyError(f"a surrogate of {count} needs at least {len(inputs) + FEWEST} rows with a result, and there are "
+                         f"{len(values)}")
     shift, unit = float(values.mean()), float(values.std())
-    if not unit > 1e-12 * abs(shift):
+    if not vary(values):
         raise StudyError("the result is the same in every row: no input decides it")
     y = (values - shift) / unit
     with gaussian.one_thread():
@@ -95,6 +98,11 @@ def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) ->
     return Surrogate(tuple(inputs), len(y), float(1.0 - missed @ missed / (alone @ alone)),
                      float(unit * np.sqrt(np.mean(missed**2))), float(unit * np.sqrt(process.numbers.c)), process, theta, root,
                      shift, unit)  # fmt: skip
+
+
+def vary(values: np.ndarray) -> bool:
+    """Whether values, float64[n], differ by more than round-off."""
+    return len(values) > 1 and bool(values.std() > SAME * abs(values.mean()))
 
 
 def middle(inputs: Sequence[Distribution]) -> np.ndarray:

@@ -51,8 +51,8 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
     Raises StudyError if there are none.
     """
     shares = samples.indices(result)
-    rows = [(each.input, f"{each.first:.2f}", f"{each.first_low:.2f} to {each.first_high:.2f}", f"{each.total:.2f}",
-             f"{each.total_low:.2f} to {each.total_high:.2f}") for each in shares.inputs]  # fmt: skip
+    rows = [(each.input, f"{each.first:z.2f}", f"{each.first_low:z.2f} to {each.first_high:z.2f}", f"{each.total:z.2f}",
+             f"{each.total_low:z.2f} to {each.total_high:z.2f}") for each in shares.inputs]  # fmt: skip
     words = f"{title(result)}: shares of its variance, by a surrogate: {shares.surrogate.words} (SI)"
     return (INDICES, rows), words + (f". Warning: {shares.doubt}" if shares.doubt else "")
 
@@ -60,6 +60,7 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
 def report(samples: Samples) -> Iterator[str]:
     """The results as lines of text."""
     yield f"{samples.title}: {len(samples)} runs, {int(samples.ended.sum())} done"
+    yield from samples.missed
     for heads, rows in (spreads(samples), fractions(samples)):
         if rows:
             yield ""
