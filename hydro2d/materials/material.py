@@ -142,6 +142,13 @@ class Material:
     def has_strength(self) -> bool:
         return self.strength.name != "hydrodynamic"
 
+    def number(self, part: str, key: str = "") -> Number | None:
+        """A number by its keys in a deck, such as "eos" and "sound_speed", or "fracture_pressure" alone; None without it."""
+        if not key:
+            return getattr(self, part) if part in FRACTURE else None
+        numbers = getattr(self, part).numbers if part in PARTS else self.melting if part == "melting" else {}
+        return numbers.get(key)
+
     def variants_with(self, *keys: str) -> list[str]:
         """Names of the variants that set one of these keys."""
         return [name for name, own in self.variant_keys.items() if set(own) & set(keys)]

@@ -266,7 +266,7 @@ def test_asked_results_are_shown_or_missed(rough, tmp_path):
     directory, _ = swept(tmp_path, made, text)
     table, samples = rows(directory), hydro2d.open_study(directory).samples()
     assert {row["residual_velocity_m_s"] for row in table} == {"0.0"}, "a rod that stops, whether or not it is asked for"
-    assert samples.usual == ["depth_m", "residual_velocity_m_s", "bodies.rod.mass_kg", "cycles"], "also more than the usual three"
+    assert samples.usual == ["depth_m", "residual_velocity_m_s", "bodies.rod.mass_kg", "cycles"], "more than three"
     lines = list(text_of.report(samples))
     assert any('no run has such a number: unknown result "bodies.rod.mas_kg"; did you mean "bodies.rod.mass_kg"' in line
                for line in lines)  # fmt: skip

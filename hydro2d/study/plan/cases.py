@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources
 from hydro2d.output.directory import deck_hash
 from hydro2d.running.progress import counted
-from hydro2d.study.plan import members, ranges, sampling, velocities
+from hydro2d.study.plan import members, ranges, relating, sampling, velocities
 from hydro2d.study.plan.definition import DECK, Axis, Definition, Ensemble, Overrides, StudyError, of_tables, read
 from hydro2d.study.plan.distributions import Distribution
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
@@ -343,7 +343,7 @@ class _Planner:
         at_points = []
         for combination, (_, base, overrides) in zip(combinations, bare, strict=True):
             try:
-                tables = decks.written(files[base], overrides) if sample.relative else {}
+                tables = self._written(files[base], overrides, sample) if sample.relative else {}
                 settings = [sample.settings(number, tables) for number in range(len(sample.rows))]
             except (DeckError, ValueError) as error:
                 self._say(("sample", "input"), f"sample.input: {base}: {error}")
@@ -351,6 +351,11 @@ class _Planner:
             rows = [Option(str(row), sampling.NAME.format(row), own) for row, own in enumerate(settings, 1)]
             at_points += [(*combination, row) for row in rows]
         return at_points
+
+    @staticmethod
+    def _written(file: Path, overrides: list[str], sample: sampling.Points) -> Mapping[str, Any]:
+        """The tables of a deck with every value to which an input of the sample relates."""
+        return relating.completed(decks.written(file, overrides), sample.inputs, lambda: decks.load(file, overrides))
 
     def _check_rows(self, planned: list[list[Planned]], sample: sampling.Points) -> None:
         """Refuses a sample with rows that make a deck invalid: each mistake once, by its first row, whatever its numbers."""

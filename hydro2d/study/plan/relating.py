@@ -2,16 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from hydro2d.base import units
+from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
+from hydro2d.files.key_lines import Sources
 from hydro2d.study.plan.distributions import Distribution
 from hydro2d.study.plan.sample_section import FACTOR
 
 #: significant digits of the value in a deck
 DIGITS = 12
+
+
+def completed(tables: Mapping[str, Any], inputs: Sequence[Distribution], read: Callable[[], Deck]) -> Mapping[str, Any]:
+    """The tables with the numbers to which inputs relate and that materials of the deck take from those they are based on.
+
+    tables : of the deck, as they are written;  read : makes the deck, if a number is missing
+
+    Raises DeckError for a wrong deck.
+    """
+    missing = [each.key for each in inputs if each.relative and toml.value_of(tables, each.key) is None]
+    found, deck = {}, None
+    for key in missing:
+        section, name, *parts = [*toml.key_parts(key), ""]
+        if section == "materials" and name and 1 < len(parts) < 4:
+            deck = deck or read()
+            material = deck.materials.get(name)
+            if number := material and material.number(*parts[:-1]):
+                found[key] = number.value if number.unit == "1" else units.exact(number.value, number.unit)
+    for key, number in found.items():
+        tables = toml.override(dict(tables), key, number, key, Sources())
+    return tables
 
 
 def value(tables: Mapping[str, Any], each: Distribution, given: float | str) -> float | str:
