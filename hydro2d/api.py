@@ -23,6 +23,7 @@ from hydro2d.running.team import at_most
 from hydro2d.study.ensemble import contents
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.planned import Plan
 from hydro2d.study.records import study_directory
 from hydro2d.study.run import cluster
 from hydro2d.study.run import sweep as sweeps
@@ -195,7 +196,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
 
 
 def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, overrides: decks.Overrides,
-          directory: str | Path | None) -> cases.Plan:  # fmt: skip
+          directory: str | Path | None) -> Plan:  # fmt: skip
     """The cases of a study file, or of a deck and axes. Raises StudyError."""
     if axes is None:
         if isinstance(study, Deck):

@@ -120,6 +120,12 @@ def key_problem(data: dict, key: str) -> str | None:
     return None
 
 
+def no_such_key(decks: list[dict], key: str) -> str:
+    """The message for a key of overrides that none of these decks has; empty if one of them has it, or there is no deck."""
+    problems = [key_problem(data, key) for data in decks]
+    return f"no deck has the key {key}: {problems[0]}" if problems and all(problems) else ""
+
+
 def section_of(model: Any, key: str) -> Any:
     """The section under a key of a section; None for a table that may be one of several."""
     field = model.model_fields.get(key) if model else None

@@ -14,8 +14,8 @@ from hydro2d.deck import deck as decks
 from hydro2d.running import check
 from hydro2d.running.progress import counted
 from hydro2d.study.plan import cases
-from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import Definition, Overrides, Part, StudyError, read
+from hydro2d.study.plan.planned import Plan, Planned, distinct
 from hydro2d.study.plan.scaling import Size
 from hydro2d.study.records import keeping
 from hydro2d.study.run.choice import Choice
@@ -84,7 +84,7 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
 
 def _names(definition: Definition) -> list[str]:
     given = [part.name or Path(part.study).stem + (f"_{part.cells:g}" if part.cells else "") for part in definition.part]
-    return cases.distinct(given)
+    return distinct(given)
 
 
 def show(parts: Sequence[Chosen], workers: int) -> int:

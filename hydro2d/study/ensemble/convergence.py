@@ -17,8 +17,9 @@ from hydro2d.study.ensemble.contents import Contents
 from hydro2d.study.ensemble.ensembles import Ensemble
 from hydro2d.study.ensemble.extrapolation import Level, Limit
 from hydro2d.study.plan import meshes
-from hydro2d.study.plan.cases import Plan, plan_of
+from hydro2d.study.plan.cases import plan_of
 from hydro2d.study.plan.definition import Overrides, StudyError
+from hydro2d.study.plan.planned import Plan
 from hydro2d.study.records import responses
 from hydro2d.study.records.responses import DEPTH, Response, raw
 from hydro2d.study.records.table import LENGTH_RATIO

@@ -24,9 +24,9 @@ from hydro2d.deck import deck as decks
 from hydro2d.files.whole import read_text, write_text
 from hydro2d.output.directory import DECK
 from hydro2d.study.plan import sampling
-from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.members import cells_across, projectile
+from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case

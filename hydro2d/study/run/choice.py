@@ -9,8 +9,8 @@ from itertools import islice
 from pathlib import Path
 
 from hydro2d.base.errors import unknown
-from hydro2d.study.plan.cases import Plan, Planned
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.records import sample_table
 from hydro2d.study.records.keeping import Keeper
 from hydro2d.study.records.study_directory import ENDED, Case, Study

@@ -9,7 +9,7 @@ from hydro2d.base.terminal import duration, one_line, say, wrapped
 from hydro2d.deck import deck as decks
 from hydro2d.running import check
 from hydro2d.running.progress import counted
-from hydro2d.study.plan.cases import Plan, Planned
+from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.run.monitor import lines
 
 DECK, HEADS = "deck", ("case", "cells", "cycles", "time")

@@ -27,8 +27,8 @@ from hydro2d.files.whole import write_json
 from hydro2d.jit import compilation
 from hydro2d.output.directory import SUMMARY, clear
 from hydro2d.solver.first_cycle import kernels
-from hydro2d.study.plan.cases import Plan
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.planned import Plan
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.study_directory import (
     CASES,

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Sequence
 from functools import cached_property
 
-from hydro2d.study.plan.cases import Plan
+from hydro2d.study.plan.planned import Plan
 from hydro2d.study.records import record
 from hydro2d.study.records.study_directory import DONE, Case
 from hydro2d.study.run.choice import Choice

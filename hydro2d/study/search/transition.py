@@ -10,7 +10,7 @@ from pathlib import Path
 from hydro2d.base.terminal import say, wrapped
 from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
-from hydro2d.study.plan.cases import Plan, Planned
+from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.study_directory import DONE, ENDED, INTERRUPTED, UNPHYSICAL, Case
 from hydro2d.study.run import sweep
