@@ -72,6 +72,13 @@ class Study:
         names = list(self.results[0])
         return names[: next(names.index(name) for name in FIRST if name in names)]
 
+    def most_runs(self) -> int:
+        """Number of runs, at most, of a search; 0 for a study of parts."""
+        if self.plan is None:
+            return 0
+        search, count = self.plan.search, len(self.plan.cases)
+        return count // len(search.labels) * search.budget.runs if search and search.budget else count
+
     def minutes(self) -> float | None:
         """Sum of the minutes of all runs; None where the time of a run is not kept."""
         times = [row.get("minutes") or (float(row["wall_s"]) / 60.0 if row.get("wall_s") else None) for row in self.results]
@@ -112,28 +119,36 @@ def _value(row: dict[str, str], scale: dict[str, float]) -> float | None:
 
 
 def chart(study: Study):
-    """Depth, or the number of the study, against the shot or the velocity; colours are the other axes."""
+    """Depth, or the number of the study, against the shot or the velocity; colours are the other axes.
+
+    Velocities of a search have their place on the axis, all else has the next one.
+    """
     axes = study.axes()
     across = next((name for name in ("shot", "velocity") if name in axes), axes[-1])
     others, measured = [name for name in axes if name != across], _measured(study)
     value = next(name for name in VALUES if name in study.results[0])
     scale = _medians(study.results) if value == "value" else {}
-    labels = sorted({row[across] for row in study.results}, key=_order)
+    labels, search = sorted({row[across] for row in study.results}, key=_order), bool(study.plan and study.plan.search)
+    at = {label: _order(label)[1] if search else number for number, label in enumerate(labels)}
     figure, ((place,),) = figures.new_figure(8.0, 4.2, 1, 1)
     groups = list(dict.fromkeys(tuple(row[name] for name in others) for row in study.results))
     for number, group in enumerate(groups):
         rows = [row for row in study.results if tuple(row[name] for name in others) == group]
-        shift = 0.5 * (number + 0.5) / len(groups) - 0.25
-        points = [(labels.index(row[across]) + shift, found) for row in rows if (found := _value(row, scale)) is not None]
+        shift = 0.0 if search else 0.5 * (number + 0.5) / len(groups) - 0.25
+        points = [(at[row[across]] + shift, found) for row in rows if (found := _value(row, scale)) is not None]
         place.plot([x for x, _ in points], [y for _, y in points], "os^vDP*X"[number % 8], markersize=4,
                    label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")  # fmt: skip
     keys = [(row[across], row.get("case", row.get("shot"))) for row in study.results]
-    shots = {(labels.index(label), measured[key]) for label, key in keys if key in measured}
+    shots = {(at[label], measured[key]) for label, key in keys if key in measured}
     if shots:
         place.plot([x for x, _ in shots], [y for _, y in shots], "D", markersize=9, markerfacecolor="none", color="black",
                    label="measured")  # fmt: skip
-    some = range(0, len(labels), -(-len(labels) // TICKS))
-    place.set_xticks(some, [figures.verbatim(labels[n]) for n in some], fontsize=7, rotation=30, ha="right")
+    if search:
+        place.set_xlabel("velocity [m/s]", fontsize=8)
+        place.tick_params(axis="x", labelsize=7)
+    else:
+        some = range(0, len(labels), -(-len(labels) // TICKS))
+        place.set_xticks(some, [figures.verbatim(labels[n]) for n in some], fontsize=7, rotation=30, ha="right")
     place.set_ylabel(VALUES[value], fontsize=8)
     if scale:
         place.set_ylim(0.8, 1.2)  # a block that is stuck in its hole, or not, lies outside
@@ -176,9 +191,9 @@ def sections() -> list[str]:
         path = f"problems/{study.file.relative_to(problems_folder())}"
         search = study.plan.search if study.plan else None
         verb = "transition" if search else "sweep"
-        minutes, count = study.minutes(), len(study.plan.cases) if study.plan else 0
+        minutes, count = study.minutes(), study.most_runs()
         told = f"At most {count} runs" if search else f"{count} runs" if count else "Several of the studies here"
-        if study.plan and study.plan.sample and len(study.results) < count:
+        if study.plan and (study.plan.sample or search) and 0 < len(study.results) < count:
             told += f", of which {len(study.results)} are kept"
         told += f", {spoken(60.0 * minutes)} in all" if minutes else ""
         page = f"`{Path(path).parent}/README.md` says what came out"
