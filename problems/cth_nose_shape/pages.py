@@ -64,12 +64,17 @@ def _transitions() -> list[str]:
     return transitions.table(hydro2d.kept_rows(transitions.FILE))
 
 
-def _of_advection(make: Callable[[findings.Runs], list[str]]) -> Callable[[], list[str]]:
+def _of_advection(make: Callable[[findings.Runs], list[str]],
+                  take: Callable[[rigid_rod.Result], bool] = lambda run: True) -> Callable[[], list[str]]:  # fmt: skip
     def lines() -> list[str]:
-        runs = rigid_rod.read(findings.FILE)
+        runs = list(filter(take, rigid_rod.read(findings.FILE)))
         return [*make(findings.grouped(runs)), *rigid_rod.notes(runs)]
 
     return lines
+
+
+def _depths(nose: str) -> Callable[[], list[str]]:
+    return _of_advection(lambda found: findings.depths(found, nose), lambda run: run.shot is not None and run.shot.nose == nose)
 
 
 @functools.cache
@@ -88,8 +93,8 @@ def _uncertain_notes() -> list[str]:
 
 TABLES: dict[str, Callable[[], list[str]]] = {
     "shots": _shots, "scores": _scores, "meshes": _meshes, "holes": _holes, "transitions": _transitions,
-    "hemispherical": _of_advection(lambda found: findings.depths(found, HEMISPHERICAL)),
-    "ogival": _of_advection(lambda found: findings.depths(found, OGIVAL)),
+    "hemispherical": _depths(HEMISPHERICAL),
+    "ogival": _depths(OGIVAL),
     "ways": _of_advection(findings.scores),
     "schemes": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "advection")),
     "failures": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "failure")),
