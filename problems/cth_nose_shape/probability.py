@@ -55,6 +55,8 @@ STRENGTH = {"Steinberg-Guinan": (1991.0, 2157.0, 2170.0), "JC-sintered": (2100.0
 DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
 #: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_mu
 CHANCE, LAWS_WITHIN, BOUNDS = (0.003, 0.05), (-0.4, 0.4), ((0.0, 3.0), (-3.0, 0.0), (-20.0, 20.0))
+#: cells across the radius of the tables, and of those with which they are compared
+USUAL_CELLS, FINER = 5.5, 8.5
 #: probability of intervals, their ends, and those of a spread
 ENDS, SPREAD = (0.05, 0.95), (0.1, 0.9)
 #: standard deviation of a logistic variable of scale 1
@@ -63,7 +65,7 @@ LOGISTIC = np.pi / np.sqrt(3.0)
 USUAL = 1100.0
 
 
-def samples(cells: float = 5.5, nose: str = rigid_rod.NOSES["hemi"]) -> dict[Shot, hydro2d.Samples]:
+def samples(cells: float = USUAL_CELLS, nose: str = rigid_rod.NOSES["hemi"]) -> dict[Shot, hydro2d.Samples]:
     """The rows of every shot of rods with this nose, on so many cells across the radius. Raises StudyError, OSError."""
     named = {Shot.named(each.labels[rigid_rod.SHOTS]): each for each in hydro2d.kept_samples(STUDY)
              if float(each.labels[rigid_rod.CELLS]) == cells}  # fmt: skip
@@ -316,7 +318,7 @@ def shares(by_shot: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> lis
     return lines
 
 
-def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = 5.5) -> list[str]:
+def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS) -> list[str]:
     """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input, and u_num, cm.
 
     u_input : standard deviation of the rows of a law, without u_num
@@ -340,6 +342,35 @@ def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = 5.5) -> list
             cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f}")
         lines.append(f"| {shot} | {told} | {' | '.join(cells_of_shot)} | {numerical**0.5:.1f} |")
     return lines
+
+
+def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples]) -> list[str]:
+    """Lines of Markdown: the same points of the inputs on two meshes, whose places on the mesh are not the same."""
+    measured, all_shots = rigid_rod.experiments(), np.zeros((0, 3), dtype=bool)
+    heads = ("shot", "points", "as seen, coarse", "as seen, fine", "same outcome", "fine minus coarse: median, 10 to 90 %")
+    lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
+    for shot, sample in fine.items():
+        one, other = _by_row(coarse[shot]), _by_row(sample)
+        rows = sorted(one.keys() & other.keys())
+        if not rows:
+            continue
+        right = np.array([[one[row][0], other[row][0]] for row in rows]) == measured[shot].rigid
+        flags = np.column_stack([right, right[:, 0] == right[:, 1]])
+        low, middle, high = np.quantile([other[row][1] - one[row][1] for row in rows], (SPREAD[0], 0.5, SPREAD[1]))
+        lines.append(f"| {shot} | {_counted(flags)} | {middle:+.1f} cm, {low:+.1f} to {high:+.1f} cm |")
+        all_shots = np.vstack([all_shots, flags])
+    lines.append(f"| all | {_counted(all_shots)} | |")
+    return lines
+
+
+def _by_row(sample: hydro2d.Samples) -> dict[int, tuple[bool, float]]:
+    """Whether the rod of each row is held, and its depth in cm, of runs that are done."""
+    return dict(zip(column(sample, "row").astype(int).tolist(), zip(held(sample), reach(sample), strict=True), strict=True))
+
+
+def _counted(flags: np.ndarray) -> str:
+    """Cells: the number of rows, and how often each of their flags is set."""
+    return " | ".join(str(number) for number in (len(flags), *flags.sum(axis=0)))
 
 
 def _interval(values: np.ndarray, digits: int) -> str:
@@ -389,6 +420,8 @@ def main(arguments: list[str] | None = None) -> int:
         for lines in (outcomes(by_shot), validation(by_shot), likelihoods(inference), strengths(inference), halves(inference),
                       shares(by_shot)):  # fmt: skip
             print("\n".join([*lines, ""]))
+        if fine := samples(FINER):
+            print("\n".join([*compared(by_shot, fine), ""]))
         if given.figure:
             hydro2d.save_figure(draw(by_shot), given.figure)
     except (hydro2d.Error, OSError, ValueError) as error:

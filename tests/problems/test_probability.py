@@ -133,3 +133,21 @@ def test_what_perforates_reaches_as_far_as_the_plate():
     sample.columns["status"][:3] = "left"
     assert set(probability.reach(sample)) == {rigid_rod.PLATE}
     assert len(probability.reach(sample)) == len(probability.held(sample)) == 61
+
+
+def test_points_on_two_meshes_are_compared_row_by_row():
+    """Rows that only one mesh has, and rows that are not done on both, do not count."""
+    shot, other = SHOTS[:2]
+    coarse, fine = {each: made_up(each) for each in (shot, other)}, {shot: made_up(shot), other: made_up(other)}
+    for name, values in {"status": "left", "length_ratio": 0.1, "depth_m": 0.5}.items():
+        fine[shot].columns[name][:2] = values
+    for sample in fine.values():
+        sample.columns = {name: values[2::-1] for name, values in sample.columns.items()}
+    fine[shot].columns["length_ratio"][0] = coarse[shot].columns["length_ratio"][2]
+    fine[shot].columns["depth_m"][0] = coarse[shot].columns["depth_m"][2] + 0.01
+    fine[other].columns["length_ratio"][1] = 1.0 - coarse[other].columns["length_ratio"][1]
+    lines = probability.compared(coarse, fine)
+    assert [line.split(" | ")[1] for line in lines[2:]] == ["1", "3", "4"]
+    assert [line.split(" | ")[4] for line in lines[2:4]] == ["1", "2"]
+    assert lines[2].endswith("| 1 | +1.0 cm, +1.0 to +1.0 cm |")
+    assert lines[-1].endswith("| 3 | |")
