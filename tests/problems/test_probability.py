@@ -151,3 +151,13 @@ def test_points_on_two_meshes_are_compared_row_by_row():
     assert [line.split(" | ")[4] for line in lines[2:4]] == ["1", "2"]
     assert lines[2].endswith("| 1 | +1.0 cm, +1.0 to +1.0 cm |")
     assert lines[-1].endswith("| 3 | |")
+
+
+def test_ogival_rods_hold_with_the_strong_laws_at_the_worst_corner():
+    """As the page says; so the outcomes of the hemispherical shots are those of all twelve."""
+    rows = hydro2d.kept_rows(probability.HERE / "results" / "uncertain_ogival.csv")
+    kept = {(row["shot"][6:10], row["law"]): round(100.0 * float(row["length_ratio"]), 1) for row in rows}
+    assert kept == {
+        ("5083", "Steinberg-Guinan"): 98.6, ("5083", "JC-sintered"): 98.6, ("5083", "JC-90W"): 97.8, ("5083", "JC-Y925"): 96.0,
+        ("7039", "Steinberg-Guinan"): 92.7, ("7039", "JC-sintered"): 94.0, ("7039", "JC-90W"): 20.1, ("7039", "JC-Y925"): 61.8,
+    }  # fmt: skip
