@@ -78,6 +78,18 @@ def test_the_ends_of_a_bar_stand_apart_even_on_one_side_of_the_middle():
     assert places == [(pytest.approx(middle), "right"), (pytest.approx(max(effect.low, effect.high)), "left")]
 
 
+def test_labels_of_a_tornado_lie_within_its_frame():
+    """Also long ones at both ends of the longest bar."""
+    law = Distribution("law", "choice", levels=("copper_OFHC:johnson-cook", "copper_OFHC:zerilli-armstrong"), weights=(0.5, 0.5))
+    samples = sample([Distribution("a", "normal", "", (0.0, 1.0)), law], lambda a, law: a + 9.0 * (law == law[0]), 64, 1)
+    figure = samples.tornado("y")
+    figure.draw_without_rendering()
+    (place,) = figure.axes
+    frame, extents = place.get_window_extent(), [text.get_window_extent() for text in place.texts if text.get_text()]
+    assert len(extents) == 4
+    assert all(frame.x0 <= extent.x0 < extent.x1 <= frame.x1 for extent in extents), extents
+
+
 def test_chance_is_told_from_the_inputs():
     noise = 0.3 * np.random.default_rng(3).standard_normal(128)
     samples = sample(ANGLES[:2], lambda x1, x2: x1 + 0.0 * x2 + noise, 128, 0)

@@ -13,6 +13,10 @@ from hydro2d.study.samples import surrogates
 
 #: panels in a row; width and height of one in inches; points of a curve; places of the marks of a level beside one another
 COLUMNS, SIZE, POINTS, APART = 3, (3.6, 2.9), 60, 0.25
+#: numbers along an axis; points between a bar and its label, and between the label and the frame
+NUMBERS, GAP = 5, 3
+#: rounds in which the room for the labels is found; each brings its error to 0.8 of it or less
+ROUNDS = 60
 
 
 def _axis(samples, result: str) -> tuple[str, float]:
@@ -42,6 +46,7 @@ def scatter(samples, result: str):
         if each.kind == CHOICE:
             _levels(place, each, cube[:, number], values * factor)
             continue
+        place.locator_params(axis="x", nbins=NUMBERS)
         place.plot(each.quantiles(cube[:, number]), values * factor, "o", markersize=3, alpha=0.6, color="C0")
         if made is not None:
             points = np.linspace(0.01, 0.99, POINTS)
@@ -70,19 +75,33 @@ def tornado(samples, result: str):
     label, factor = _axis(samples, result)
     middle = float(made(surrogates.middle(samples.inputs)[None])[0]) * factor
     figure, ((place,),) = figures.new_figure(6.4, 1.3 + 0.45 * len(effects))
+    labels = []
     for number, each in enumerate(effects):
         ends = each.low * factor, each.high * factor
         for end, colour in sorted(zip(ends, ("C0", "C1"), strict=True), key=lambda bar: -abs(bar[0] - middle)):
             place.barh(number, end - middle, left=middle, color=colour, height=0.6)
         (low, at_low), (high, at_high) = sorted(zip(ends, (each.at_low, each.at_high), strict=True))
-        sides = (at_low, min(low, middle), -3, "right"), (at_high, max(high, middle), 3, "left")  # both may lie on one side
-        for at, end, offset, side in sides:
-            place.annotate(verbatim(at), (end, number), (offset, 0), textcoords="offset points", ha=side, va="center",
-                           fontsize=7)  # fmt: skip
+        sides = (at_low, min(low, middle), -GAP, "right"), (at_high, max(high, middle), GAP, "left")  # both may lie on one side
+        labels += [place.annotate(verbatim(at), (end, number), (offset, 0), textcoords="offset points", ha=side, va="center",
+                                  fontsize=7) for at, end, offset, side in sides]  # fmt: skip
     place.set_yticks(range(len(effects)), [verbatim(each.input) for each in effects], fontsize=8)
     place.invert_yaxis()
-    place.margins(x=0.25)
     place.axvline(middle, color="black", linewidth=0.8)
     place.set_xlabel(verbatim(f"{label}; Q2 of the surrogate {made.q2:.2f}"), fontsize=8)
     place.tick_params(axis="x", labelsize=7)
+    place.locator_params(axis="x", nbins=NUMBERS)
+    _make_room(figure, place, labels)
     return figure
+
+
+def _make_room(figure, place, labels: list) -> None:
+    """Widens the axis so that the labels, which lie left and right of bars in turn, stay within the frame."""
+    figure.draw_without_rendering()
+    width, gap = place.get_window_extent().width, 2.0 * GAP * figure.dpi / 72.0
+    ends = np.array([label.xy[0] for label in labels])
+    sizes = np.minimum([label.get_window_extent().width + gap for label in labels], 0.4 * width)
+    scale, low, high = 0.0, 0.0, 0.0
+    for _ in range(ROUNDS):  # data per pixel, from which the room for the labels follows
+        low, high = np.min(ends[::2] - scale * sizes[::2]), np.max(ends[1::2] + scale * sizes[1::2])
+        scale = (high - low) / width
+    place.set_xlim(low, high)
