@@ -104,6 +104,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "uncertain_laws": lambda: probability.likelihoods(_inferred()),
     "uncertain_strengths": lambda: probability.strengths(_inferred()),
     "uncertain_velocities": lambda: probability.halves(_inferred()),
+    "uncertain_meshes": lambda: probability.compared(_samples(), probability.samples(probability.FINER)),
     "uncertain_shares": lambda: probability.shares(_samples()),
 }  # fmt: skip
 

@@ -347,7 +347,8 @@ def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS)
 def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples]) -> list[str]:
     """Lines of Markdown: the same points of the inputs on two meshes, whose places on the mesh are not the same."""
     measured, all_shots = rigid_rod.experiments(), np.zeros((0, 3), dtype=bool)
-    heads = ("shot", "points", "as seen, coarse", "as seen, fine", "same outcome", "fine minus coarse: median, 10 to 90 %")
+    heads = ("shot", "points", *(f"as seen, {cells:g} cells" for cells in (USUAL_CELLS, FINER)), "same outcome",
+             "change of the depth: median, 10 to 90 %")  # fmt: skip
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for shot, sample in fine.items():
         one, other = _by_row(coarse[shot]), _by_row(sample)

@@ -80,7 +80,8 @@ def test_the_ends_of_a_bar_stand_apart_even_on_one_side_of_the_middle():
 
 def test_labels_of_a_tornado_lie_within_its_frame():
     """Also long ones at both ends of the longest bar."""
-    law = Distribution("law", "choice", levels=("copper_OFHC:johnson-cook", "copper_OFHC:zerilli-armstrong"), weights=(0.5, 0.5))
+    laws = ("copper_OFHC:johnson-cook", "copper_OFHC:zerilli-armstrong")
+    law = Distribution("law", "choice", levels=laws, weights=(0.5, 0.5))
     samples = sample([Distribution("a", "normal", "", (0.0, 1.0)), law], lambda a, law: a + 9.0 * (law == law[0]), 64, 1)
     figure = samples.tornado("y")
     figure.draw_without_rendering()
