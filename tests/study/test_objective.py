@@ -91,6 +91,26 @@ def test_suggestions_after_results_are_near_the_best(tmp_path, goal, best):
         function.ingest([function.suggest()[0]])
 
 
+def test_results_that_tell_nothing_and_points_that_are_none(tmp_path):
+    """Equal results and NaN leave the suggestions as they are; what is refused changes nothing."""
+    function, points = objective(tmp_path), objective(tmp_path).suggest(40)
+    for wrong in ({NAME: 1.0}, [{**points[0], "depth_m": "a"}], [{**points[0], "depth_m": None}], [{NAME: 1.0}]):
+        with pytest.raises(ValueError, match=r"single one|not a number|has no"):
+            function.ingest(wrong)
+    with pytest.raises(TypeError):
+        function.suggest(2.5)
+    assert function.data == []
+    useless = (0.1, 0.1, 0.1, float("nan"))
+    for first in range(0, 20, 4):
+        batch = function.suggest(4)
+        assert batch == points[first : first + 4]
+        function.ingest([{**point, "depth_m": value} for point, value in zip(batch, useless, strict=True)])
+    function.ingest([{**point, "depth_m": 1e-4 * point[NAME]} for point in points])
+    assert min(point[NAME] for point in function.suggest(4)) < 1010.0, "the shallowest"
+    with pytest.raises(StudyError, match="keys: is empty"):
+        hydro2d.Objective(fake.BASE, {}, "depth_m", directory=tmp_path)
+
+
 def test_the_standard_takes_its_variables(tmp_path):
     vocs = pytest.importorskip("gest_api.vocs", reason="gest-api, the standard for generators, is not installed")
     function = objective(tmp_path)

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -62,6 +63,8 @@ class Objective:
                  goal: Literal["minimize", "maximize", "explore"] = "minimize", threads: int = 1, seed: int = 0):  # fmt: skip
         if goal not in GOALS:
             raise StudyError(unknown("goal", goal, GOALS))
+        if not keys:
+            raise StudyError("keys: is empty; at least one key with its bounds is needed")
         self.deck = deck if isinstance(deck, Deck) else Deck.from_file(deck)
         self.result, self.directory, self.goal, self.threads, self.seed = result, Path(directory), goal, threads, seed
         self.inputs = tuple(_input(key, given) for key, given in keys.items())
@@ -116,34 +119,47 @@ class Objective:
     def suggest(self, num_points: int | None = None) -> list[dict[str, Any]]:
         """The next points, each a dict of a number or a value by name. Default: one point.
 
-        They fill the bounds evenly (Sobol's sequence). From as many results on as a surrogate needs, they are the best points
-        of functions that the results allow, a function for each point (Thompson sampling), unless the goal is to explore.
+        They fill the bounds evenly (Sobol's sequence). From as many results on as a surrogate needs, if they differ, they are
+        the best points of functions that the results allow, a function for each point (Thompson sampling), unless the goal is
+        to explore. Results that are NaN do not count.
         """
-        number = 1 if num_points is None else num_points
+        number = 1 if num_points is None else operator.index(num_points)
         if number < 1:
             raise ValueError(f"num_points = {number}: at least one is needed")
         from scipy.stats import qmc
 
         first, self._given = self._given, self._given + number
-        explores = self.goal == "explore" or len(self.data) < len(self.inputs) + surrogates.FEWEST
+        known = [each for each in self.data if np.isfinite(each[self.result])]
+        found = np.array([each[self.result] for each in known])
+        explores = self.goal == "explore" or len(known) < len(self.inputs) + surrogates.FEWEST or not surrogates.vary(found)
         engine = qmc.Sobol(len(self.inputs), scramble=True, seed=np.random.default_rng(self.seed))
         candidates = engine.random_base2(max(CANDIDATES, self._given - 1).bit_length())
         if explores:
             return [self._point(point) for point in candidates[first : self._given]]
         cube = np.column_stack([each.points([each_point[each.head] if each.kind != CHOICE else label(each_point[each.head])
-                                             for each_point in self.data]) for each in self.inputs])  # fmt: skip
-        made = surrogates.fit(self.inputs, cube, np.array([float(point[self.result]) for point in self.data]))
+                                             for each_point in known]) for each in self.inputs])  # fmt: skip
+        made = surrogates.fit(self.inputs, cube, found)
         sign = 1.0 if self.goal == "minimize" else -1.0
         drawn = made.draws(candidates, max(number, 5), seed=self.seed + self._given)[:number]
         return [self._point(candidates[int(np.argmin(sign * each))]) for each in drawn]
 
     def ingest(self, results: Sequence[Mapping[str, Any]]) -> None:
-        """Takes evaluated points: dicts of the values of all keys by name, and of the result. Raises ValueError."""
+        """Takes evaluated points: dicts of the values of all keys by name, and of the result, NaN for a run without it.
+
+        Raises ValueError; then it has taken none of them.
+        """
+        if isinstance(results, Mapping):
+            raise ValueError("results: expected a list of points, is a single one")
+        taken = []
         for point in results:
             missing = [name for name in (*self.variables, self.result) if name not in point]
             if missing:
                 raise ValueError(f"a point has no {missing[0]}: {dict(point)}")
-            self.data.append(dict(point))
+            try:
+                taken.append({**point, self.result: float(point[self.result])})
+            except (TypeError, ValueError):
+                raise ValueError(f"{self.result} is not a number: {dict(point)}") from None
+        self.data += taken
 
     def _point(self, cube: np.ndarray) -> dict[str, Any]:
         """A point of the unit cube as values by name."""
