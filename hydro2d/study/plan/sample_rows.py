@@ -63,8 +63,8 @@ class SampleRows:
         others: dict[tuple, str] = {}
         for number, axis in enumerate(self.study.definition.axis):
             if axis.name == sampling.AXIS:
-                self.study.say(("axis", number), (f'axis[{number}].name: "{sampling.AXIS}" '
-                                             "is the name of the axis that [sample] adds"))
+                taken = f'"{sampling.AXIS}" is the name of the axis that [sample] adds'
+                self.study.say(("axis", number), f"axis[{number}].name: {taken}")
             others |= {tuple(toml.key_parts(key)): f'the axis "{axis.name}"' for key in keys_of(axis)}
         for key in keys:
             parts = tuple(toml.key_parts(key))
@@ -74,8 +74,8 @@ class SampleRows:
                     self.study.say(self.place_of(key), f"sample: {key}: {owner} sets {shared} as well")
             others[parts] = f"the sample ({key})"
             if clash := members.conflict(self.study.changes, [key]):
-                self.study.say(self.place_of(key), (f'sample: {key}: {self.study.changer} changes {clash[1]} by "{clash[0]}"; '
-                                                "leave out one"))
+                also = f'{self.study.changer} changes {clash[1]} by "{clash[0]}"; leave out one'
+                self.study.say(self.place_of(key), f"sample: {key}: {also}")
 
     def at_points(self, combinations: list[tuple], bare: list[tuple], files: dict[str, Path]) -> list[tuple]:
         """Every combination at every point; ``bare`` are the cases of the combinations. Raises StudyError."""
