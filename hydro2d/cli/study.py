@@ -6,13 +6,16 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from hydro2d.base.terminal import say, wrapped
 from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
+
+if TYPE_CHECKING:
+    from hydro2d.study.records.study_directory import Study
 
 #: reduction of the priority of a study in the background
 NICE = 10
@@ -104,7 +107,7 @@ def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), sk
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
                           overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
     if plan.sample and not quiet and (out / study_directory.STUDY).is_file():
-        _show_samples(out)
+        _show_samples(study_directory.read(out))
     elif plan.ensemble and not quiet and (out / study_directory.STUDY).is_file():
         say("")
         _show_ensembles(out)
@@ -237,13 +240,13 @@ def _show_ensembles(directory: Path) -> None:
         say(wrapped(line))
 
 
-def _show_samples(directory: Path) -> None:
-    """Prints the results of the sample of a study, for each combination of its axes."""
-    from hydro2d.study.records import study_directory
+def _show_samples(study: Study, shares: bool = True) -> None:
+    """Prints the results of the sample of a study, for each combination of its axes; ``shares`` : with Sobol indices."""
     from hydro2d.study.samples import results, text
 
-    for samples in results.of_study(study_directory.read(directory)):
-        for line in ("", *text.report(samples)):
+    for samples in results.of_study(study):
+        say("")
+        for line in text.report(samples, shares):
             say(wrapped(line))
 
 
@@ -260,7 +263,12 @@ def _status(study: Path, out: Path | None) -> int:
     for line in lines:
         say(wrapped(line))
     if opened.sample:
-        _show_samples(opened.directory)
+        to_come = (study_directory.WAITING, study_directory.RUNNING, study_directory.INTERRUPTED)
+        complete = not any(case.status in to_come for case in opened.cases)
+        _show_samples(opened, shares=complete)
+        if not complete:
+            say("")
+            say(f"The shares of the variance follow when no run is to come; `hydro2d report {opened.directory}` has them now.")
     elif opened.ensembles:
         say("")
         _show_ensembles(opened.directory)

@@ -254,6 +254,17 @@ def test_the_terminal(rough, monkeypatch, tmp_path, capsys):
     assert "Q2 =" in capsys.readouterr().out
 
 
+def test_the_status_of_a_sample_with_runs_to_come_is_quick(tmp_path, capsys):
+    """No surrogate is fitted: spreads and fractions alone."""
+    directory, _ = swept(tmp_path, interrupt_at=10)
+    capsys.readouterr()
+    assert call(["sweep", str(directory), "--status"]) == 0
+    said = capsys.readouterr().out
+    assert "10 to 90 %" in said
+    assert "shares of its variance" not in said
+    assert f"`hydro2d report {directory}` has them now" in said.replace("\n", " ")
+
+
 def test_asked_results_are_shown_or_missed(rough, tmp_path):
     """One that does not vary is shown without shares, one that no run has is said with the nearest name."""
     asked = ["depth_m", "residual_velocity_m_s", "bodies.rod.mass_kg", "cycles", "bodies.rod.mas_kg"]

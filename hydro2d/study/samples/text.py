@@ -57,15 +57,15 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
     return (INDICES, rows), words + (f". Warning: {shares.doubt}" if shares.doubt else "")
 
 
-def report(samples: Samples) -> Iterator[str]:
-    """The results as lines of text."""
+def report(samples: Samples, shares: bool = True) -> Iterator[str]:
+    """The results as lines of text; without ``shares`` no Sobol indices, which take seconds for each result."""
     yield f"{samples.title}: {len(samples)} runs, {int(samples.ended.sum())} done"
     yield from samples.missed
     for heads, rows in (spreads(samples), fractions(samples)):
         if rows:
             yield ""
             yield from lines(rows, heads)
-    for name in samples.usual:
+    for name in samples.usual if shares else ():
         yield ""
         try:
             (heads, rows), words = indices(samples, name)
