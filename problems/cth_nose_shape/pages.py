@@ -83,6 +83,11 @@ def _samples() -> dict[rigid_rod.Shot, hydro2d.Samples]:
 
 
 @functools.cache
+def _fine() -> dict[rigid_rod.Shot, hydro2d.Samples]:
+    return probability.samples(probability.FINER)
+
+
+@functools.cache
 def _inferred() -> probability.Inference:
     return probability.inferred(_samples())
 
@@ -104,7 +109,8 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "uncertain_laws": lambda: probability.likelihoods(_inferred()),
     "uncertain_strengths": lambda: probability.strengths(_inferred()),
     "uncertain_velocities": lambda: probability.halves(_inferred()),
-    "uncertain_meshes": lambda: probability.compared(_samples(), probability.samples(probability.FINER)),
+    "uncertain_meshes": lambda: probability.compared(_samples(), _fine()),
+    "uncertain_refined": lambda: probability.refined(_samples(), _fine()),
     "uncertain_shares": lambda: probability.shares(_samples()),
 }  # fmt: skip
 

@@ -55,6 +55,8 @@ STRENGTH = {"Steinberg-Guinan": (1991.0, 2157.0, 2170.0), "JC-sintered": (2100.0
 DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
 #: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_mu
 CHANCE, LAWS_WITHIN, BOUNDS = (0.003, 0.05), (-0.4, 0.4), ((0.0, 3.0), (-3.0, 0.0), (-20.0, 20.0))
+#: and of what a finer mesh adds to m
+MESH_WITHIN = (-0.2, 0.2)
 #: cells across the radius of the tables, and of those with which they are compared
 USUAL_CELLS, FINER = 5.5, 8.5
 #: probability of intervals, their ends, and those of a spread
@@ -101,9 +103,13 @@ class Points:
     plate: np.ndarray
     friction: np.ndarray
 
-    def terms(self, laws: int) -> np.ndarray:
-        """The terms of m, float64[n, laws + 3]: a column for each law, ln f, ln f_plate, mu."""
-        return np.column_stack([np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate), self.friction])
+    def terms(self, laws: int, finer: bool | None = None) -> np.ndarray:
+        """The terms of m, float64[n, laws + 3]: a column for each law, ln f, ln f_plate, mu.
+
+        finer : whether the points are on the finer of two meshes, for a last column, which is 1 there; None: there is one mesh
+        """
+        mesh = [] if finer is None else [np.full(len(self.law), float(finer))]
+        return np.column_stack([np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate), self.friction, *mesh])
 
 
 def walk(density: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, seed: Sequence[int]) -> np.ndarray:
@@ -150,15 +156,19 @@ def laws_of(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     return list(next(each.levels for each in inputs if each.head == LAW))
 
 
-def fitted(by_shot: dict[Shot, hydro2d.Samples], alloy: str) -> np.ndarray:
-    """Draws of the numbers of (1) for a plate, from all shots into it, float64[FITS, 1 + laws + 3]: ln s and those of m."""
-    laws = laws_of(by_shot)
-    there = [(points(shot, sample, laws), ~held(sample)) for shot, sample in by_shot.items() if shot.alloy == alloy]
-    terms = np.vstack([at.terms(len(laws)) for at, _ in there])
-    speed = np.concatenate([np.log(at.velocity / USUAL) for at, _ in there])
-    sign = np.where(np.concatenate([lost for _, lost in there]), -1.0, 1.0)
+def fitted(by_shot: dict[Shot, hydro2d.Samples], alloy: str, fine: dict[Shot, hydro2d.Samples] | None = None) -> np.ndarray:
+    """Draws of the numbers of (1) for a plate, from all shots into it, float64[FITS, 1 + laws + 3]: ln s and those of m.
+
+    fine : the shots on a finer mesh, for which a further number is added to m
+    """
+    laws, meshes = laws_of(by_shot), [(by_shot, None if fine is None else False), (fine or {}, True)]
+    there = [(points(shot, sample, laws), finer, ~held(sample)) for mesh, finer in meshes for shot, sample in mesh.items()
+             if shot.alloy == alloy]  # fmt: skip
+    terms = np.vstack([at.terms(len(laws), finer) for at, finer, _ in there])
+    speed = np.concatenate([np.log(at.velocity / USUAL) for at, *_ in there])
+    sign = np.where(np.concatenate([lost for *_, lost in there]), -1.0, 1.0)
     widths = np.log(np.array(CHANCE) / LOGISTIC)
-    low, high = np.array([widths, *[LAWS_WITHIN] * len(laws), *BOUNDS]).T
+    low, high = np.array([widths, *[LAWS_WITHIN] * len(laws), *BOUNDS, *([] if fine is None else [MESH_WITHIN])]).T
 
     def density(numbers: np.ndarray) -> np.ndarray:
         return -np.logaddexp(0.0, sign * (speed - numbers[:, 1:] @ terms.T) * np.exp(-numbers[:, :1])).sum(axis=1)
@@ -204,16 +214,17 @@ class Inference:
         return values.reshape(FITS, len(self.laws), -1).mean(axis=2)
 
 
-def inferred(by_shot: dict[Shot, hydro2d.Samples]) -> Inference:
-    """Fits (1) and evaluates it at points drawn from the distributions of the inputs."""
+def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples] | None = None) -> Inference:
+    """Fits (1) and evaluates it at points drawn from the distributions of the inputs; on the finer mesh, if one is given."""
     laws, measured = laws_of(by_shot), rigid_rod.experiments()
     at, errors = drawn(by_shot)
     seen, half, chance = {}, {}, {}
     # the plates are of two alloys, whose factors are independent of each other: the second takes them in another order
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
-        numbers = fitted(by_shot, alloy)
-        terms = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction).terms(len(laws))
+        numbers = fitted(by_shot, alloy, fine)
+        there = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction)
+        terms = there.terms(len(laws), None if fine is None else True)
         middle, width = numbers[:, 1:] @ terms.T, np.exp(numbers[:, :1])
         half[alloy], chance[alloy] = USUAL * np.exp(middle), LOGISTIC * width[:, 0]
         for number, shot in enumerate(by_shot):
@@ -364,6 +375,23 @@ def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sampl
     return lines
 
 
+def refined(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples]) -> list[str]:
+    """Lines of Markdown: by how much a finer mesh moves the change, and the probability of all outcomes together on it.
+
+    The finer mesh adds one number to m, for each plate; all other numbers are those of both meshes.
+    """
+    inference = inferred(coarse, fine)
+    lines = [f"| | {USUAL_CELLS:g} to {FINER:g} cells |", "|---|---|"]
+    for alloy in ALLOYS:
+        moved = float(np.median(inference.half[alloy])) * fitted(coarse, alloy, fine)[:, -1]
+        low, high = np.quantile(moved, ENDS)
+        lines.append(f"| change of the velocity in {alloy} | {np.median(moved):+.0f} m/s ({low:+.0f} to {high:+.0f}) |")
+    together = inference.of_law(inference.together)
+    for number, law in enumerate(inference.laws):
+        lines.append(f"| all outcomes together, {law} | {_interval(together[:, number], 3)} |")
+    return [*lines, f"| all outcomes together, each law a quarter | {_interval(together.mean(axis=1), 3)} |"]
+
+
 def _by_row(sample: hydro2d.Samples) -> dict[int, tuple[bool, float]]:
     """Whether the rod of each row is held, and its depth in cm, of runs that are done."""
     return dict(zip(column(sample, "row").astype(int).tolist(), zip(held(sample), reach(sample), strict=True), strict=True))
@@ -422,7 +450,7 @@ def main(arguments: list[str] | None = None) -> int:
                       shares(by_shot)):  # fmt: skip
             print("\n".join([*lines, ""]))
         if fine := samples(FINER):
-            print("\n".join([*compared(by_shot, fine), ""]))
+            print("\n".join([*compared(by_shot, fine), "", *refined(by_shot, fine), ""]))
         if given.figure:
             hydro2d.save_figure(draw(by_shot), given.figure)
     except (hydro2d.Error, OSError, ValueError) as error:
