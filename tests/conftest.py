@@ -5,10 +5,15 @@ import sys
 from types import SimpleNamespace
 
 import pytest
+from hypothesis import settings
 
 from hydro2d import jit
 from tests import fake
 from tests.browser import browser  # noqa: F401
+
+#: on a busy machine any example may take long
+settings.register_profile("hydro2d", deadline=None)
+settings.load_profile("hydro2d")
 
 
 @pytest.fixture(autouse=True)

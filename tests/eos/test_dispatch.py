@@ -46,7 +46,7 @@ def test_density_without_pressure_of_a_liquid():
     assert zero_pressure_density(stiffened_gas.ID, 700.0, 1e5, NO_MEMORY, WATER) == pytest.approx(expected, rel=1e-12)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(ratio=st.floats(0.2, 2.0), e=st.floats(-2e6, 8e6))
 def test_density_without_pressure(ratio, e):
     """In tension it is above the density, in compression below, and close to it the pressure changes sign."""

@@ -130,7 +130,7 @@ def state(x, y, z):
 
 
 @given(x=SHARE, y=SHARE, z=SHARE)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_c2_is_positive_wherever_the_pressure_is(x, y, z):
     """c^2 = h^2 c_s^2 + (1 - h^2)(p_s/rho_s)(1 + dp/de|s/rho_s), and in tension while the solid's term outweighs the rest."""
     rho, e, distention = state(x, y, z)
@@ -146,7 +146,7 @@ def test_c2_is_positive_wherever_the_pressure_is(x, y, z):
 
 
 @given(x=SHARE, y=SHARE, z=SHARE)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_pressure_and_temperature_are_continuous(x, y, z):
     rho, e, distention = state(x, y, z)
     p, _, _, T = evaluate(ROW, rho, e, distention)
@@ -159,7 +159,7 @@ def test_pressure_and_temperature_are_continuous(x, y, z):
 
 
 @given(x=st.floats(0.0, 1.0), e=st.floats(0.0, 5e5))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_pressure_is_continuous_while_pores_are_crushed(x, e):
     """Even where the solid passes a point of its table, and where a crush begins or ends."""
     rho = ROW[RHO0] * (1.0 + 0.3 * x)

@@ -44,7 +44,7 @@ SHARE = st.floats(1e-6, 1.0 - 1e-6)
 
 
 @given(x=SHARE, y=SHARE)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_c2_is_positive_all_over_the_table(x, y):
     """Or the cell is closed; ROW has no closed cells."""
     for par, may_end in ((ROW, False), (WIDE, True)):
@@ -79,7 +79,7 @@ def test_cells_are_closed_exactly_where_c2_is_not_positive():
 
 
 @given(x=SHARE, y=SHARE)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_the_inverse_is_exact(x, y):
     """Density and energy give back the density and temperature from which they were interpolated."""
     nr, nt = int(ROW[tabular.DENSITIES]), int(ROW[tabular.TEMPERATURES])
@@ -96,7 +96,7 @@ def test_the_inverse_is_exact(x, y):
 
 
 @given(x=SHARE, y=SHARE)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_pressure_and_temperature_are_continuous(x, y):
     """Across the edges of cells as well: a step of 1e-9 changes them by no more than their slopes, everywhere."""
     rho, e = cell_of(x, y, ROW)

@@ -118,7 +118,7 @@ def test_linear_hardening_against_plain_quadrature():
     assert added / 1e9 == pytest.approx(integral, rel=1e-5)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=6)
 @given(st.floats(0.2, 0.45), st.floats(0.001, 0.008), st.floats(0.0, 0.2), st.floats(1.0, 800.0))
 def test_stress_rises_with_velocity_and_hardening(nu, yield_strain, n, velocity):
     soft, hard = Solid(2710.0, 70e9, nu, yield_strain * 70e9, n), Solid(2710.0, 70e9, nu, yield_strain * 70e9, n + 0.05)

@@ -30,7 +30,7 @@ def test_depth_with_chen_and_lis_coefficients(velocity, depth):
     assert result["depth"] * 1e3 == pytest.approx(depth, rel=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.sampled_from(SHAPES), st.floats(1.0, 2000.0), st.floats(0.001, 1.0),
     st.floats(0.0, 0.2),

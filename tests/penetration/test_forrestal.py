@@ -71,7 +71,7 @@ def test_factors_of_a_rounded_edge_lie_between_those_of_a_face_and_of_a_hemisphe
     assert 0.5 < n2 < 1.0
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.sampled_from(SHAPES), st.floats(0.5, 8.0), st.floats(0.1, 1.4), st.floats(0.0, 0.3), st.floats(10.0, 2000.0)
 )
@@ -99,7 +99,7 @@ def test_force_of_the_rings_converges_with_the_second_order(shape, friction):
         assert all(1.9 < order < 2.1 for order in orders)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.sampled_from(SHAPES), st.floats(0.5, 8.0), st.floats(0.1, 1.4), st.floats(0.0, 1.0), st.floats(0.0, 0.2))
 def test_factors_grow_as_the_nose_goes_in(shape, crh, half_angle, share, friction):
     """To round-off of antiderivatives of the size 2 (S/a)^2, at most 512 here, of which a factor is a difference."""
@@ -109,7 +109,7 @@ def test_factors_grow_as_the_nose_goes_in(shape, crh, half_angle, share, frictio
     assert whole == pytest.approx(nose.factors(), rel=1e-12)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.sampled_from(SHAPES), st.floats(1.0, 2000.0), st.floats(0.001, 1.0), st.floats(0.0, 0.2))
 def test_depth_rises_with_velocity_and_falls_with_friction(shape, velocity, mass, friction):
     smooth, rough = Nose(a_nose(shape, 0.02), friction), Nose(a_nose(shape, 0.02), friction + 0.05)

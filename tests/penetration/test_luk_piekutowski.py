@@ -112,7 +112,7 @@ def test_the_primary_stage_against_its_differential_equations():
     assert done.y[2, -1] == pytest.approx(shot.primary, rel=1e-5)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.floats(2000.0, 3400.0))
 def test_a_head_keeps_the_conservation_laws(velocity):
     """Equations (9) to (11) and (3) as printed, from the head alone: not by the rearranged forms used to find it."""

@@ -42,13 +42,13 @@ def power(alpha, eta, depth):
 
 
 @given(st.floats(1.05, 8.0), st.floats(0.0, 6.0))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_power_is_that_of_the_field(alpha, depth):
     assert pressure(alpha, depth) == pytest.approx(power(alpha, ravid_bodner.axial_extent(alpha), depth), rel=1e-9)
 
 
 @given(st.floats(1.05, 8.0), st.floats(0.1, 6.0))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_inertia_is_that_of_the_field(alpha, depth):
     eta = ravid_bodner.axial_extent(alpha)
     along = quad(lambda z: (1.0 - z / eta) ** 2, 0.0, eta)[0]
@@ -60,7 +60,7 @@ def test_inertia_is_that_of_the_field(alpha, depth):
 
 
 @given(st.floats(0.0, 8.0), st.floats(0.6, 1.6), st.floats(0.6, 1.6))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_the_flow_has_the_least_power(depth, wider, deeper):
     best = flow(depth)
     alpha, eta = 1.0 + (best.radial - 1.0) * wider, best.axial * deeper
@@ -82,7 +82,7 @@ def test_flow_grows_with_depth():
 
 
 @given(st.floats(1.0, 3000.0))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_energy_is_accounted_for(velocity):
     """Kinetic energy of rod and flow at the end plus the plastic work by quadrature equals the impact's energy."""
     stage = first_stage(velocity, **SHOT)
@@ -103,7 +103,7 @@ def test_the_stage_ends_at_rest_or_where_the_flow_reaches_the_rear():
 
 
 @given(st.floats(1.0, 2000.0), st.floats(1.01, 1.3))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_depth_and_velocity_rise_with_the_impact(velocity, factor):
     slow, fast = (first_stage(each, **SHOT) for each in (velocity, factor * velocity))
     assert fast.depth >= slow.depth

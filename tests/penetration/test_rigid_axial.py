@@ -102,7 +102,7 @@ def test_the_closed_form_with_entry_and_friction(shape):
     assert flight.duration == pytest.approx(duration, rel=2e-4)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(
     st.sampled_from(SHAPES), st.floats(100.0, 1500.0), st.floats(0.01, 0.1),
     st.floats(0.0, 0.2), st.sampled_from(("normal", "axial")), st.booleans(),
@@ -121,7 +121,7 @@ def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, velocity, mass, 
     assert np.all(np.diff(flight.history[:, 2]) <= 0.0)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(st.floats(200.0, 1200.0), st.floats(0.0, 0.1))
 def test_depth_rises_with_velocity_and_falls_with_friction(velocity, friction):
     rings = nose_surface(a_nose("ogival", DIAMETER), rings=30)

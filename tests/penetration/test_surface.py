@@ -18,7 +18,7 @@ NOSES = {
 }  # fmt: skip
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(**NOSES)
 def test_projections_of_a_nose_sum_to_its_section(shape, crh, half_angle, rings):
     """To round-off, for any number of rings; and all normals are unit vectors that point ahead."""
@@ -28,7 +28,7 @@ def test_projections_of_a_nose_sum_to_its_section(shape, crh, half_angle, rings)
     np.testing.assert_allclose(np.hypot(nose.normal_z, nose.normal_r), 1.0, rtol=1e-14)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(**NOSES)
 def test_every_ring_lies_on_the_nose(shape, crh, half_angle, rings):
     nose = nose_surface(a_nose(shape, 0.02, crh, half_angle), rings)

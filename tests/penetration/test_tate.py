@@ -16,7 +16,7 @@ LENGTH = 0.09779
 INTO_5083 = {"rod_density": 18160.0, "rod_strength": 3.4e9, "target_density": 2660.0, "resistance": 1.6e9}
 INTO_7039 = {"rod_density": 18160.0, "rod_strength": 4.2e9, "target_density": 2770.0, "resistance": 2.6e9}
 WEAK_ROD = {"rod_density": 18160.0, "rod_strength": 2.0e9, "target_density": 2770.0, "resistance": 2.6e9}
-FAST = settings(max_examples=40, deadline=None)
+FAST = settings(max_examples=40)
 
 density = st.floats(1500.0, 20000.0)
 stress = st.floats(3e8, 8e9)

@@ -67,7 +67,7 @@ def test_erosion_ends_before_the_rod_at_high_velocity():
 
 
 @given(st.floats(1.0, 3000.0))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_extent_solves_the_printed_equation_and_its_slope_is_right(u):
     alpha, slope = plastic_extent(u, STEEL)
     rho, y, g = STEEL.density, STEEL.strength, STEEL.shear_modulus
@@ -93,7 +93,7 @@ def test_first_velocity_has_equal_shock_pressures():
 
 
 @given(st.floats(300.0, 2000.0), st.floats(0.2, 0.9))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_rates_satisfy_the_printed_equations(v, share):
     """(54) and (55) with the time derivatives of s, alpha and (v - u)/s taken by differences."""
     motion = Centreline(1500.0, TUNGSTEN, STEEL)
@@ -163,13 +163,13 @@ def test_resistance_is_that_of_the_limit():
 
 
 @given(st.floats(50.0, 3000.0), st.floats(1.01, 1.5))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_depth_rises_with_velocity_while_the_rod_erodes(velocity, factor):
     assert penetrate(factor * velocity, TUNGSTEN, STEEL).depth > penetrate(velocity, TUNGSTEN, STEEL).depth
 
 
 @given(st.floats(20.0, 1100.0), st.floats(1.01, 1.06))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_depth_rises_with_velocity_while_the_rod_is_rigid(velocity, factor):
     strong = replace(TUNGSTEN, strength=3.5e9)
     assert factor * velocity < transition_velocity(strong, ALUMINIUM)
@@ -192,7 +192,7 @@ def test_hydrodynamic_limit():
 
 
 @given(st.floats(20.0, 4000.0), st.sampled_from([STEEL, ALUMINIUM]), st.floats(0.5e9, 4.0e9))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_rods_kinetic_energy_never_grows(velocity, target, strength):
     rod = replace(TUNGSTEN, strength=strength)
     motion = Centreline(velocity, rod, target)

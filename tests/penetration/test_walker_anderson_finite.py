@@ -101,7 +101,7 @@ def test_limit_rises_with_thickness_strength_and_failure_strain():
 
 
 @given(st.floats(1150.0, 3000.0), st.floats(1.01, 1.2))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_residual_velocity_rises_and_stays_below_the_impact(velocity, factor):
     slow, fast = (shoot(each, TUNGSTEN, STEEL, 0.060, 0.5) for each in (velocity, factor * velocity))
     assert slow.perforated
@@ -110,7 +110,7 @@ def test_residual_velocity_rises_and_stays_below_the_impact(velocity, factor):
 
 
 @given(st.floats(0.01, 0.2), st.floats(300.0, 3000.0))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_kinetic_energy_of_the_rod_never_grows(thickness, velocity):
     plate = Plate(velocity, TUNGSTEN, STEEL, thickness, 0.5)
     v, u, length = plate.solve().states[:3]

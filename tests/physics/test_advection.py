@@ -1,7 +1,7 @@
 """The limited difference, and the donor of a face."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import advection
@@ -49,7 +49,6 @@ def test_at_an_extremum_there_is_no_difference(a, b):
     assert limited_difference(a, b) == 0.0
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, DIFFERENCE)
 def test_the_difference_is_within_twice_either_and_of_their_sign(a, b):
     limited = limited_difference(a, b)
@@ -58,19 +57,16 @@ def test_the_difference_is_within_twice_either_and_of_their_sign(a, b):
     assert limited * b >= 0.0
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, DIFFERENCE)
 def test_the_difference_does_not_know_left_from_right_or_up_from_down(a, b):
     assert limited_difference(a, b) == limited_difference(b, a) == -limited_difference(-a, -b)
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, DIFFERENCE, st.floats(0.0, 1e6))
 def test_the_difference_does_not_fall_where_a_neighbour_rises(a, b, more):
     assert limited_difference(a, b + more) >= limited_difference(a, b)
 
 
-@settings(deadline=None)
 @given(st.floats(1e-3, 1e3))
 def test_a_straight_line_keeps_its_difference(a):
     assert limited_difference(a, a) == a
@@ -95,13 +91,11 @@ def test_a_peak_is_carried_as_it_is():
     assert upwind(False, 0.0, 2.0, 4.0, 1.0) == (4.0, 0.0)
 
 
-@settings(deadline=None)
 @given(VALUE, VALUE, VALUE, VALUE)
 def test_the_mirror_image_of_a_flow_carries_the_same(ll, l, r, rr):
     assert upwind(True, ll, l, r, rr) == upwind(False, rr, r, l, ll)
 
 
-@settings(deadline=None)
 @given(st.booleans(), VALUE, VALUE, VALUE, VALUE, st.floats(0.0, 1.0))
 def test_the_value_at_a_face_lies_between_its_cells(up, ll, l, r, rr, part):
     """For any part of the donor that leaves: no new extremum."""
@@ -110,7 +104,6 @@ def test_the_value_at_a_face_lies_between_its_cells(up, ll, l, r, rr, part):
     assert min(l, r) - 1e-9 <= carried <= max(l, r) + 1e-9
 
 
-@settings(deadline=None)
 @given(st.booleans(), st.floats(-10.0, 10.0), st.floats(-10.0, 10.0), st.floats(0.0, 1.0))
 def test_a_straight_line_is_carried_at_the_middle_of_the_outflow(up, first, slope, part):
     """Cells at -1.5, -0.5, 0.5, 1.5 around the face at 0; the part that leaves extends from it back into the donor."""

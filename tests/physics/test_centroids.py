@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hydro2d.physics import centroids, interfaces
@@ -66,7 +66,6 @@ def about_the_middle(piece, strip, high):
 # ------------------------------------------------------------------------------------------------------------ boxes
 
 
-@settings(deadline=None)
 @given(st.floats(-2.0, 2.0), UNIT)
 def test_a_centroid_leaves_room_for_its_piece(offset, fraction):
     """A piece as wide as its fraction, with this centroid, ends in the cell; an offset that allows this is kept."""
@@ -89,7 +88,6 @@ def test_a_fraction_above_one_leaves_no_room_on_either_side(offset):
     assert within(0.2, 1.0) == 0.0
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, STRIP, st.booleans())
 def test_a_slab_upright_in_its_cell_is_cut_as_it_lies(fraction, offset, strip, high):
     """It fills the cell across, and ends in it along."""
@@ -102,7 +100,6 @@ def test_a_slab_upright_in_its_cell_is_cut_as_it_lies(fraction, offset, strip, h
     assert box_piece(fraction, offset, 0.0, 0.0, strip, high) == pytest.approx((share, moment, 0.0), abs=1e-13)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, st.booleans())
 def test_the_whole_cell_has_the_fraction_and_the_centroid(fraction, along, across, continues, high):
     along, across = within(along, fraction), within(across, fraction)
@@ -110,7 +107,6 @@ def test_the_whole_cell_has_the_fraction_and_the_centroid(fraction, along, acros
     assert whole == pytest.approx((fraction, fraction * along, fraction * across), abs=1e-14)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, UNIT)
 def test_a_box_lies_about_its_centroid_and_outside_its_ends_there_is_nothing(fraction, along, across, before, after):
     along, across = within(along, fraction), within(across, fraction)
@@ -123,7 +119,6 @@ def test_a_box_lies_about_its_centroid_and_outside_its_ends_there_is_nothing(fra
             assert box_piece(fraction, along, across, continues, strip, at_high)[0] == pytest.approx(holds, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, STRIP, st.booleans())
 def test_mirrored_boxes_have_mirrored_pieces_to_the_bit(fraction, along, across, continues, strip, high):
     share, a, c = box_piece(fraction, along, across, continues, strip, high)
@@ -131,7 +126,6 @@ def test_mirrored_boxes_have_mirrored_pieces_to_the_bit(fraction, along, across,
     assert box_piece(fraction, along, -across, continues, strip, high) == (share, a, -c)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT, st.floats(0.01, 0.49), st.floats(0.01, 0.49))
 def test_strips_of_a_box_add_up(fraction, along, across, continues, w_low, w_high):
     """The two sides and the middle, where the larger strips at the sides contain the smaller ones."""
@@ -215,7 +209,6 @@ def test_one_full_cell_around_places_a_body_and_one_empty_cell_the_rest():
             assert placed(empty) == 0.0
 
 
-@settings(deadline=None)
 @given(AROUND)
 def test_the_most_of_the_cells_around_decides_without_those_behind_where_one_is_full(f):
     assert most_beside(f) == max(f[:MIDDLE] + f[MIDDLE + 1:9])
@@ -223,7 +216,6 @@ def test_the_most_of_the_cells_around_decides_without_those_behind_where_one_is_
     assert placed(f) == by_all
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, UNIT)
 def test_a_box_fits_in_its_cell_and_holds_its_fraction(fraction, along, across, continues):
     along, across = within(along, fraction), within(across, fraction)
@@ -234,7 +226,6 @@ def test_a_box_fits_in_its_cell_and_holds_its_fraction(fraction, along, across, 
     assert length >= box_length(fraction, along, across, 0.5 * continues)
 
 
-@settings(deadline=None)
 @given(AROUND, UNIT)
 def test_the_forms_of_a_piece_share_it(f, no_gap):
     line, box, gap = forms(f, no_gap)
@@ -250,7 +241,6 @@ def test_boxes_of_several_bodies_are_put_in_the_place_of_one():
     assert piece_by_form(f, False, 0.05, -0.1, forms(f, 0.0), bound, boxes, 0.35, True) == boxes
 
 
-@settings(deadline=None)
 @given(AROUND)
 def test_mirrored_bodies_are_placed_alike_to_the_bit(f):
     assert placed(seen(f, lambda row, column: (row, 4 - column))) == placed(f)
@@ -309,7 +299,6 @@ def test_next_to_a_gas_void_has_no_box(high):
         assert piece(f, False, 0.05, -0.1, True, bound, 0.35, high) == piece(f, False, 0.05, -0.1, False, bound, 0.35, high)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, STRIP, st.booleans(), st.booleans(), AROUND,
        st.floats(-1.0, 1.0), st.sampled_from([(0.0, 0.0, 0.0), (0.4, 0.5, 0.7), (-0.4, -0.5, 0.3)]))
 def test_the_piece_of_a_body_and_that_of_all_else_are_the_strip(fraction, along, across, strip, high, along_z, f, n_x, corner):
@@ -326,7 +315,6 @@ def test_the_piece_of_a_body_and_that_of_all_else_are_the_strip(fraction, along,
     np.testing.assert_allclose(mine + rests, [strip, 0.0, 0.0], atol=1e-6 if min(abs(n_x), 1.0 - abs(n_x)) < 1e-6 else 1e-10)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, STRIP, st.booleans(), AROUND, st.floats(-1.0, 1.0))
 def test_the_piece_of_a_mirrored_body_is_mirrored_to_the_bit(fraction, along, across, strip, high, f, n_x):
     assume(0.0 < abs(n_x) < 1.0)
@@ -338,7 +326,6 @@ def test_the_piece_of_a_mirrored_body_is_mirrored_to_the_bit(fraction, along, ac
     assert piece(down, False, along, -across, False, (n_x, abs(n_x) - 1.0, 0.0, 0.0, 0.0), strip, high) == (share, a, -c)
 
 
-@settings(deadline=None)
 @given(FRACTION, OFFSET, OFFSET, STRIP, st.booleans(), AROUND, st.floats(-1.0, 1.0))
 def test_the_piece_along_z_is_that_along_r_of_cells_with_their_axes_exchanged(fraction, along, across, strip, high, f, n_x):
     f = with_middle(f, fraction)
@@ -398,7 +385,6 @@ def test_a_piece_becomes_the_strip_as_the_body_fills_the_cell(pattern):
 # ------------------------------------------------------------------------------------------------- mutual pushing
 
 
-@settings(deadline=None)
 @given(FRACTION, UNIT, st.floats(-0.1, 0.1))
 def test_slabs_side_by_side_push_each_other_by_half_of_their_growth(fraction, share, change):
     """Centroids that are half of both widths apart, or more."""
@@ -416,7 +402,6 @@ def test_a_slab_amidst_another_one_stays_and_off_its_middle_it_is_pushed_in_prop
     assert pushed(0.1, 0.2, 0.2, 0.8, 0.05) == -pushed(0.2, 0.1, 0.2, 0.8, 0.05)
 
 
-@settings(deadline=None)
 @given(st.floats(0.05, 0.8), UNIT, st.floats(0.0, 1.0))
 def test_a_slab_inside_void_keeps_the_proportion_of_its_gaps(fraction, share, growth):
     """As it grows into the void, which is all the rest and loses its gain."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.mesh.fields import INTERNAL, RHO
@@ -29,7 +29,6 @@ def dense(bodies) -> float:
     return stiff_density(1, 2, vof, q, km)
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.floats(0.01, 1.0), st.floats(1.0, 2e4), st.floats(1e5, 5e11)), min_size=1, max_size=4))
 def test_the_density_lies_between_those_of_the_bodies(bodies):
     densities = [density for _, density, _ in bodies]
@@ -64,7 +63,6 @@ def test_values_of_an_absent_body_do_not_count():
 # ------------------------------------------------------------------------------------- who takes a change of volume
 
 
-@settings(deadline=None)
 @given(st.lists(BODY, min_size=2, max_size=4), st.floats(-1e-3, -1e-6))
 def test_by_compressibility_all_bodies_rise_by_the_same_pressure(bodies, squeezed):
     """Body m, of volume f_m, takes its share of the change and responds with K_m times its relative change."""
@@ -73,7 +71,6 @@ def test_by_compressibility_all_bodies_rise_by_the_same_pressure(bodies, squeeze
     assert rises == pytest.approx([rises[0]] * len(rises), rel=1e-12)
 
 
-@settings(deadline=None)
 @given(st.lists(BODY, min_size=2, max_size=4))
 def test_uniformly_all_bodies_are_strained_alike(bodies):
     strains = [softness(f, modulus, False) / f for f, _, modulus in bodies]
@@ -86,7 +83,6 @@ def test_a_body_that_is_not_there_takes_nothing(tipton, modulus):
     assert softness(0.0, modulus, tipton) == 0.0
 
 
-@settings(deadline=None)
 @given(st.floats(0.0, 1.0), st.floats(-1e9, 1e11), st.floats(-1e9, 1e11), st.floats(1e9, 5e11))
 def test_relaxation_takes_its_share_of_the_way_to_the_target(relaxation, p, target, modulus):
     """A relative change of volume x changes the pressure by -K x; a body above the target grows."""
@@ -94,7 +90,6 @@ def test_relaxation_takes_its_share_of_the_way_to_the_target(relaxation, p, targ
     assert relaxed == pytest.approx((1.0 - relaxation) * p + relaxation * target, rel=1e-9, abs=1.0)
 
 
-@settings(deadline=None)
 @given(st.lists(BODY, min_size=2, max_size=4))
 def test_relaxation_towards_the_common_pressure_fills_the_cell_as_before(bodies):
     """Springs in series: the target is the mean of the pressures by f/K."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import contact_faces
@@ -30,7 +30,6 @@ ALONG = (np.arange(20000) + 0.5) / 20000
 # ------------------------------------------------------------------------------------------------------------ faces
 
 
-@settings(deadline=None)
 @given(LEVEL, LEVEL)
 def test_apertures_are_twice_the_integrals_of_the_linear_functions_over_the_open_part(first, last):
     open_part = first + (last - first) * ALONG >= 0.0
@@ -42,13 +41,11 @@ def test_of_a_face_that_is_open_to_its_middle_the_near_end_has_three_quarters_an
     assert end_apertures(0.2, -0.2) == (0.75, 0.25)
 
 
-@settings(deadline=None)
 @given(LEVEL, LEVEL)
 def test_a_face_seen_from_its_other_end_has_the_same_apertures(first, last):
     assert end_apertures(last, first) == end_apertures(first, last)[::-1]
 
 
-@settings(deadline=None)
 @given(LEVEL.filter(bool), LEVEL.filter(bool))
 def test_one_group_has_the_rest_of_the_other(first, last):
     np.testing.assert_allclose(np.add(end_apertures(first, last), end_apertures(-first, -last)), 1.0, rtol=1e-14)
@@ -68,7 +65,6 @@ def test_a_group_that_is_alone_has_all_of_the_aperture():
     assert known(0.3, 2.0, 0.0) == 0.0
 
 
-@settings(deadline=None)
 @given(st.floats(0.0, 1.0), VELOCITY)
 def test_groups_of_one_velocity_have_that_velocity(aperture, velocity):
     assert blend(aperture, velocity, velocity) == pytest.approx(velocity, rel=1e-14)
@@ -202,7 +198,6 @@ def at_face(first, last, shape, at):
     return field
 
 
-@settings(deadline=None)
 @given(st.lists(VELOCITY, min_size=4, max_size=4), LEVEL, LEVEL)
 def test_the_flow_through_an_r_face_is_that_of_each_group_through_its_part(velocities, first, last):
     """Twice the mean over the face of the velocity of the group that wets it, both linear along it."""
@@ -232,7 +227,6 @@ def test_through_a_z_face_flows_the_velocity_times_the_area_of_the_ring(group, i
     assert face_flow_z(3, i, group, g.metrics, np.full_like(v, np.nan), v) == pytest.approx(expected, rel=1e-12)
 
 
-@settings(deadline=None)
 @given(st.lists(VELOCITY, min_size=4, max_size=4), LEVEL, LEVEL)
 def test_through_a_planar_z_face_flows_what_each_group_carries_through_its_part(velocities, first, last):
     g, i = small("planar"), 3

@@ -77,7 +77,6 @@ def signed_line(nx, up, place):
 # ---------------------------------------------------------------------------------------------------- area and line
 
 
-@settings(deadline=None)
 @given(COMPONENT, st.floats(-0.5, 1.5))
 def test_the_area_below_a_line_is_that_of_the_polygon(m1, alpha):
     assert area_below(m1, 1.0 - m1, alpha) == pytest.approx(area(cut(block(0.0, 1.0), m1, 1.0 - m1, alpha)[0]), abs=1e-12)
@@ -112,7 +111,6 @@ def by_integration(m1, m2, alpha):
     return total[0], total[1] - 0.5 * total[0], total[2] - 0.5 * total[0]
 
 
-@settings(deadline=None)
 @given(COMPONENT, COMPONENT, st.floats(0.001, 0.999))
 def test_the_centroid_below_a_line_is_that_of_an_integration(m1, m2, place):
     """Even for a normal of any length, as in a strip."""
@@ -139,20 +137,17 @@ def test_the_centroid_does_not_jump_where_the_line_passes_a_corner(alpha):
     changes_in_proportion(lambda level: centroid_below(0.2, 0.8, level), alpha, 5.0)
 
 
-@settings(deadline=None)
 @given(UNIT, st.floats(-0.5, 1.5), st.floats(0.0, 1.0))
 def test_a_line_further_on_leaves_no_less_below(m1, alpha, more):
     assert area_below(m1, 1.0 - m1, alpha + more) >= area_below(m1, 1.0 - m1, alpha) - 1e-7
 
 
-@settings(deadline=None)
 @given(UNIT, st.floats(1e-9, 1.0 - 1e-9))
 def test_the_area_below_the_line_of_a_fraction_is_the_fraction(m1, fraction):
     """To 1e-7, below which a line is treated as level."""
     assert area_below(m1, 1.0 - m1, line_constant(m1, 1.0 - m1, fraction)) == pytest.approx(fraction, abs=1e-7)
 
 
-@settings(deadline=None)
 @given(COMPONENT, st.floats(0.02, 0.98))
 def test_the_line_of_the_area_below_a_line_is_the_line(m1, alpha):
     assert line_constant(m1, 1.0 - m1, area_below(m1, 1.0 - m1, alpha)) == pytest.approx(alpha, abs=1e-12)
@@ -164,7 +159,6 @@ def test_lines_that_are_known(m1, fraction, alpha):
     assert line_constant(m1, 1.0 - m1, fraction) == pytest.approx(alpha)
 
 
-@settings(deadline=None)
 @given(UNIT, UNIT)
 def test_the_line_is_the_same_from_either_side(m1, fraction):
     """Exchanged axes, and material and void exchanged."""
@@ -191,7 +185,6 @@ def piece_of(polygon, width, high):
     return share, (moment_x - share * middle) / width, moment_y - 0.5 * share
 
 
-@settings(deadline=None)
 @given(COMPONENT, SIGN, SIGN, st.floats(0.02, 0.98), st.floats(0.01, 0.99), st.booleans())
 def test_a_strip_holds_the_polygon_that_it_cuts_out(nx, side, up, place, width, high):
     """Its share, and where it lies."""
@@ -211,7 +204,6 @@ def cancellation(m1, m2):
     return 2e-15 + min(1e-7, 1e-15 / max(min(abs(m1), abs(m2)), 1e-300))
 
 
-@settings(deadline=None)
 @given(st.floats(-1.0, 1.0), st.booleans(), UNIT, WIDTH)
 def test_strips_add_up_to_the_cell(nx, up, fraction, width):
     """Their shares to its fraction, and their moments to that of all of it."""
@@ -229,7 +221,6 @@ def test_strips_add_up_to_the_cell(nx, up, fraction, width):
     assert low_across + high_across == pytest.approx(across, abs=4.0 * small)
 
 
-@settings(deadline=None)
 @given(st.floats(-1.0, 1.0), UNIT, WIDTH)
 def test_mirrored_strips_are_the_same_bits(nx, fraction, width):
     ny = 1.0 - abs(nx)
@@ -270,7 +261,6 @@ def test_the_strip_on_the_far_side_of_upright_material_stays_empty():
 # ---------------------------------------------------------------------------------------------------------- centre
 
 
-@settings(deadline=None)
 @given(COMPONENT, SIGN, SIGN, st.floats(0.02, 0.98))
 def test_the_centre_of_a_line_is_halfway_between_its_ends(nx, side, up, place):
     nx, ny, level = signed_line(nx * side, up, place)
@@ -364,7 +354,6 @@ def test_no_cell_is_more_than_full(n):
 GRADIENT = st.floats(-0.1, 0.1).filter(lambda value: abs(value) > 1e-3)
 
 
-@settings(deadline=None)
 @given(GRADIENT, GRADIENT)
 def test_the_normal_of_a_linear_fraction_points_against_its_gradient_in_the_unit_cell(by_r, by_z):
     """Even where the cells differ in size: across cell (2, 2) it falls by 2 by_r and 0.8 by_z."""
@@ -440,7 +429,6 @@ def test_every_cell_around_has_its_weight_in_youngs_difference():
     np.testing.assert_array_equal(weights, [across, np.transpose(across)])
 
 
-@settings(deadline=None)
 @given(GRADIENT, GRADIENT)
 def test_youngs_difference_of_a_linear_fraction_is_eight_times_its_fall_from_cell_to_cell(by_column, by_row):
     f = 0.5 + np.add.outer(by_row * np.arange(5), by_column * np.arange(5))
@@ -455,7 +443,6 @@ def test_youngs_difference_of_mirrored_fractions_is_mirrored_to_the_bit():
     assert youngs_difference(*around(f.T)) == (along_z, along_r)
 
 
-@settings(deadline=None)
 @given(GRADIENT, GRADIENT)
 def test_youngs_gradient_of_a_linear_fraction_is_four_times_its_fall_across_the_cell(by_r, by_z):
     """The weights 1, 2, 1 are not divided by their sum."""
@@ -502,7 +489,6 @@ def surface_of(f, dr=DR, dz=DZ, void=None):
 FAR = 1e3
 
 
-@settings(deadline=None)
 @given(COMPONENT, COMPONENT, SIGN, SIGN, st.booleans())
 def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, filled):
     """A rectangle that ends in the middle cell, away from (to_r, to_z); and its complement, where all else is filled."""
@@ -518,7 +504,6 @@ def test_a_corner_along_the_mesh_is_found_as_it_is(width, height, to_r, to_z, fi
         assert weight == 1.0
 
 
-@settings(deadline=None)
 @given(COMPONENT, SIGN, SIGN, UNIT)
 def test_a_slanted_line_stays_a_line(n1, to_r, to_z, place):
     n_r, n_z = to_r * n1, to_z * (1.0 - n1)
@@ -562,7 +547,6 @@ def test_a_corner_keeps_the_fraction_and_the_proportion_of_its_neighbours():
     assert corner_size(0.5, 1.0, 0.01) == pytest.approx((0.5, 1.0))
 
 
-@settings(deadline=None)
 @given(COMPONENT, COMPONENT, SIGN, SIGN, st.floats(0.01, 0.99), st.booleans(), st.booleans())
 def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, high, filled):
     """A rectangle away from (to_x, to_y), or all but one that lies towards them."""
@@ -578,7 +562,6 @@ def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, hi
     assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == piece
 
 
-@settings(deadline=None)
 @given(COMPONENT, COMPONENT, SIGN, SIGN, WIDTH, st.booleans(), SIGN)
 def test_mirrored_corners_have_the_same_bits(width, height, n_x, n_y, strip, high, filled):
     size = filled * width, filled * height
@@ -600,7 +583,6 @@ def test_strips_of_a_square_cover_each_other():
     assert covered(0.3, 0.6, False) == 0.0
 
 
-@settings(deadline=None)
 @given(COMPONENT, SIGN, SIGN, UNIT)
 def test_a_line_misses_its_own_fractions_by_nothing_also_where_sizes_differ(n1, to_r, to_z, place):
     assume(1e-6 < place < 1.0 - 1e-6)  # a corner of 1e-9 has the share 1e-18, which rounding loses: no line can follow from it
@@ -731,7 +713,7 @@ def test_a_corner_vanishes_where_its_neighbours_have_none_of_it(beside):
     assert largest_jump(thin, 0.0, 0.04) < 1e-11
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.integers(0, 10**6), st.sampled_from(["corners", "lines", "noise"]), st.sampled_from(["corners", "lines", "noise"]))
 def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
     """Between two patterns, including corners at other places, and full and empty cells.

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import kinematics
@@ -29,7 +29,6 @@ def random_velocity(g, seed):
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
-@settings(deadline=None)
 @given(a=RATE, b=RATE, c=RATE, d=RATE)
 def test_a_linear_velocity_has_its_gradient_times_the_volume(geometry, a, b, c, d):
     """u = a r + b z, v = c r + d z; the hoop rate is the integral of u over the section of the cell."""
@@ -104,7 +103,6 @@ def test_a_planar_gradient_does_not_see_the_hourglass():
         np.testing.assert_allclose(gradient_of(g, j, i, pattern, pattern), 0.0, atol=1e-16)
 
 
-@settings(deadline=None)
 @given(a=RATE, b=RATE, c=RATE)
 def test_a_linear_field_has_no_hourglass_mode(a, b, c):
     g = small("cylindrical")

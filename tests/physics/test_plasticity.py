@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.mesh.fields import INTERNAL
@@ -25,7 +25,6 @@ ROW = HARDENS.row({"shear_modulus": 26e9, "yield_stress": 3e8, "hardening_modulu
 VALUE = st.floats(-1e3, 1e3)
 
 
-@settings(deadline=None)
 @given(*[VALUE] * 8)
 def test_the_power_is_the_product_of_the_tensors(rr, zz, rz, d_rr, d_zz, d_tt, r_by_z, z_by_r):
     """Stress and velocity gradient in r, theta, z."""
@@ -105,7 +104,6 @@ def test_most_yield_surfaces_lie_around_the_origin():
     assert from_centre(5.0, 7.0, 9.0, HARDENS.ID, internal) == (4.0, 5.0, 6.0)
 
 
-@settings(deadline=None)
 @given(*[st.floats(-2e9, 2e9)] * 3, st.floats(1e-6, 0.01))
 def test_a_return_ends_on_the_surface_that_has_moved(rr, zz, rz, dep):
     """The plastic strain is 3/2 dep times the direction; the stress falls by 2 G of it, the centre follows by 2/3 C of it."""

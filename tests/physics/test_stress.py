@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.mesh.fields import INTERNAL, SRR, SRZ, SZZ
@@ -34,20 +34,17 @@ def strained(drr, dzz, dtt, drz):
 # ------------------------------------------------------------------------------------------------------- rotation
 
 
-@settings(deadline=None)
 @given(STRESS, STRESS, STRESS, SPIN)
 def test_rotation_keeps_the_stress_by_von_mises(rr, zz, rz, spin):
     assert von_mises(*turned(rr, zz, rz, spin)) == pytest.approx(von_mises(rr, zz, rz), rel=1e-12, abs=1e-3)
 
 
-@settings(deadline=None)
 @given(STRESS, STRESS, STRESS, SPIN)
 def test_rotation_keeps_the_hoop_stress(rr, zz, rz, spin):
     new_rr, new_zz, _ = turned(rr, zz, rz, spin)
     assert new_rr + new_zz == pytest.approx(rr + zz, rel=1e-12, abs=1e-3)
 
 
-@settings(deadline=None)
 @given(STRESS, STRESS, STRESS, SPIN)
 def test_a_rotation_back_undoes_a_rotation(rr, zz, rz, spin):
     assert turned(*turned(rr, zz, rz, spin), -spin) == pytest.approx((rr, zz, rz), rel=1e-12, abs=1e-3)
@@ -98,7 +95,6 @@ def test_shear_is_g_times_the_angle():
     assert strained(0.0, 0.0, 0.0, 0.5e-3) == pytest.approx((0.0, 0.0, G * 1e-3))
 
 
-@settings(deadline=None)
 @given(STRAIN, STRAIN, STRAIN, STRAIN)
 def test_a_strain_without_change_of_volume_makes_two_g_times_itself(drr, dzz, drz, spin):
     """Without stress the rotation does nothing: the strain is added after it and is not turned."""
@@ -126,7 +122,6 @@ def test_von_mises_of_a_shear_is_its_root_three_fold():
     assert von_mises(0.0, 0.0, -2.0) == pytest.approx(2.0 * math.sqrt(3.0))
 
 
-@settings(deadline=None)
 @given(STRESS, STRESS, STRESS)
 def test_von_mises_by_principal_stresses(rr, zz, rz):
     a, b = np.linalg.eigvalsh([[rr, rz], [rz, zz]])

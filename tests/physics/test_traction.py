@@ -4,7 +4,7 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import traction
@@ -28,7 +28,6 @@ def test_a_smooth_step_goes_from_none_to_all_without_a_slope_at_its_ends():
     assert 1.0 - smoothstep(1.0 - 1e-4) == pytest.approx(3e-8, rel=1e-3)
 
 
-@settings(deadline=None)
 @given(st.floats(-0.5, 1.5), st.floats(0.0, 1.0))
 def test_a_smooth_step_never_falls_and_is_the_same_from_its_other_end(x, more):
     assert smoothstep(x) <= smoothstep(x + more) + 1e-15
@@ -148,7 +147,6 @@ def test_a_body_that_flows_along_its_surface_keeps_its_volume(strain):
     assert Y / 3.0 - K * grown - stressed(e, Y, trial @ trial, trial[0]) == pytest.approx(0.0, abs=1e-6 * Y)
 
 
-@settings(deadline=None)
 @given(st.floats(-1e-2, 1e-2), st.floats(-1.0, 1.0), st.floats(1.0, 3.0), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_a_plastic_body_meets_the_traction(beside, share, beyond, p, target):
     """Any deviator on the yield surface or strained beyond it, with any part of it along the normal."""

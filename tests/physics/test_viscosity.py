@@ -3,7 +3,7 @@
 from math import cos, hypot, pi, sin
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import viscosity
@@ -54,26 +54,22 @@ def test_a_foot_counts_by_twice_its_ratio():
     assert smoothness(9.0, 10.0, 2.0) == pytest.approx(0.4)
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, SLOPE, DIFFERENCE)
 def test_smoothness_is_between_none_and_all(left, centre, right):
     assert 0.0 <= smoothness(left, centre, right) <= 1.0
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, SLOPE, DIFFERENCE)
 def test_smoothness_is_the_same_seen_from_either_side(left, centre, right):
     assert smoothness(left, centre, right) == smoothness(right, centre, left)
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, SLOPE, DIFFERENCE, SLOPE)
 def test_smoothness_does_not_know_the_unit_or_the_sign_of_the_velocity(left, centre, right, scale):
     psi = smoothness(scale * left, scale * centre, scale * right)
     assert psi == pytest.approx(smoothness(left, centre, right), abs=1e-12)
 
 
-@settings(deadline=None)
 @given(DIFFERENCE, SLOPE, DIFFERENCE, st.floats(0.0, 1e3))
 def test_a_steeper_neighbour_does_not_make_a_slope_less_smooth(left, centre, right, more):
     steeper = right + more if centre > 0.0 else right - more
@@ -88,7 +84,6 @@ def test_expansion_has_no_viscosity(du):
     assert directional_viscosity(8000.0, 5000.0, du, 0.0, 0.5, 1.3) == 0.0
 
 
-@settings(deadline=None)
 @given(st.floats(1.0, 2e4), st.floats(0.0, 1e4), st.floats(-5e3, 5e3), st.floats(0.0, 1.0))
 def test_viscosity_never_pulls(rho, c, du, psi):
     assert directional_viscosity(rho, c, du, psi, 0.5, 1.3) >= 0.0
@@ -173,7 +168,6 @@ def test_uniform_compression_has_a_direction():
     assert hypot(n_r, n_z) == pytest.approx(1.0)
 
 
-@settings(deadline=None)
 @given(RATE, RATE, RATE)
 def test_the_mirror_image_has_the_mirrored_direction(rr, zz, rz):
     rate, n_r, n_z = strongest_compression(rr, zz, rz)
@@ -182,7 +176,6 @@ def test_the_mirror_image_has_the_mirrored_direction(rr, zz, rz):
     assert rz == 0.0 or n_z == 0.0 or m_z == -n_z
 
 
-@settings(deadline=None)
 @given(RATE, RATE, RATE)
 def test_no_direction_is_compressed_more(rr, zz, rz):
     rate, n_r, n_z = strongest_compression(rr, zz, rz)

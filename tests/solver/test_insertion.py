@@ -160,7 +160,7 @@ def test_bodies_are_cut_by_the_mesh():
     assert volume([ball])[0] == pytest.approx(2 / 3 * math.pi * 0.006**3, rel=1e-13)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     st.floats(0.001, 0.011), st.floats(-0.008, 0.015), st.integers(1, 40), st.integers(1, 40), st.floats(0.001, 0.02)
 )

@@ -141,7 +141,7 @@ def test_power_law_starts_at_yield():
     assert power_law.shear_modulus(0.0, 0.0, 0.0, row) == pytest.approx(70.3e9 * 3 / 8, rel=1e-15)
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(exponent=st.floats(0.0, 0.95), magnitude=st.floats(-15.0, 6.0))
 def test_power_law_is_solved(exponent, magnitude):
     a = 10.0**magnitude
@@ -201,7 +201,7 @@ def test_steinberg_guinan_modulus_does_not_turn_negative():
     assert steinberg_guinan.flow_stress(0.1, 0.0, 1e5, 0.0, 18167.0, row) == 0.0
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(eta=st.floats(0.3, 4.0), ratio=st.floats(0.2, 3.0), gamma=st.floats(0.5, 3.0), a=st.floats(0.0, 2.5))
 def test_melting_curve(eta, ratio, gamma, a):
     """Equation 8, and no strength from that temperature on."""

@@ -36,7 +36,7 @@ def line_of(name):
     return melting.row({key: number.value for key, number in library.load(name).melting.items()})
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(eta=st.floats(0.5, 3.0), gamma=st.floats(0.5, 3.5), a=st.floats(0.0, 3.5))
 def test_the_slope_is_lindemanns(eta, gamma, a):
     """d ln Tm/d ln rho = 2 (Gamma - 1/3) with Gamma = Gamma0 - a (1 - 1/eta), from Tm0 on."""
@@ -47,7 +47,7 @@ def test_the_slope_is_lindemanns(eta, gamma, a):
     assert (high - low) / (2 * d) == pytest.approx(2 * (gamma - a * (1 - 1 / eta) - 1 / 3), abs=1e-8)
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(eta=st.floats(0.3, 3.0), share=st.floats(0.0, 3.0), gamma=st.floats(0.3, 3.5), a=st.floats(0.0, 3.5))
 def test_solid_is_what_is_colder_than_the_line(eta, share, gamma, a):
     line = melting.row({**ALUMINIUM, "grueneisen": gamma, "melt_exponent": a})

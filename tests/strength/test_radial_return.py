@@ -34,7 +34,7 @@ MODELS = {name: (STRENGTH_MODELS[name].ID, STRENGTH_MODELS[name].row(values)) fo
 RHO = 18500.0
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=600)
 @given(
     name=st.sampled_from(sorted(MODELS)),
     trial=st.floats(-10.0, 6.0),
