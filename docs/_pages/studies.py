@@ -73,7 +73,7 @@ class Study:
         return names[: next(names.index(name) for name in FIRST if name in names)]
 
     def most_runs(self) -> int:
-        """Number of runs, at most, of a search; 0 for a study of parts."""
+        """Number of runs, of a search the largest; 0 for a study of parts."""
         if self.plan is None:
             return 0
         search, count = self.plan.search, len(self.plan.cases)

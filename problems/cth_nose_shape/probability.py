@@ -196,6 +196,7 @@ class Inference:
     seen : probability of the outcome of each shot at each point, float64[FITS, n] by shot
     half : velocity at which half of the rods are held, m/s, float64[FITS, n] by alloy
     chance : standard deviation of the velocity of the change of a rod by chance, as a fraction, float64[FITS] by alloy
+    refined : change of that velocity with the finer mesh, m/s, float64[FITS] by alloy; empty without one
     """
 
     laws: list[str]
@@ -203,6 +204,7 @@ class Inference:
     seen: dict[Shot, np.ndarray]
     half: dict[str, np.ndarray]
     chance: dict[str, np.ndarray]
+    refined: dict[str, np.ndarray]
 
     @functools.cached_property
     def together(self) -> np.ndarray:
@@ -218,7 +220,7 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
     """Fits (1) and evaluates it at points drawn from the distributions of the inputs; on the finer mesh, if one is given."""
     laws, measured = laws_of(by_shot), rigid_rod.experiments()
     at, errors = drawn(by_shot)
-    seen, half, chance = {}, {}, {}
+    seen, half, chance, moved = {}, {}, {}, {}
     # the plates are of two alloys, whose factors are independent of each other: the second takes them in another order
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
@@ -227,12 +229,14 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
         terms = there.terms(len(laws), None if fine is None else True)
         middle, width = numbers[:, 1:] @ terms.T, np.exp(numbers[:, :1])
         half[alloy], chance[alloy] = USUAL * np.exp(middle), LOGISTIC * width[:, 0]
+        if fine is not None:
+            moved[alloy] = float(np.median(half[alloy])) * numbers[:, -1]
         for number, shot in enumerate(by_shot):
             if shot.alloy == alloy:
                 speed = np.log((shot.velocity + errors[number]) / USUAL)
                 lost = 1.0 / (1.0 + np.exp(np.clip((middle - speed) / width, -500.0, 500.0)))
                 seen[shot] = 1.0 - lost if measured[shot].rigid else lost
-    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance)
+    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance, moved)
 
 
 # ---------------------------------------------------------------------------------------------------- tables
@@ -357,7 +361,7 @@ def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS)
 
 def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples]) -> list[str]:
     """Lines of Markdown: the same points of the inputs on two meshes, whose places on the mesh are not the same."""
-    measured, all_shots = rigid_rod.experiments(), np.zeros((0, 3), dtype=bool)
+    measured, of_shots = rigid_rod.experiments(), [np.zeros((0, 3), dtype=bool)]
     heads = ("shot", "points", *(f"as seen, {cells:g} cells" for cells in (USUAL_CELLS, FINER)), "same outcome",
              "change of the depth: median, 10 to 90 %")  # fmt: skip
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
@@ -370,9 +374,8 @@ def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sampl
         flags = np.column_stack([right, right[:, 0] == right[:, 1]])
         low, middle, high = np.quantile([other[row][1] - one[row][1] for row in rows], (SPREAD[0], 0.5, SPREAD[1]))
         lines.append(f"| {shot} | {_counted(flags)} | {middle:+.1f} cm, {low:+.1f} to {high:+.1f} cm |")
-        all_shots = np.vstack([all_shots, flags])
-    lines.append(f"| all | {_counted(all_shots)} | |")
-    return lines
+        of_shots.append(flags)
+    return [*lines, f"| all | {_counted(np.vstack(of_shots))} | |"]
 
 
 def refined(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples]) -> list[str]:
@@ -382,8 +385,7 @@ def refined(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sample
     """
     inference = inferred(coarse, fine)
     lines = [f"| | {USUAL_CELLS:g} to {FINER:g} cells |", "|---|---|"]
-    for alloy in ALLOYS:
-        moved = float(np.median(inference.half[alloy])) * fitted(coarse, alloy, fine)[:, -1]
+    for alloy, moved in inference.refined.items():
         low, high = np.quantile(moved, ENDS)
         lines.append(f"| change of the velocity in {alloy} | {np.median(moved):+.0f} m/s ({low:+.0f} to {high:+.0f}) |")
     together = inference.of_law(inference.together)

@@ -162,8 +162,8 @@ class _Planner:
             return []
         for number, axis in enumerate(self.definition.axis):
             if axis.name == velocities.AXIS:
-                self.study.say(("axis", number), (f'axis[{number}].name: "{velocities.AXIS}" '
-                                             "is the name of the axis that [transition] adds"))
+                reserved = f'"{velocities.AXIS}" is the name of the axis that [transition] adds'
+                self.study.say(("axis", number), f"axis[{number}].name: {reserved}")
         try:
             return list(velocities.labels(self.definition.transition))
         except ValueError as error:

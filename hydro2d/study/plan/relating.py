@@ -23,17 +23,15 @@ def completed(tables: Mapping[str, Any], inputs: Sequence[Distribution], read: C
 
     Raises DeckError for a wrong deck.
     """
-    missing = [each.key for each in inputs if each.relative and toml.value_of(tables, each.key) is None]
-    found, deck = {}, None
-    for key in missing:
-        section, name, *parts = [*toml.key_parts(key), ""]
-        if section == "materials" and name and 1 < len(parts) < 4:
-            deck = deck or read()
-            material = deck.materials.get(name)
-            if number := material and material.number(*parts[:-1]):
-                found[key] = number.value if number.unit == "1" else units.exact(number.value, number.unit)
-    for key, number in found.items():
-        tables = toml.override(dict(tables), key, number, key, Sources())
+    deck = None
+    for key in [each.key for each in inputs if each.relative and toml.value_of(tables, each.key) is None]:
+        match toml.key_parts(key):
+            case ["materials", name, _] | ["materials", name, _, _] as parts:
+                deck = deck or read()
+                material = deck.materials.get(name)
+                if number := material and material.number(*parts[2:]):
+                    exact = number.value if number.unit == "1" else units.exact(number.value, number.unit)
+                    tables = toml.override(dict(tables), key, exact, key, Sources())
     return tables
 
 

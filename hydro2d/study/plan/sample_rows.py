@@ -63,8 +63,8 @@ class SampleRows:
         others: dict[tuple, str] = {}
         for number, axis in enumerate(self.study.definition.axis):
             if axis.name == sampling.AXIS:
-                taken = f'"{sampling.AXIS}" is the name of the axis that [sample] adds'
-                self.study.say(("axis", number), f"axis[{number}].name: {taken}")
+                reserved = f'"{sampling.AXIS}" is the name of the axis that [sample] adds'
+                self.study.say(("axis", number), f"axis[{number}].name: {reserved}")
             others |= {tuple(toml.key_parts(key)): f'the axis "{axis.name}"' for key in keys_of(axis)}
         for key in keys:
             parts = tuple(toml.key_parts(key))

@@ -38,7 +38,7 @@ class StudyFile:
 
     @property
     def changer(self) -> str:
-        """What makes these changes, in messages."""
+        """The section with these changes, as messages name it."""
         return "the ensemble" if self.ensemble else "sample.by"
 
     def where(self, key: tuple) -> str:

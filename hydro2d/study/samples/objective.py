@@ -130,15 +130,15 @@ class Objective:
 
         first, self._given = self._given, self._given + number
         known = [each for each in self.data if np.isfinite(each[self.result])]
-        found = np.array([each[self.result] for each in known])
-        explores = self.goal == "explore" or len(known) < len(self.inputs) + surrogates.FEWEST or not surrogates.vary(found)
+        values = np.array([each[self.result] for each in known])
+        explores = self.goal == "explore" or len(known) < len(self.inputs) + surrogates.FEWEST or not surrogates.vary(values)
         engine = qmc.Sobol(len(self.inputs), scramble=True, seed=np.random.default_rng(self.seed))
         candidates = engine.random_base2(max(CANDIDATES, self._given - 1).bit_length())
         if explores:
             return [self._point(point) for point in candidates[first : self._given]]
         cube = np.column_stack([each.points([each_point[each.head] if each.kind != CHOICE else label(each_point[each.head])
                                              for each_point in known]) for each in self.inputs])  # fmt: skip
-        made = surrogates.fit(self.inputs, cube, found)
+        made = surrogates.fit(self.inputs, cube, values)
         sign = 1.0 if self.goal == "minimize" else -1.0
         drawn = made.draws(candidates, max(number, 5), seed=self.seed + self._given)[:number]
         return [self._point(candidates[int(np.argmin(sign * each))]) for each in drawn]
@@ -146,20 +146,20 @@ class Objective:
     def ingest(self, results: Sequence[Mapping[str, Any]]) -> None:
         """Takes evaluated points: dicts of the values of all keys by name, and of the result, NaN for a run without it.
 
-        Raises ValueError; then it has taken none of them.
+        Raises ValueError for a wrong point; then none of them is added.
         """
         if isinstance(results, Mapping):
             raise ValueError("results: expected a list of points, is a single one")
-        taken = []
+        points = []
         for point in results:
             missing = [name for name in (*self.variables, self.result) if name not in point]
             if missing:
                 raise ValueError(f"a point has no {missing[0]}: {dict(point)}")
             try:
-                taken.append({**point, self.result: float(point[self.result])})
+                points.append({**point, self.result: float(point[self.result])})
             except (TypeError, ValueError):
                 raise ValueError(f"{self.result} is not a number: {dict(point)}") from None
-        self.data += taken
+        self.data += points
 
     def _point(self, cube: np.ndarray) -> dict[str, Any]:
         """A point of the unit cube as values by name."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from hydro2d.base.terminal import several
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.samples import gaussian
@@ -83,7 +84,7 @@ def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) ->
     """
     x, values = coordinates(inputs, cube), np.asarray(values, dtype=float)
     if len(values) < len(inputs) + FEWEST:
-        count = f"{len(inputs)} input{'s' if len(inputs) > 1 else ''}"
+        count = several(len(inputs), "input")
         raise StudyError(f"a surrogate of {count} needs at least {len(inputs) + FEWEST} rows with a result, and there are "
                          f"{len(values)}")
     shift, unit = float(values.mean()), float(values.std())
