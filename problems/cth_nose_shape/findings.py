@@ -65,7 +65,7 @@ def depths(found: Runs, nose: str) -> list[str]:
     """Lines of Markdown: a row for each way to compute, a column for each shot with this nose."""
     shots, measured = shots_of(found, nose), rigid_rod.experiments()
     if not shots:
-        return [f"No run of this study with {nose} rods is kept."]
+        return [f"No run of `advection.toml` with {nose} rods is kept."]
     lines = [f"| sliding, failure, advection | {' | '.join(f'{shot.alloy}, {shot.velocity:g} m/s' for shot in shots)} |",
              "|---" * (len(shots) + 1) + "|", f"| experiment | {' | '.join(str(measured[shot]) for shot in shots)} |"]
     for way, cases in found.items():

@@ -51,6 +51,9 @@ NAMES = {VELOCITY: "velocity", LAW: "law", FACTOR: "factor of the rod", PLATE_FA
 STRAINS = (0.1, 0.5, 1.0)
 STRENGTH = {"Steinberg-Guinan": (1991.0, 2157.0, 2170.0), "JC-sintered": (2100.0, 1967.0, 1547.0),
             "JC-90W": (1777.0, 1430.0, 1072.0), "JC-Y925": (1755.0, 1528.0, 1190.0)}  # fmt: skip
+#: the laws as results/twelve_shots.csv names them
+MEMBERS = {"Steinberg-Guinan": "Steinberg-Guinan", "JC-sintered": "Johnson-Cook, sintered", "JC-90W": "Johnson-Cook, 90W",
+           "JC-Y925": "Johnson-Cook, Y925"}  # fmt: skip
 #: draws of the inputs for each law, and of the numbers of (1); the seed of both; walkers and their steps, half to settle
 DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
 #: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_mu
@@ -197,6 +200,7 @@ class Inference:
     half : velocity at which half of the rods are held, m/s, float64[FITS, n] by alloy
     chance : standard deviation of the velocity of the change of a rod by chance, as a fraction, float64[FITS] by alloy
     refined : change of that velocity with the finer mesh, m/s, float64[FITS] by alloy; empty without one
+    numbers : the draws of the numbers of (1), float64[FITS, k] by alloy: ln s and those of m
     """
 
     laws: list[str]
@@ -205,6 +209,7 @@ class Inference:
     half: dict[str, np.ndarray]
     chance: dict[str, np.ndarray]
     refined: dict[str, np.ndarray]
+    numbers: dict[str, np.ndarray]
 
     @functools.cached_property
     def together(self) -> np.ndarray:
@@ -220,11 +225,11 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
     """Fits (1) and evaluates it at points drawn from the distributions of the inputs; on the finer mesh, if one is given."""
     laws, measured = laws_of(by_shot), rigid_rod.experiments()
     at, errors = drawn(by_shot)
-    seen, half, chance, moved = {}, {}, {}, {}
+    seen, half, chance, moved, found = {}, {}, {}, {}, {}
     # the plates are of two alloys, whose factors are independent of each other: the second takes them in another order
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
-        numbers = fitted(by_shot, alloy, fine)
+        numbers = found[alloy] = fitted(by_shot, alloy, fine)
         there = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction)
         terms = there.terms(len(laws), None if fine is None else True)
         middle, width = numbers[:, 1:] @ terms.T, np.exp(numbers[:, :1])
@@ -236,7 +241,7 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
                 speed = np.log((shot.velocity + errors[number]) / USUAL)
                 lost = 1.0 / (1.0 + np.exp(np.clip((middle - speed) / width, -500.0, 500.0)))
                 seen[shot] = 1.0 - lost if measured[shot].rigid else lost
-    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance, moved)
+    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance, moved, found)
 
 
 # ---------------------------------------------------------------------------------------------------- tables
@@ -297,8 +302,10 @@ def halves(inference: Inference) -> list[str]:
 
     u_num : chance, median and 5 to 95 % of the draws;  u_input : of all inputs, and of those besides the law
     u_fit : of the median, by the number of rows
+    after : median and 5 to 95 % with the points weighed by the probability of what was seen
     """
-    heads = ("plate", "experiments", "half of the rods", "u_num", "u_input", "u_input with one law", "u_fit")
+    heads = ("plate", "experiments", "half of the rods", "u_num", "u_input", "u_input with one law", "u_fit",
+             "after the experiments")  # fmt: skip
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for alloy in ALLOYS:
         rods = sorted((shot.velocity, told.rigid) for shot, told in rigid_rod.experiments().items()
@@ -309,8 +316,39 @@ def halves(inference: Inference) -> list[str]:
         low, chance, high = middle * np.quantile(inference.chance[alloy], (ENDS[0], 0.5, ENDS[1]))
         of_inputs = np.median(_width(half, axis=1))
         within = np.median(_width(half.reshape(FITS, len(inference.laws), -1), axis=2))
+        least, after, most = _quantiles(half.ravel(), inference.together.ravel())
         lines.append(f"| {alloy} | {bracket} | {middle:.0f} m/s | {chance:.0f} ({low:.0f} to {high:.0f}) | {of_inputs:.0f} "
-                     f"| {within:.0f} | {_width(np.median(half, axis=1), axis=0):.0f} |")  # fmt: skip
+                     f"| {within:.0f} | {_width(np.median(half, axis=1), axis=0):.0f} "
+                     f"| {after:.0f} m/s, {least:.0f} to {most:.0f} |")  # fmt: skip
+    return lines
+
+
+def halves_by_law(by_shot: dict[Shot, hydro2d.Samples], inference: Inference) -> list[str]:
+    """Lines of Markdown: the velocity of the change with each law; a bound where none of its rods held."""
+    lines = [f"| law | {' | '.join(f'{alloy}: median, 5 to 95 %' for alloy in ALLOYS)} |", "|---" * (1 + len(ALLOYS)) + "|"]
+    for number, law in enumerate(inference.laws):
+        cells = []
+        for alloy in ALLOYS:
+            there = {shot: held(sample)[column(sample, LAW) == law] for shot, sample in by_shot.items() if shot.alloy == alloy}
+            low, middle, high = np.quantile(inference.half[alloy][:, inference.at.law == number], (ENDS[0], 0.5, ENDS[1]))
+            some = any(kept.any() for kept in there.values())
+            cells.append(f"{middle:.0f} m/s, {low:.0f} to {high:.0f}" if some
+                         else f"below {min(shot.velocity for shot in there):.0f} m/s")  # fmt: skip
+        lines.append(f"| {law} | {' | '.join(cells)} |")
+    return lines
+
+
+def slopes(inference: Inference) -> list[str]:
+    """Lines of Markdown: by how much the factors and the friction move the velocity of the change, m/s."""
+    steps = (np.log(1.01), np.log(1.01), 0.05)
+    heads = ("plate", "1 % more strength of the rod", "1 % more strength of the plate", f"a friction of {steps[-1]:g}")
+    lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
+    for alloy in ALLOYS:
+        first = 1 + len(inference.laws)
+        moved = np.median(inference.half[alloy]) * np.array(steps) * inference.numbers[alloy][:, first : first + len(steps)]
+        cells = [f"{middle:+.0f} m/s ({low:+.0f} to {high:+.0f})" for low, middle, high
+                 in np.quantile(moved, (ENDS[0], 0.5, ENDS[1]), axis=0).T]  # fmt: skip
+        lines.append(f"| {alloy} | {' | '.join(cells)} |")
     return lines
 
 
@@ -320,42 +358,81 @@ def _width(values: np.ndarray, axis: int) -> np.ndarray:
     return 0.5 * (high - low)
 
 
+def foretold(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
+    """Lines of Markdown: what each half of the rows says of the probability of all outcomes, and of the outcomes of the others.
+
+    An outcome is foretold if the function of the other half calls it the more probable one.
+    """
+    last = max(int(sample.columns["row"].max()) for sample in by_shot.values())
+    halves_of = {f"1 to {last // 2}": (0, last // 2), f"{last // 2 + 1} to {last}": (last // 2, last)}
+    lines = ["| rows | all outcomes together | foretold of the other rows | probability of what happened: geometric mean |",
+             "|---|---|---|---|"]  # fmt: skip
+    for words, (first, end) in halves_of.items():
+        known, others = ({shot: _rows(sample, (sample.columns["row"] > first) & (sample.columns["row"] <= end), within)
+                          for shot, sample in by_shot.items()} for within in (True, False))  # fmt: skip
+        together = inferred(known).together.mean(axis=1)
+        happened = np.concatenate([_probabilities(others, alloy, fitted(known, alloy)) for alloy in ALLOYS])
+        lines.append(f"| {words} | {_interval(together, 2)} | {(happened > 0.5).sum()} of {len(happened)} "
+                     f"| {np.exp(np.log(happened).mean()):.2f} |")  # fmt: skip
+    return lines
+
+
+def _rows(sample: hydro2d.Samples, chosen: np.ndarray, within: bool) -> hydro2d.Samples:
+    """The chosen rows of a sample, bool[n], or the others."""
+    columns = {name: values[chosen == within] for name, values in sample.columns.items()}
+    return hydro2d.Samples(sample.title, sample.inputs, columns, labels=sample.labels)
+
+
+def _probabilities(by_shot: dict[Shot, hydro2d.Samples], alloy: str, numbers: np.ndarray) -> np.ndarray:
+    """The probability of the outcome of each row into a plate, mean over the draws of the numbers of (1)."""
+    laws, parts = laws_of(by_shot), []
+    for shot, sample in by_shot.items():
+        if shot.alloy == alloy:
+            at = points(shot, sample, laws)
+            lost = 1.0 / (1.0 + np.exp(np.clip(_beyond(at, numbers, len(laws)), -500.0, 500.0)))
+            parts.append(np.where(held(sample), 1.0 - lost, lost).mean(axis=0))
+    return np.concatenate(parts)
+
+
+def _beyond(at: Points, numbers: np.ndarray, laws: int) -> np.ndarray:
+    """Minus the logit of (1) at points, float64[FITS, n]."""
+    middle = numbers[:, 1:] @ at.terms(laws).T
+    return (middle - np.log(at.velocity / USUAL)) * np.exp(-numbers[:, :1])
+
+
 def shares(by_shot: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[str]:
     """Lines of Markdown: the Sobol indices of a result for each shot, with interactions, and the error of the surrogate."""
     lines = [f"| shot | {' | '.join(NAMES.values())} | Q2 |", "|---" * (2 + len(NAMES)) + "|"]
     for shot, sample in by_shot.items():
-        cells = [""] * len(NAMES)
+        cells, rough = [""] * len(NAMES), ""
         with contextlib.suppress(hydro2d.StudyError):  # the surrogate is too poor for indices
             indices = sample.indices(result)
             of_inputs = [indices[name] for name in NAMES]
             cells = [f"{each.total:.2f} ({each.total_low:.2f} to {each.total_high:.2f})" for each in of_inputs]
-        lines.append(f"| {shot} | {' | '.join(cells)} | {sample.surrogate(result).q2:.2f} |")
+            rough = ", rough" if indices.doubt else ""
+        lines.append(f"| {shot} | {' | '.join(cells)} | {sample.surrogate(result).q2:.2f}{rough} |")
     return lines
 
 
 def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS) -> list[str]:
-    """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input, and u_num, cm.
+    """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input and u_num, cm.
 
     u_input : standard deviation of the rows of a law, without u_num
-    u_num : of the members of a law in results/twelve_shots.csv, mean over the laws: chance, not the size of the cells
+    u_num : of the members of the law in results/twelve_shots.csv: chance, not the size of the cells
     """
     members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in by_shot]
     laws = laws_of(by_shot)
-    heads = ("shot", "measured", *laws, "u_num")
+    heads = ("shot", "measured", *laws)
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for shot, sample in by_shot.items():
-        by_law: dict[str, list[float]] = {}
-        for run in members:
-            if run.shot == shot:
-                by_law.setdefault(run.column, []).append(run.reach)
-        numerical = float(np.mean([np.var(depths, ddof=1) for depths in by_law.values() if len(depths) > 1]))
         told, law = rigid_rod.experiments()[shot], column(sample, LAW)
         cells_of_shot = []
         for each in laws:
             depths = reach(sample)[law == each]
+            numerical = float(np.var([run.reach for run in members if (run.shot, run.column) == (shot, MEMBERS[each])], ddof=1))
             of_inputs = max(float(np.var(depths, ddof=1)) - numerical, 0.0)
-            cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f}")
-        lines.append(f"| {shot} | {told} | {' | '.join(cells_of_shot)} | {numerical**0.5:.1f} |")
+            cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f} ({numerical**0.5:.1f})")
+        lines.append(f"| {shot} | {told} | {' | '.join(cells_of_shot)} |")
     return lines
 
 
@@ -391,7 +468,8 @@ def refined(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sample
     together = inference.of_law(inference.together)
     for number, law in enumerate(inference.laws):
         lines.append(f"| all outcomes together, {law} | {_interval(together[:, number], 3)} |")
-    return [*lines, f"| all outcomes together, each law a quarter | {_interval(together.mean(axis=1), 3)} |"]
+    lines.append(f"| all outcomes together, each law a quarter | {_interval(together.mean(axis=1), 3)} |")
+    return [*lines, "", *strengths(inference)]
 
 
 def _by_row(sample: hydro2d.Samples) -> dict[int, tuple[bool, float]]:
@@ -448,8 +526,8 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         by_shot = samples()
         inference = inferred(by_shot)
-        for lines in (outcomes(by_shot), validation(by_shot), likelihoods(inference), strengths(inference), halves(inference),
-                      shares(by_shot)):  # fmt: skip
+        for lines in (outcomes(by_shot), validation(by_shot), likelihoods(inference), foretold(by_shot), strengths(inference),
+                      halves(inference), halves_by_law(by_shot, inference), slopes(inference), shares(by_shot)):  # fmt: skip
             print("\n".join([*lines, ""]))
         if fine := samples(FINER):
             print("\n".join([*compared(by_shot, fine), "", *refined(by_shot, fine), ""]))

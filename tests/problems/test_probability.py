@@ -22,6 +22,8 @@ INPUTS = (
 SHOTS = [shot for shot in rigid_rod.experiments() if shot.nose == "hemispherical"]
 #: half of the rods are held at 1100 (1 + the number of the law), times the factor, over that of the plate; chance by 1 %
 HALF, CHANCE = {"strong": 1180.0, "weak": 1080.0}, 0.01
+#: flow stresses of the laws at three strains, MPa
+STRESS = {"strong": (2000.0,) * 3, "weak": (1600.0,) * 3}
 
 
 def half(law, factor, plate):
@@ -100,7 +102,7 @@ def test_the_probability_of_all_outcomes_together():
 
 
 def test_rows_with_another_outcome_weigh_less(monkeypatch):
-    monkeypatch.setattr(probability, "STRENGTH", {"strong": (2000.0,) * 3, "weak": (1600.0,) * 3})
+    monkeypatch.setattr(probability, "STRENGTH", STRESS)
     inference = inferred()
     stress = np.where(inference.at.law == 0, 2000.0, 1600.0) * inference.at.factor
     weights = inference.together.mean(axis=0)
@@ -127,6 +129,38 @@ def test_the_tables(monkeypatch):
     assert "| 5083 | 1086 to 1200 m/s | " in probability.halves(inference)[2]
 
 
+def test_each_half_of_the_rows_foretells_the_other():
+    by_shot = {shot: made_up(shot, 96) for shot in SHOTS}
+    lines = probability.foretold(by_shot)
+    assert [line.split(" | ")[0] for line in lines[2:]] == ["| 1 to 48", "| 49 to 96"]
+    right, rows = map(int, lines[2].split(" | ")[2].split(" of "))
+    assert rows == 48 * len(SHOTS)
+    assert 0.85 < right / rows < 1.0, "chance is left"
+    for sample in by_shot.values():
+        sample.columns["length_ratio"][48:] = 1.3 - sample.columns["length_ratio"][48:]
+    wrong = probability.foretold(by_shot)[2]
+    assert int(wrong.split(" | ")[2].split(" of ")[0]) == rows - right, "all others end the other way"
+
+
+def test_the_velocity_by_law_and_what_moves_it():
+    """Against the function of the made-up rows; where no rod of a law held there is a bound."""
+    by_shot = {shot: made_up(shot) for shot in SHOTS}
+    inference = inferred()
+    weak = probability.halves_by_law(by_shot, inference)[3]
+    middle = float(weak.split(" | ")[1].partition(" m/s")[0])
+    assert middle == pytest.approx(HALF["weak"], rel=0.02)
+    for sample in by_shot.values():
+        sample.columns["length_ratio"][sample.columns[LAW] == "weak"] = 0.3
+    assert probability.halves_by_law(by_shot, inference)[3] == "| weak | below 1086 m/s | below 1038 m/s |"
+    for line, alloy in zip(probability.slopes(inference)[2:], rigid_rod.ALLOYS, strict=True):
+        one, *cells = line.strip("| ").split(" | ")
+        assert one == alloy
+        half_of = np.median(inference.half[alloy])
+        for cell, true in zip(cells, (0.8 * half_of * np.log(1.01), -0.5 * half_of * np.log(1.01), 0.0), strict=True):
+            low, high = map(float, cell.partition("(")[2].strip(")").split(" to "))
+            assert low - 1.0 <= true <= high + 1.0
+
+
 def test_what_perforates_reaches_as_far_as_the_plate():
     sample = made_up(Shot("hemispherical", "5083", 1086.0))
     sample.columns["perforated"] = np.full(64, "yes")
@@ -135,7 +169,7 @@ def test_what_perforates_reaches_as_far_as_the_plate():
     assert len(probability.reach(sample)) == len(probability.held(sample)) == 61
 
 
-def test_the_shift_between_two_meshes_is_found():
+def test_the_shift_between_two_meshes_is_found(monkeypatch):
     """From few rows on the finer one, whose rods hold 3 % longer; with none that differ it is next to nothing."""
     coarse = {shot: made_up(shot) for shot in SHOTS}
     for held_longer in (1.0, 1.03):
@@ -144,6 +178,7 @@ def test_the_shift_between_two_meshes_is_found():
             low, high = np.quantile(probability.fitted(coarse, alloy, fine)[:, -1], (0.05, 0.95))
             assert low <= np.log(held_longer) <= high
             assert high - low < 0.05
+    monkeypatch.setattr(probability, "STRENGTH", STRESS)
     lines = probability.refined(coarse, fine)
     assert lines[2].startswith("| change of the velocity in 5083 | +")
     finer = probability.inferred(coarse, fine)

@@ -48,6 +48,22 @@ def test_ishigami_with_ten_seeds():
     assert hits.min() >= 9, hits
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_chance_is_not_taken_for_interactions(seed):
+    """A sum of five inputs with chance of 0.5 of its standard deviation: the chance is found, and the indices are the sum's."""
+    slopes = np.array([2.0, 1.2, 0.8, 0.4, 0.0])
+    inputs = [Distribution(f"x{n}", "uniform", "", (0.0, 1.0)) for n in range(5)]
+    chance = 0.5 * np.sqrt(slopes @ slopes / 12.0)
+    noise = chance * np.random.default_rng(seed).standard_normal(64)
+    found = sample(inputs, lambda *x: slopes @ np.array(x) + noise, 64, seed).indices("y")
+    assert found.surrogate.noise == pytest.approx(chance, rel=0.35)
+    assert found.surrogate.rmse == pytest.approx(chance, rel=0.35)
+    shares = slopes**2 / (slopes @ slopes)
+    for each, true in zip(found.inputs, shares, strict=True):
+        assert each.total == pytest.approx(true, abs=0.13)
+    assert sum(each.total for each in found.inputs) < 1.15
+
+
 def test_sums_have_no_interactions_and_choices_have_levels():
     law = Distribution("law", "choice", levels=("x", "y", "z"), weights=(1 / 3,) * 3)
     inputs = [Distribution("a", "normal", "", (0.0, 1.0)), law]

@@ -28,7 +28,7 @@ def _axis(samples, result: str) -> tuple[str, float]:
 
 
 def scatter(samples, result: str):
-    """A figure with a panel for each input: the rows as dots, and the surrogate as a line if there is one."""
+    """A figure with a panel for each input: the rows as dots, and the surrogate as a line, with its Q2, if there is one."""
     rows, values = samples.by_row(result)
     label, factor = _axis(samples, result)
     cube = samples.cube(rows)
@@ -52,6 +52,8 @@ def scatter(samples, result: str):
             points = np.linspace(0.01, 0.99, POINTS)
             curve = made(surrogates.along(samples.inputs, number, points))
             place.plot(each.quantiles(points), curve * factor, color="C1", linewidth=1.4)
+    if made is not None and any(each.kind != CHOICE for each in samples.inputs):
+        figure.suptitle(f"lines: the surrogate, Q2 {made.q2:.2f}", fontsize=8)
     for place in axes[:, 0]:
         place.set_ylabel(verbatim(label), fontsize=8)
     for place in axes.flat[len(samples.inputs) :]:

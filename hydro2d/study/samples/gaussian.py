@@ -20,7 +20,7 @@ import numpy as np
 #: degrees of freedom of Matern's correlation, 2 nu
 FREEDOM = 5
 #: medians of the priors of a, s, b, l and c, for results of unit variance on a unit cube, and their spreads in e-folds
-MEDIANS, SPREADS = (0.3, 0.7, 0.1, 1.0, 1e-4), (2.0, 1.0, 2.0, 1.0, 3.0)
+MEDIANS, SPREADS = (0.3, 0.7, 0.1, 1.0, 1e-2), (2.0, 0.7, 2.0, 0.5, 3.0)
 #: bounds in spreads from the median; starts of the search, as shifts of the length scales in e-folds
 FARTHEST, STARTS = 4.0, (0.0, -1.0)
 #: waves of which a draw from the prior consists; points that are evaluated at a time; sets of numbers among the draws; points
