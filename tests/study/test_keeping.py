@@ -51,6 +51,14 @@ def rows(plan):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.parametrize("name", ["method", "status", "member", "cells_across"])
+def test_an_axis_has_no_name_of_a_column(name, tmp_path):
+    study = plan(tmp_path)
+    renamed = replace(study, axes=[axis | {"name": name} for axis in study.axes])
+    with pytest.raises(StudyError, match=f'has a column "{name}" of its own; give that axis another name'):
+        keeping.Keeper(renamed)
+
+
 def test_rows_of_runs_that_ended(study, tmp_path):
     choice = Choice(study)
     assert len(choice.selected) == 4

@@ -6,7 +6,7 @@ from scipy.stats import qmc
 
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import Distribution
-from hydro2d.study.samples import gaussian, sobol, surrogates
+from hydro2d.study.samples import gaussian, sobol, surrogates, text
 from hydro2d.study.samples.results import Samples
 
 #: constants of Ishigami's function sin x1 + A sin^2 x2 + B x3^4 sin x1 on -pi to pi; rows of its samples
@@ -128,10 +128,22 @@ def test_refusals():
         sample(ANGLES, ishigami, 4, 0).surrogate("y")
 
 
+def test_runs_that_are_cut_off_or_not_trusted_are_counted():
+    samples = sample(ANGLES[:1], lambda x1: x1, 8, 0)
+    assert samples.doubts == []
+    samples.columns |= {"stop_reason": np.array(["end time"] * 3 + ["speed of rod below 5 m/s"] * 5), "depth_m": np.ones(8),
+                        "perforated": np.array(["yes"] + ["no"] * 7), "trustworthy": np.array(["True"] * 6 + ["False"] * 2)}
+    poor, cut = samples.doubts
+    assert poor.startswith("2 of 8 runs are not trustworthy")
+    assert cut.startswith("2 of 8 runs ended at their end time or number of cycles")
+    assert cut in list(text.report(samples, shares=False))
+
+
 def test_a_doubtful_surrogate_says_so():
     noise = np.random.default_rng(5).standard_normal(64)
     found = sample(ANGLES[:1], lambda x1: x1 + 1.1 * noise, 64, 0).indices("y")
     assert sobol.POOR <= found.surrogate.q2 < sobol.FAIR
+    assert f"Q2 {found.surrogate.q2:.2f}" in sample(ANGLES[:1], lambda x1: x1 + 1.1 * noise, 64, 0).scatter("y").get_suptitle()
     assert "the indices are rough" in found.doubt
 
 

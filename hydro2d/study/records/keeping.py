@@ -209,10 +209,15 @@ class Keeper:
     """The kept rows of a plan: those of its cases that are up to date, and new ones as cases end.
 
     plan : with `keep`;  cases that a search adds later are found by their decks
+
+    Raises StudyError for an axis that is named like a column of the file, and for a file of another study.
     """
 
     def __init__(self, plan: Plan):
         self.path, self.axes = plan.keep, tuple(axis["name"] for axis in plan.axes)
+        if taken := [name for name in self.axes if name in (CELLS, MEMBER, *RESULTS, *ORIGIN)]:
+            raise StudyError(f'{plan.name}: the file of kept rows has a column "{taken[0]}" of its own; give that axis another '
+                             "name")
         self.order = {axis["name"]: {label: n for n, label in enumerate(axis["values"])} for axis in plan.axes}
         self.rows = read(self.path)
         if self.rows and (strange := [name for name in self.axes if name not in self.rows[0]]):

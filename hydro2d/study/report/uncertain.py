@@ -49,7 +49,7 @@ def parts(study: Study, folder: Path) -> list[Part]:
 def _part(number: int, samples: Samples, folder: Path) -> Part:
     heading = f"{samples.title}: {len(samples)} runs, {int(samples.ended.sum())} done"
     part = Part(heading, [Table("Inputs", ("Input", "Distribution"), [(each.head, each.words) for each in samples.inputs])],
-                [f"{message}." for message in samples.missed])  # fmt: skip
+                [f"{message}." for message in (*samples.missed, *samples.doubts)])  # fmt: skip
     for caption, (heads, rows) in (("Results", text.spreads(samples)), ("Outcomes", text.fractions(samples))):
         if rows:
             part.tables.append(Table(caption, _capital(heads), rows))

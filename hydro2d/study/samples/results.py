@@ -20,7 +20,7 @@ from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
-from hydro2d.study.records.record import is_number
+from hydro2d.study.records.record import CUT, is_number
 from hydro2d.study.records.sample_table import NO, PERFORATED, REGIME, RESIDUAL, STATUS, YES
 from hydro2d.study.records.study_directory import DONE, Study
 from hydro2d.study.samples import sobol, surrogates
@@ -125,6 +125,19 @@ class Samples:
         empty = [name for name in self.wanted if not len(_finite(self.values(name)))]
         known = self._known.difference(empty, sample_section.WORDS)
         return [f"sample.results: no run has such a number: {unknown('result', name, known)}" for name in empty]
+
+    @property
+    def doubts(self) -> list[str]:
+        """Messages about runs that are done but are not trusted, or were cut off before the projectile was seen to rest."""
+        doubts, count = [], int(self.ended.sum())
+        if "trustworthy" in self.columns and (poor := int(np.sum(self.ended & (self.columns["trustworthy"] == "False")))):
+            doubts.append(f"{poor} of {count} runs are not trustworthy; the summary of each says why")
+        if {"stop_reason", "depth_m", PERFORATED} <= self.columns.keys():
+            cut = np.isin(self.columns["stop_reason"], CUT) & (self.columns[PERFORATED] != YES)
+            if short := int(np.sum(self.ended & cut & np.isfinite(self.columns["depth_m"]))):
+                doubts.append(f"{short} of {count} runs ended at their end time or number of cycles: if the projectile still "
+                              "moves, their depths and outcomes are not final")  # fmt: skip
+        return doubts
 
     # ------------------------------------------------------------------------------------------------ one number a run
 

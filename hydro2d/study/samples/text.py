@@ -60,7 +60,7 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
 def report(samples: Samples, shares: bool = True) -> Iterator[str]:
     """The results as lines of text; without ``shares`` no Sobol indices, which take seconds for each result."""
     yield f"{samples.title}: {len(samples)} runs, {int(samples.ended.sum())} done"
-    yield from samples.missed
+    yield from (*samples.missed, *samples.doubts)
     for heads, rows in (spreads(samples), fractions(samples)):
         if rows:
             yield ""
