@@ -92,8 +92,8 @@ def _inferred() -> probability.Inference:
     return probability.inferred(_samples())
 
 
-def _uncertain_notes() -> list[str]:
-    return rigid_rod.notes(rigid_rod.read(RESULTS / "uncertain_shots.csv", USUAL))
+def _uncertain_notes(cells: float = USUAL) -> list[str]:
+    return rigid_rod.notes(rigid_rod.read(RESULTS / "uncertain_shots.csv", cells))
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
@@ -112,7 +112,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "uncertain_velocities": lambda: probability.halves(_inferred()),
     "uncertain_by_law": lambda: probability.halves_by_law(_samples(), _inferred()),
     "uncertain_slopes": lambda: probability.slopes(_inferred()),
-    "uncertain_meshes": lambda: probability.compared(_samples(), _fine()),
+    "uncertain_meshes": lambda: [*probability.compared(_samples(), _fine()), *_uncertain_notes(probability.FINER)],
     "uncertain_refined": lambda: probability.refined(_samples(), _fine()),
     "uncertain_shares": lambda: probability.shares(_samples()),
 }  # fmt: skip

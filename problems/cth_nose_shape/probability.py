@@ -465,11 +465,7 @@ def refined(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sample
     for alloy, moved in inference.refined.items():
         low, high = np.quantile(moved, ENDS)
         lines.append(f"| change of the velocity in {alloy} | {np.median(moved):+.0f} m/s ({low:+.0f} to {high:+.0f}) |")
-    together = inference.of_law(inference.together)
-    for number, law in enumerate(inference.laws):
-        lines.append(f"| all outcomes together, {law} | {_interval(together[:, number], 3)} |")
-    lines.append(f"| all outcomes together, each law a quarter | {_interval(together.mean(axis=1), 3)} |")
-    return [*lines, "", *strengths(inference)]
+    return [*lines, "", *likelihoods(inference), "", *strengths(inference)]
 
 
 def _by_row(sample: hydro2d.Samples) -> dict[int, tuple[bool, float]]:

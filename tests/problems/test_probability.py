@@ -182,7 +182,7 @@ def test_the_shift_between_two_meshes_is_found(monkeypatch):
     lines = probability.refined(coarse, fine)
     assert lines[2].startswith("| change of the velocity in 5083 | +")
     finer = probability.inferred(coarse, fine)
-    assert lines[4].startswith(f"| all outcomes together, strong | {finer.of_law(finer.together)[:, 0].mean():.3f} (")
+    assert any(line.startswith(f"| strong | {finer.of_law(finer.together)[:, 0].mean():.3f} (") for line in lines)
     assert np.median(finer.half["5083"]) > np.median(inferred().half["5083"])
 
 
