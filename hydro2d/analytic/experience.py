@@ -10,10 +10,13 @@ import csv
 import functools
 import types
 import typing
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 
 from hydro2d.deck import deck as decks
+from hydro2d.deck.shapes.body import Body
+from hydro2d.deck.shapes.box import Box
+from hydro2d.deck.shapes.rod import Rod
 from hydro2d.files.shipped import problems_folder
 from hydro2d.materials import library
 from hydro2d.materials.material import Material
@@ -34,6 +37,11 @@ METALS = {
     "tungsten": ((16500.0, 19500.0), (3900.0, 4200.0)),
 }
 EXPLOSIVE, WALL = "explosive", "wall"
+#: explosives of the library with which the kept shots are made
+EXPLOSIVES = ("TNT", "comp_B", "PBX9404")
+#: parts of an analytic model's inputs that describe materials, and inputs among them that do not
+OF_MATERIALS = ("rod", "target", "cavity", "poncelet")
+NOT_OF_MATERIALS = ("rod.length", "rod.diameter", "rod.mass", "target.thickness", "cavity.velocity")
 #: beginning of a line, and its end where there is no row
 HEAD, NONE = "experience", "none for this kind of shot"
 
@@ -184,23 +192,46 @@ def impact_of(deck: decks.Deck) -> Impact | None:
     """The projectile and the target of a deck, by the metals of its bodies, as the table of experience names kinds of shots.
 
     The result has ``projectile``, such as "tungsten rod", and ``target``, such as "aluminium", in a deck with a projectile;
-    several targets, and other bodies such as a jacket, are all named. An explosive and the metal that it
-    drives are "explosive" and the metal; one body on a wall is a "copper bar" and "wall". None for any other deck.
+    several targets, and other bodies such as a jacket, are all named. An explosive of the kept shots and the metal that it
+    drives are "explosive" and the metal; one bar that flies at a wall is a "copper bar" and "wall". None for any other deck,
+    for a planar one, and for one that scales the strength of a body.
     """
-    def of(name: str) -> str:
-        return substance(deck.materials[decks.body(deck, name).material])
-
-    names = [body.name for body in deck.body]
+    if deck.mesh.geometry != "cylindrical" or any(body.strength_factor not in (None, 1.0) for body in deck.body):
+        return None
+    metals = {body.name: substance(deck.materials[body.material]) for body in deck.body}
     if deck.penetration is not None:
         rod = decks.body(deck, deck.penetration.rod)
-        others = [of(name) for name in names if name != rod.name]
+        others = [metal for name, metal in metals.items() if name != rod.name]
         alike = len(others) > 1 and len(set(others)) == 1
-        return Impact(f"{of(rod.name)} {rod.shape}", f"{len(others)} bodies of {others[0]}" if alike else " and ".join(others))
-    if len(names) == 2 and of(names[0]) == EXPLOSIVE:
-        return Impact(EXPLOSIVE, of(names[1]))
-    if len(names) == 1 and WALL in (deck.boundaries.z_min, deck.boundaries.z_max):
-        return Impact(f"{of(names[0])} bar", WALL)
+        target = f"{len(others)} bodies of {others[0]}" if alike else " and ".join(others)
+        return Impact(f"{metals[rod.name]} {rod.shape}", target)
+    if len(deck.body) == 2:
+        return _driven(deck.materials[deck.body[0].material], deck.materials[deck.body[1].material])
+    if len(deck.body) == 1 and _is_bar(deck.body[0]) and _flies_at_wall(deck):
+        return Impact(f"{metals[deck.body[0].name]} bar", WALL)
     return None
+
+
+def _driven(one: Material, other: Material) -> Impact | None:
+    """An explosive of the kept shots and the material that it drives, in either order; None for other materials."""
+    charge, metal = (one, other) if substance(one) == EXPLOSIVE else (other, one)
+    known = substance(charge) == EXPLOSIVE and any(charge.eos.values == library.load(name).eos.values for name in EXPLOSIVES)
+    return Impact(EXPLOSIVE, substance(metal)) if known else None
+
+
+def _is_bar(body: Body) -> bool:
+    """Whether a body of a cylindrical deck is a solid cylinder, at least as long as thick."""
+    if isinstance(body, Rod):
+        diameter, length = body.size
+        return body.nose == "flat" and length >= diameter
+    return isinstance(body, Box) and body.r is not None and body.r[0] == 0.0 and body.z[1] - body.z[0] >= 2.0 * body.r[1]
+
+
+def _flies_at_wall(deck: decks.Deck) -> bool:
+    """Whether the first body of a deck flies along z, towards an edge that is a wall."""
+    (radial, axial), edges = deck.body[0].velocity, deck.boundaries
+    ahead = edges.z_min if axial < 0.0 else edges.z_max
+    return radial == 0.0 and axial != 0.0 and deck.body[0].flow is None and ahead == WALL
 
 
 def of_run(impact: Impact | None, regime: str | None, perforated: bool) -> list[str]:
@@ -229,20 +260,26 @@ def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool) -> 
         yield NONE
 
 
-def of_model(model: Model, rod: Material | None, target: Material | None) -> list[str]:
+def of_model(model: Model, rod: Material | None, target: Material | None, settings: Iterable[str] = ()) -> list[str]:
     """Lines of the experience with an analytic model for a rod of one material and a target of another, or that there is none.
 
     It is that of the formula, with inputs from decks and the library, and not that of runs.
 
-    rod, target : None for those of the model's example
+    rod, target : None for those of the model's example, of which there is none, since other inputs may replace their properties
+    settings : names of the inputs that the user gives, such as "rod.length"; there is none with properties of materials
     """
     rows = [row for row in table() if row.of == model.name]
     if not rows:
         return [f"{HEAD}: none with this model"]
-    rod, target = (given or (library.load(name) if name else None)
-                   for given, name in ((rod, model.example.rod), (target, model.example.target)))  # fmt: skip
     if rod is None or target is None:
-        return [f"{HEAD}: {NONE}"]
+        return [f"{HEAD} with this model: none unless the materials of rod and target are given"]
+    if own := ", ".join(sorted(filter(_of_materials, settings))):
+        return [f"{HEAD} with this model: none with properties of materials that are given ({own})"]
     here = Impact(f"{substance(rod)} rod", substance(target))
     shown = [row.words for row in rows if row.impact == here] or [f"{NONE} ({kind(DEPTH, here, '')})"]
     return [f"{HEAD} with this model: {words}" for words in shown]
+
+
+def _of_materials(name: str) -> bool:
+    """Whether an input of an analytic model, such as "rod.density", is a property of a material."""
+    return name.partition(".")[0] in OF_MATERIALS and name not in NOT_OF_MATERIALS

@@ -1,6 +1,7 @@
 """The experience with a kind of shot: which rows of the shipped table belong to a run or to an analytic model."""
 
 import json
+import tomllib
 
 import pytest
 
@@ -127,6 +128,71 @@ def test_what_strikes_what(deck, impact):
     assert hydro2d.impact_of(hydro2d.Deck.from_file(f"problems/{deck}.toml")) == impact
 
 
+@pytest.mark.parametrize("changes", [
+    {"body.bar.shape": "sphere", "body.bar.r": None, "body.bar.z": None, "body.bar.radius": "5 mm", "body.bar.centre": "5 mm"},
+    {"body.bar.velocity": "190 m/s"},
+    {"body.bar.velocity": "0 m/s"},
+    {"body.bar.r": ["1 mm", "3.81 mm"]},
+    {"body.bar.z": ["0 mm", "5 mm"]},
+    {"mesh.geometry": "planar"},
+    {"body.bar.strength_factor": 1.05},
+], ids=["ball", "leaves the wall", "at rest", "tube", "disc", "planar", "stronger"])  # fmt: skip
+def test_what_is_no_bar_that_flies_at_a_wall(changes):
+    assert impact_with("classic/taylor_bar", changes) is None
+
+
+def test_a_flat_rod_that_flies_at_the_upper_wall_is_a_bar():
+    rod = {"body.bar.shape": "rod", "body.bar.r": None, "body.bar.z": None, "body.bar.radius": "3.81 mm",
+           "body.bar.length": "25.4 mm", "body.bar.tip": "29.5275 mm", "body.bar.velocity": "190 m/s",
+           "boundaries.z_min": "outflow", "boundaries.z_max": "wall"}  # fmt: skip
+    assert impact_with("classic/taylor_bar", rod) == Impact("copper bar", "wall")
+    assert impact_with("classic/taylor_bar", {**rod, "body.bar.nose": "hemispherical"}) is None
+
+
+def test_a_planar_deck_has_no_rods():
+    assert impact_with("templates/rod", {}) is not None
+    assert impact_with("templates/rod", {"mesh.geometry": "planar"}) is None
+
+
+@pytest.mark.parametrize("name", ["rod", "block"])
+def test_a_body_that_is_made_stronger_is_another_material(name):
+    assert impact_with("templates/rod", {f"body.{name}.strength_factor": 5.0}) is None
+    assert impact_with("templates/rod", {f"body.{name}.strength_factor": 1.0}) == impact_with("templates/rod", {})
+
+
+def test_the_order_of_an_explosive_and_its_tube_does_not_matter():
+    with open("problems/explosives/cylinder.toml", "rb") as file:
+        tables = tomllib.load(file)
+    assert [body["name"] for body in tables["body"]] == ["charge", "tube"]
+    tables["body"].reverse()
+    assert hydro2d.impact_of(hydro2d.Deck.from_dict(tables)) == Impact("explosive", "copper")
+
+
+@pytest.mark.parametrize(("name", "known"), [
+    ("TNT", True), ("comp_B", True), ("PBX9404", True), ("C4", False), ("PETN", False), ("nitromethane", False),
+])  # fmt: skip
+def test_only_explosives_of_the_kept_shots_are_known(name, known):
+    assert (impact_with("explosives/cylinder", {"body.charge.material": name}) is not None) == known
+
+
+@pytest.mark.parametrize("name", ["plate_push", "sandwich"])
+def test_a_planar_charge_is_none_of_the_kept_tubes(name):
+    assert hydro2d.impact_of(hydro2d.Deck.from_file(f"problems/explosives/{name}.toml")) is None
+
+
+def impact_with(deck, changes):
+    """What strikes what in a deck of `problems` with changed keys; None as a value removes the key."""
+    with open(f"problems/{deck}.toml", "rb") as file:
+        tables = tomllib.load(file)
+    for path, value in changes.items():
+        part, *name, key = path.split(".")
+        entry = next(body for body in tables["body"] if [body["name"]] == name) if name else tables.setdefault(part, {})
+        entry.pop(key, None)
+        if value is not None:
+            entry[key] = value
+    return hydro2d.impact_of(hydro2d.Deck.from_dict(tables))
+
+
 def test_a_material_of_a_deck_is_its_metal():
     deck = hydro2d.Deck.from_file("problems/cth_nose_shape/hemi_5083_1086.toml",
                                   ['body.rod.material="own"', 'materials.own.based_on="W_sintered"'])  # fmt: skip
@@ -149,11 +215,28 @@ def test_a_model_has_its_own_experience(table):
         "experience with this model: none for this kind of shot (depth of tantalum rods in aluminium)"]
 
 
-def test_without_materials_they_are_those_of_the_example(table):
+@pytest.mark.parametrize("given", [(None, None), ("W_alloy", None), (None, "Al5083")])
+def test_the_materials_of_the_example_are_not_those_of_the_user(table, given):
     table(change(of="tate", ended="eroded", shots=4))
-    example = models.named("tate").example
-    given = experience.of_model(models.named("tate"), *map(library.load, (example.rod, example.target)))
-    assert experience.of_model(models.named("tate"), None, None) == given
+    rod, target = (name and library.load(name) for name in given)
+    assert experience.of_model(models.named("tate"), rod, target) == [
+        "experience with this model: none unless the materials of rod and target are given"]
+
+
+@pytest.mark.parametrize("own", ["rod.density", "rod.strength", "target.density", "target.resistance", "cavity.a"])
+def test_a_model_with_a_property_of_the_user_has_no_experience(table, own):
+    table(change(of="tate", ended="eroded", shots=4))
+    known = models.named("tate"), library.load("W_alloy"), library.load("Al5083")
+    assert experience.of_model(*known, ["rod.length", own]) == [
+        f"experience with this model: none with properties of materials that are given ({own})"]
+    assert experience.of_model(*known, ["rod.length", "rod.diameter", "rod.mass", "nose.shape"]) == experience.of_model(*known)
+
+
+def test_the_command_has_no_experience_with_properties_in_place_of_materials(capsys):
+    own = ("rod.length=97.3mm", "rod.density=7850kg/m^3", "rod.strength=1GPa", "target.density=7850kg/m^3",
+           "target.resistance=5GPa")  # fmt: skip
+    assert call(["model", "tate", "--velocity", "1200m/s", *(word for each in own for word in ("--set", each))]) == 0
+    assert "computed/measured" not in capsys.readouterr().out
 
 
 def test_the_command_shows_it(capsys):
@@ -163,3 +246,11 @@ def test_the_command_shows_it(capsys):
     assert last.startswith("experience with this model: computed/measured ")
     assert call([*words, "--json"]) == 0
     assert last in json.loads(capsys.readouterr().out)["experience"]
+
+
+def test_the_model_command_has_no_experience_with_properties_that_are_given(capsys):
+    arguments = ["model", "tate", "--rod", "W_alloy", "--target", "Al5083", "--velocity", "1200m/s", "--set"]
+    assert call([*arguments, "rod.density=17000kg/m^3"]) == 0
+    assert "none with properties of materials that are given (rod.density)" in capsys.readouterr().out
+    assert call([*arguments, "rod.length=80mm"]) == 0
+    assert "computed/measured" in capsys.readouterr().out
