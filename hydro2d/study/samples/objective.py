@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
@@ -19,18 +20,24 @@ from hydro2d.base.errors import in_words, unknown
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
+from hydro2d.files.locks import turn
+from hydro2d.files.whole import plain
 from hydro2d.output.directory import deck_hash
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError
-from hydro2d.study.plan.distributions import CHOICE, Distribution, label
-from hydro2d.study.plan.sample_section import Input
+from hydro2d.study.plan.distributions import CHOICE, DIGITS, Distribution, label
+from hydro2d.study.plan.sample_section import Input, in_one_unit
 from hydro2d.study.records import sample_table, study_directory
-from hydro2d.study.records.study_directory import DONE
+from hydro2d.study.records.study_directory import DONE, INTERRUPTED
 from hydro2d.study.run.case import run_case
 from hydro2d.study.samples import results, surrogates
 
 #: letters of the hash of a deck in the name of its directory; fewest points among which a suggestion is chosen
 LETTERS, CANDIDATES = 16, 2047
+#: best points around which more candidates are drawn, and the standard deviations of the steps from them, as shares of a range
+BEST, STEPS = 2, (0.1, 0.03, 0.01, 0.003, 0.001)
+#: folder of the files by which callers of one point take turns
+TURNS = ".turns"
 #: the key of a point's name in the standard for generators
 ID = "_id"
 GOALS = ("minimize", "maximize", "explore")
@@ -73,9 +80,9 @@ class Objective:
         self.variables = {each.head: set(self._levels[each.key].values()) if each.kind == CHOICE else list(each.numbers)
                           for each in self.inputs}  # fmt: skip
         self.data: list[dict[str, Any]] = []
-        self._given = 0
-        for point in np.vstack([np.full(len(self.inputs), share) for share in (0.0, 1.0)]):
-            self.deck_at(self._point(point))  # the ends of all keys make valid decks
+        self._suggested: list[tuple[Any, ...]] = []
+        for point in self._points(np.repeat([[0.0], [1.0]], len(self.inputs), axis=1)):
+            self.deck_at(point)  # the ends of all keys make valid decks
 
     def __call__(self, point: Mapping[str, Any]) -> float:
         """The result at a point: runs its deck, or reads the run that there is already.
@@ -83,12 +90,18 @@ class Objective:
         point : values by deck key, ``{"body.rod.velocity": "1086 m/s"}``, or by name, ``{"body.rod.velocity [m/s]": 1086.0}``;
             a key that it does not have keeps the value of the deck
 
-        Raises StudyError for an unknown key, a run that failed, or one without this result; DeckError.
+        Waits for a thread or process of this machine that runs the same point, and reads its run.
+
+        Raises StudyError for an unknown key, None or a key given twice, a run that failed, or one without this result;
+        DeckError; KeyboardInterrupt if the run was interrupted: the next call continues it.
         """
         text = self.deck_at(point).to_toml()
         self.directory.mkdir(parents=True, exist_ok=True)
         place = self.directory / deck_hash(text)[:LETTERS]
-        outcome = run_case(place, text, threads=self.threads)
+        with turn(self.directory / TURNS / place.name):
+            outcome = run_case(place, text, threads=self.threads)
+        if outcome.status == INTERRUPTED:
+            raise KeyboardInterrupt(f"{place}: {outcome.message}")
         if outcome.status != DONE:
             raise StudyError(f"{place}: the run is {outcome.status}: {outcome.message}")
         (case,) = study_directory.load(place).cases
@@ -102,79 +115,169 @@ class Objective:
         return value
 
     def deck_at(self, point: Mapping[str, Any]) -> Deck:
-        """The deck at a point, as for a call. Raises StudyError for an unknown key, DeckError for an impossible value."""
-        names = {name: each for each in self.inputs for name in (each.key, each.head)}
-        overrides = {}
-        for name, value in point.items():
-            if name in (ID, self.result):
-                continue
-            if name not in names:
+        """The deck at a point, as for a call.
+
+        Raises StudyError for an unknown key, None or a key given twice, DeckError for an impossible value.
+        """
+        names = {name for each in self.inputs for name in (each.key, each.head)}
+        for name in point:
+            if name not in names and name not in (ID, self.result):
                 raise StudyError(unknown("key", name, {each.head for each in self.inputs}))
-            each = names[name]
-            bare = each.unit and isinstance(value, (int, float)) and not isinstance(value, bool)
-            overrides[each.key] = f"{float(value)!r} {each.unit}" if bare else value
-        settings = [toml.assigned(key, value) for key, value in overrides.items()]
+        settings = []
+        for each, value in self._values(point):
+            with_unit = f"{float(value)!r} {each.unit}" if each.unit and _is_number(value) else value
+            settings.append(toml.assigned(each.key, with_unit))
         return decks.of_tables(self.deck._tables, settings, self.deck.name)
+
+    def _values(self, point: Mapping[str, Any]) -> list[tuple[Distribution, Any]]:
+        """The inputs that a point has, each with its value without numpy's types. Raises StudyError."""
+        found = []
+        for each in self.inputs:
+            names = [name for name in dict.fromkeys((each.key, each.head)) if name in point]
+            if len(names) > 1:
+                raise StudyError(f"{each.key}: is given twice, as {' and '.join(names)}; leave one of them out")
+            if not names:
+                continue
+            value = plain(point[names[0]])
+            if value is None:
+                raise StudyError(f"{names[0]}: is None; a value is needed")
+            found.append((each, value))
+        return found
 
     def suggest(self, num_points: int | None = None) -> list[dict[str, Any]]:
         """The next points, each a dict of a number or a value by name. Default: one point.
 
         They fill the bounds evenly (Sobol's sequence). From as many results on as a surrogate needs, if they differ, they are
         the best points of functions that the results allow, a function for each point (Thompson sampling), unless the goal is
-        to explore. Results that are NaN do not count.
+        to explore. Half of the points among which each is chosen are near the best results. Results that are NaN do not count.
+
+        All points differ from each other, from those in `data` and from those suggested before. Only where the keys have sets
+        of values and too few combinations are left, earlier ones follow the last new ones; a call reads their runs.
         """
         number = 1 if num_points is None else operator.index(num_points)
         if number < 1:
             raise ValueError(f"num_points = {number}: at least one is needed")
-        from scipy.stats import qmc
-
-        first, self._given = self._given, self._given + number
         known = [each for each in self.data if np.isfinite(each[self.result])]
         values = np.array([each[self.result] for each in known])
         explores = self.goal == "explore" or len(known) < len(self.inputs) + surrogates.FEWEST or not surrogates.vary(values)
-        engine = qmc.Sobol(len(self.inputs), scramble=True, seed=np.random.default_rng(self.seed))
-        candidates = engine.random_base2(max(CANDIDATES, self._given - 1).bit_length())
-        if explores:
-            return [self._point(point) for point in candidates[first : self._given]]
-        cube = np.column_stack([each.points([each_point[each.head] if each.kind != CHOICE else label(each_point[each.head])
-                                             for each_point in known]) for each in self.inputs])  # fmt: skip
+        cube = self._explored(number) if explores else self._improved(number, known, values)
+        points = self._points(cube)
+        self._suggested += [tuple(point.values()) for point in points]
+        return points
+
+    def _explored(self, number: int) -> np.ndarray:
+        """The next points of Sobol's sequence, float64[number, d]."""
+        return self._fresh(self._sobol(number), number)[:number]
+
+    def _improved(self, number: int, known: list[dict[str, Any]], values: np.ndarray) -> np.ndarray:
+        """The best points of functions that the results, float64[n], of known points allow, float64[number, d]."""
+        seed, sign = self.seed + len(self._suggested) + number, 1.0 if self.goal == "minimize" else -1.0
+        cube = np.column_stack([each.points([point[each.head] if each.kind != CHOICE else label(point[each.head])
+                                             for point in known]) for each in self.inputs])  # fmt: skip
+        evenly = self._sobol(number)
+        best = cube[np.argsort(sign * values, kind="stable")[:BEST]]
+        candidates = self._fresh(np.vstack([evenly, _near(best, len(evenly), seed)]), number)
         made = surrogates.fit(self.inputs, cube, values)
-        sign = 1.0 if self.goal == "minimize" else -1.0
-        drawn = made.draws(candidates, max(number, 5), seed=self.seed + self._given)[:number]
-        return [self._point(candidates[int(np.argmin(sign * each))]) for each in drawn]
+        chosen: list[int] = []
+        for drawn in sign * made.draws(candidates, max(number, 5), seed=seed)[:number]:
+            drawn[chosen] = np.inf
+            chosen.append(int(np.argmin(drawn)))
+        return candidates[chosen]
+
+    def _sobol(self, number: int) -> np.ndarray:
+        """The first points of Sobol's sequence, float64[n, d], at least as many new ones as a number."""
+        from scipy.stats import qmc
+
+        engine = qmc.Sobol(len(self.inputs), scramble=True, seed=np.random.default_rng(self.seed))
+        return engine.random_base2(max(CANDIDATES, len(self.data) + len(self._suggested) + number - 1).bit_length())
+
+    def _fresh(self, cube: np.ndarray, number: int) -> np.ndarray:
+        """The points of a cube, float64[n, d], that are new and differ; if these are fewer than a number, others follow."""
+        used = {tuple(point[name] for name in self.variables) for point in self.data} | {*self._suggested}
+        rows: dict[tuple[Any, ...], int] = {}
+        for row, point in enumerate(self._points(cube)):
+            rows.setdefault(tuple(point.values()), row)
+        fresh = [row for values, row in rows.items() if values not in used]
+        if len(fresh) < number:
+            again = [row for values, row in rows.items() if values in used]
+            return cube[np.resize([*fresh, *again], number)]
+        return cube[fresh]
 
     def ingest(self, results: Sequence[Mapping[str, Any]]) -> None:
-        """Takes evaluated points: dicts of the values of all keys by name, and of the result, NaN for a run without it.
+        """Takes evaluated points: dicts of the values of all keys, as for a call, and of the result, NaN for a run without it.
 
-        Raises ValueError for a wrong point; then none of them is added.
+        Raises StudyError for a wrong point: without a key or with one given twice, with a value outside the bounds or the set
+        of values, with a result that is no number; then none of them is added.
         """
         if isinstance(results, Mapping):
-            raise ValueError("results: expected a list of points, is a single one")
-        points = []
-        for point in results:
-            missing = [name for name in (*self.variables, self.result) if name not in point]
-            if missing:
-                raise ValueError(f"a point has no {missing[0]}: {dict(point)}")
-            try:
-                points.append({**point, self.result: float(point[self.result])})
-            except (TypeError, ValueError):
-                raise ValueError(f"{self.result} is not a number: {dict(point)}") from None
-        self.data += points
+            raise StudyError("results: expected a list of points, is a single one")
+        self.data += [self._taken(point) for point in results]
 
-    def _point(self, cube: np.ndarray) -> dict[str, Any]:
-        """A point of the unit cube as values by name."""
-        values = {each.head: each.values(np.array([share]))[0] for each, share in zip(self.inputs, cube, strict=True)}
-        return {each.head: self._levels[each.key][values[each.head]] if each.kind == CHOICE else values[each.head]
-                for each in self.inputs}  # fmt: skip
+    def _taken(self, point: Mapping[str, Any]) -> dict[str, Any]:
+        """An evaluated point as `data` has it: values by name, in the unit of the name. Raises StudyError."""
+        values = {each.head: self._level(each, value) if each.kind == CHOICE else _number(each, value)
+                  for each, value in self._values(point)}  # fmt: skip
+        missing = [*(name for name in self.variables if name not in values), *({self.result} - point.keys())]
+        if missing:
+            raise StudyError(f"a point has no {missing[0]}: {dict(point)}")
+        try:
+            result = float(point[self.result])
+        except (TypeError, ValueError):
+            raise StudyError(f"{self.result} is not a number: {dict(point)}") from None
+        keys = {each.key for each in self.inputs}
+        return {name: value for name, value in point.items() if name not in keys} | values | {self.result: result}
+
+    def _level(self, each: Distribution, value: Any) -> Any:
+        """The value of a set that equals a given one, such as 1.0 for 1. Raises StudyError."""
+        for own in self._levels[each.key].values():
+            if own == value and isinstance(own, bool) == isinstance(value, bool):
+                return own
+        raise StudyError(f"{each.head}: {unknown('value', str(value), each.levels)}")
+
+    def _points(self, cube: np.ndarray) -> list[dict[str, Any]]:
+        """Points of the unit cube, float64[n, d], as values by name."""
+        columns = [each.values(shares) for each, shares in zip(self.inputs, cube.T, strict=True)]
+        own = [[self._levels[each.key][str(value)] for value in column] if each.kind == CHOICE else column
+               for each, column in zip(self.inputs, columns, strict=True)]  # fmt: skip
+        return [dict(zip(self.variables, values, strict=True)) for values in zip(*own, strict=True)]
+
+
+def _near(best: np.ndarray, number: int, seed: int) -> np.ndarray:
+    """Points near the best ones, float64[n, d], in the unit cube: float64[number, d]."""
+    generator, row = np.random.default_rng(seed), np.arange(number)
+    sizes = np.array(STEPS)[row // len(best) % len(STEPS), None]
+    steps = sizes * generator.standard_normal((number, best.shape[1]))
+    return np.clip(best[row % len(best)] + steps, 0.0, 1.0)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _number(each: Distribution, given: Any) -> float:
+    """A number, or a text with a unit, as a number in the unit of a key, within its bounds but for round-off.
+
+    Raises StudyError.
+    """
+    low, high = each.numbers
+    expected = f"expected a number from {low:.6g} to {high:.6g}{each.unit and ' '}{each.unit}"
+    value = float(given) if _is_number(given) else float("nan")
+    if isinstance(given, str):
+        with suppress(ValueError):
+            value = in_one_unit((f"1 {each.unit}" if each.unit else 1, given))[0][1]
+    slack = 10.0 ** (1 - DIGITS) * max(abs(low), abs(high))
+    if not low - slack <= value <= high + slack:  # also if it is NaN
+        raise StudyError(f"{each.head}: is {given!r}; {expected}")
+    return value
 
 
 def _sorted(given: Any) -> list[Any]:
-    return sorted(given, key=str)
+    return sorted(map(plain, given), key=str)
 
 
 def _input(key: str, given: Any) -> Distribution:
     """The bounds or the values of a key as a distribution. Raises StudyError."""
-    table = {"choice": tuple(_sorted(given))} if isinstance(given, (set, frozenset)) else {"uniform": given}
+    table = {"choice": tuple(_sorted(given))} if isinstance(given, (set, frozenset)) else {"uniform": plain(given)}
     try:
         return Distribution.of_input(key, Input.model_validate(table))
     except ValidationError as error:
