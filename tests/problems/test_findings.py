@@ -35,7 +35,7 @@ def test_depths_of_every_way_to_compute(schemes):
     doubtful = replace(made(SHOTS[0], 44.0), trusted=False)
     assert findings.depths(findings.grouped([doubtful]), "hemispherical")[-1] == "| contact, P, ke | 44.0†, 2.0 % |"
     assert rigid_rod.notes([doubtful]) == ["", "† 1 run with a fault in the audit, such as too much energy lost."]
-    assert findings.depths({}, "ogival") == ["No row of `advection.toml` with ogival rods is kept."]
+    assert findings.depths({}, "ogival") == ["No run of `advection.toml` with ogival rods is kept."]
 
 
 def test_schemes_are_compared_shot_by_shot(schemes):
