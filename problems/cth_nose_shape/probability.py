@@ -191,6 +191,11 @@ def drawn(by_shot: dict[Shot, hydro2d.Samples]) -> tuple[Points, np.ndarray]:
     return Points(np.full(number, USUAL), law, factor, plate, friction), errors
 
 
+def logistic(logit: np.ndarray) -> np.ndarray:
+    """The probability p of ln p/(1 - p)."""
+    return 1.0 / (1.0 + np.exp(np.clip(-logit, -500.0, 500.0)))
+
+
 @dataclass(frozen=True)
 class Inference:
     """The probabilities of the outcomes that were seen, at points drawn from the inputs, for each draw of the numbers of (1).
@@ -199,7 +204,6 @@ class Inference:
     seen : probability of the outcome of each shot at each point, float64[FITS, n] by shot
     half : velocity at which half of the rods are held, m/s, float64[FITS, n] by alloy
     chance : standard deviation of the velocity of the change of a rod by chance, as a fraction, float64[FITS] by alloy
-    refined : change of that velocity with the finer mesh, m/s, float64[FITS] by alloy; empty without one
     numbers : the draws of the numbers of (1), float64[FITS, k] by alloy: ln s and those of m
     """
 
@@ -208,7 +212,6 @@ class Inference:
     seen: dict[Shot, np.ndarray]
     half: dict[str, np.ndarray]
     chance: dict[str, np.ndarray]
-    refined: dict[str, np.ndarray]
     numbers: dict[str, np.ndarray]
 
     @functools.cached_property
@@ -225,23 +228,21 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
     """Fits (1) and evaluates it at points drawn from the distributions of the inputs; on the finer mesh, if one is given."""
     laws, measured = laws_of(by_shot), rigid_rod.experiments()
     at, errors = drawn(by_shot)
-    seen, half, chance, moved, found = {}, {}, {}, {}, {}
+    seen, half, chance, numbers = {}, {}, {}, {}
     # the plates are of two alloys, whose factors are independent of each other: the second takes them in another order
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
-        numbers = found[alloy] = fitted(by_shot, alloy, fine)
+        numbers[alloy] = fitted(by_shot, alloy, fine)
         there = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction)
         terms = there.terms(len(laws), None if fine is None else True)
-        middle, width = numbers[:, 1:] @ terms.T, np.exp(numbers[:, :1])
+        middle, width = numbers[alloy][:, 1:] @ terms.T, np.exp(numbers[alloy][:, :1])
         half[alloy], chance[alloy] = USUAL * np.exp(middle), LOGISTIC * width[:, 0]
-        if fine is not None:
-            moved[alloy] = float(np.median(half[alloy])) * numbers[:, -1]
         for number, shot in enumerate(by_shot):
             if shot.alloy == alloy:
                 speed = np.log((shot.velocity + errors[number]) / USUAL)
-                lost = 1.0 / (1.0 + np.exp(np.clip((middle - speed) / width, -500.0, 500.0)))
+                lost = logistic((speed - middle) / width)
                 seen[shot] = 1.0 - lost if measured[shot].rigid else lost
-    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance, moved, found)
+    return Inference(laws, at, {shot: seen[shot] for shot in by_shot}, half, chance, numbers)
 
 
 # ---------------------------------------------------------------------------------------------------- tables
@@ -370,10 +371,10 @@ def foretold(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     for words, (first, end) in halves_of.items():
         known, others = ({shot: _rows(sample, (sample.columns["row"] > first) & (sample.columns["row"] <= end), within)
                           for shot, sample in by_shot.items()} for within in (True, False))  # fmt: skip
-        together = inferred(known).together.mean(axis=1)
-        happened = np.concatenate([_probabilities(others, alloy, fitted(known, alloy)) for alloy in ALLOYS])
-        lines.append(f"| {words} | {_interval(together, 2)} | {(happened > 0.5).sum()} of {len(happened)} "
-                     f"| {np.exp(np.log(happened).mean()):.2f} |")  # fmt: skip
+        inference = inferred(known)
+        happened = np.concatenate([_probabilities(others, alloy, inference.numbers[alloy]) for alloy in ALLOYS])
+        lines.append(f"| {words} | {_interval(inference.together.mean(axis=1), 2)} "
+                     f"| {(happened > 0.5).sum()} of {len(happened)} | {np.exp(np.log(happened).mean()):.2f} |")  # fmt: skip
     return lines
 
 
@@ -389,15 +390,10 @@ def _probabilities(by_shot: dict[Shot, hydro2d.Samples], alloy: str, numbers: np
     for shot, sample in by_shot.items():
         if shot.alloy == alloy:
             at = points(shot, sample, laws)
-            lost = 1.0 / (1.0 + np.exp(np.clip(_beyond(at, numbers, len(laws)), -500.0, 500.0)))
+            logit = (np.log(at.velocity / USUAL) - numbers[:, 1:] @ at.terms(len(laws)).T) * np.exp(-numbers[:, :1])
+            lost = logistic(logit)
             parts.append(np.where(held(sample), 1.0 - lost, lost).mean(axis=0))
     return np.concatenate(parts)
-
-
-def _beyond(at: Points, numbers: np.ndarray, laws: int) -> np.ndarray:
-    """Minus the logit of (1) at points, float64[FITS, n]."""
-    middle = numbers[:, 1:] @ at.terms(laws).T
-    return (middle - np.log(at.velocity / USUAL)) * np.exp(-numbers[:, :1])
 
 
 def shares(by_shot: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> list[str]:
@@ -462,7 +458,8 @@ def refined(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sample
     """
     inference = inferred(coarse, fine)
     lines = [f"| | {USUAL_CELLS:g} to {FINER:g} cells |", "|---|---|"]
-    for alloy, moved in inference.refined.items():
+    for alloy, numbers in inference.numbers.items():
+        moved = np.median(inference.half[alloy]) * numbers[:, -1]
         low, high = np.quantile(moved, ENDS)
         lines.append(f"| change of the velocity in {alloy} | {np.median(moved):+.0f} m/s ({low:+.0f} to {high:+.0f}) |")
     return [*lines, "", *likelihoods(inference), "", *strengths(inference)]

@@ -131,7 +131,7 @@ class Objective:
 
     def _values(self, point: Mapping[str, Any]) -> list[tuple[Distribution, Any]]:
         """The inputs that a point has, each with its value without numpy's types. Raises StudyError."""
-        found = []
+        values = []
         for each in self.inputs:
             names = [name for name in dict.fromkeys((each.key, each.head)) if name in point]
             if len(names) > 1:
@@ -141,8 +141,8 @@ class Objective:
             value = plain(point[names[0]])
             if value is None:
                 raise StudyError(f"{names[0]}: is None; a value is needed")
-            found.append((each, value))
-        return found
+            values.append((each, value))
+        return values
 
     def suggest(self, num_points: int | None = None) -> list[dict[str, Any]]:
         """The next points, each a dict of a number or a value by name. Default: one point.
