@@ -51,13 +51,13 @@ def dual_share(g, j, i, mesh_box, volume, metrics, hard, soft):
 
 @point
 def meeting(j, i, mesh_box, hard, soft):
-    """Whether both groups are in cell (j, i), or one group is and the other fills a cell next to it except for GAP."""
+    """Whether both groups are in cell (j, i), or one group is and the other fills a cell next to it except for 1.5 GAP."""
     h, s = hard[j, i] > 0.0, soft[j, i] > 0.0
     if h and s:
         return True
     for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
         if mesh_box[0] <= row < mesh_box[1] and mesh_box[2] <= column < mesh_box[3]:
-            if (soft[row, column] if h else hard[row, column]) >= 1.0 - GAP:
+            if (soft[row, column] if h else hard[row, column]) >= 1.0 - 1.5 * GAP:
                 return True
     return False
 

@@ -11,10 +11,10 @@ equation 1; that of the soft group is 1 minus it.
 
 from math import sqrt
 
-from hydro2d.jit import cell_rows, point, serial, vertex_rows
+from hydro2d.jit import cell_rows, not_inlined, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.physics.contact_faces import GAP, end_apertures, known
-from hydro2d.physics.interfaces import line_constant, youngs_gradient
+from hydro2d.physics.interfaces import area_below, line_constant, youngs_gradient
 from hydro2d.physics.traction import smoothstep
 
 #: excess over 1 of the squared ratio of two slopes from which the line is drawn from the steeper surface alone
@@ -27,6 +27,12 @@ LINE_R, LINE_Z, CONSTANT, SHARE, HARD_R, HARD_Z, SOFT_R, SOFT_Z, SOFT_AFTER, HAR
 
 #: squared ratio of the slope of all solids to those of the groups, below which void lies between the groups
 BETWEEN = 0.25
+
+#: squared misfits of lines that differ by less are alike
+FIT = 1e-6
+
+#: weight of differences between neighbouring cells beside those across a cell in the fall of the hard share
+ONE_SIDED = 0.01
 
 #: share of void in a cell from which its groups begin to have separate surfaces, and from which they have them in full
 SEPARATION_START, SEPARATION_FULL = 0.5, 0.75
@@ -89,6 +95,117 @@ def separation_weight(void, whole, less):
     return max(opposed, smoothstep((void - SEPARATION_START) / (SEPARATION_FULL - SEPARATION_START)))
 
 
+@point
+def share_at(j, i, w):
+    """(hard share of the solids of cell (j, i), how well it is known there); beyond the mesh, of the nearest cell in it.
+
+    The share of a cell with void, which may lie on either side, is known with the weight 1/(1 + (void/GAP)^2), and that of a
+    cell without solids not at all.
+    """
+    row = min(max(j, w.mesh_box[0]), w.mesh_box[1] - 1)
+    column = min(max(i, w.mesh_box[2]), w.mesh_box[3] - 1)
+    total = w.hard[row, column] + w.soft[row, column]
+    if total <= 0.0:
+        return 0.0, 0.0
+    void = max(1.0 - total, 0.0) / GAP
+    return w.hard[row, column] / total, min(total, 1.0) / (1.0 + void * void)
+
+
+@point
+def share_fall(j, i, dj, di, w):
+    """Fall of the hard share of the solids across cell (j, i) along r (di = 1) or z (dj = 1).
+
+    The mean over the three lines of cells through its neighbours, the middle one counting twice: of the differences of the two
+    outer cells, by how well both shares are known, and, with the weight ONE_SIDED, of twice those to the cell between them. In
+    cells without void this is Youngs' gradient.
+    """
+    fall, whole = 0.0, 0.0
+    for line in range(-1, 2):
+        row, column = j + di * line, i + dj * line
+        share, known_here = share_at(row, column, w)
+        before, known_before = share_at(row - dj, column - di, w)
+        after, known_after = share_at(row + dj, column + di, w)
+        part = 2.0 if line == 0 else 1.0
+        both = part * known_before * known_after
+        low, high = part * ONE_SIDED * known_before * known_here, part * ONE_SIDED * known_here * known_after
+        fall += both * (before - after) + 2.0 * low * (before - share) + 2.0 * high * (share - after)
+        whole += both + low + high
+    if whole == 0.0:
+        return 0.0
+    width = w.dr[i] / (w.dr[i] + 0.5 * (w.dr[i - 1] + w.dr[i + 1])) if di == 1 else w.dz[j] / (
+        w.dz[j] + 0.5 * (w.dz[j - 1] + w.dz[j + 1]))
+    return fall / whole * width
+
+
+@point
+def void_around(j, i, w):
+    """Largest share of void in a cell and its eight neighbours that contain solids."""
+    most = 0.0
+    for row in range(max(j - 1, w.mesh_box[0]), min(j + 2, w.mesh_box[1])):
+        for column in range(max(i - 1, w.mesh_box[2]), min(i + 2, w.mesh_box[3])):
+            most = max(most, 1.0 - w.hard[row, column] - w.soft[row, column])
+    return most
+
+
+@point
+def misfit(j, i, n_r, n_z, share, w):
+    """By how much a line of cell (j, i), drawn on through its eight neighbours, disagrees with what is in them, squared.
+
+    The hard side takes at least the hard share of a cell and leaves at least the soft one.
+    """
+    size = abs(n_r) + abs(n_z)
+    if size < 1e-14:
+        return 1.0
+    n_r, n_z = n_r / size, n_z / size
+    constant = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
+    total = 0.0
+    for b in range(-1, 2):
+        row = min(max(j + b, w.mesh_box[0]), w.mesh_box[1] - 1)
+        high = w.dz[j + b] / w.dz[j]
+        y = 0.0 if b == 0 else (1.0 if b > 0 else -high)
+        for a in range(-1, 2):
+            column = min(max(i + a, w.mesh_box[2]), w.mesh_box[3] - 1)
+            wide = w.dr[i + a] / w.dr[i]
+            x = 0.0 if a == 0 else (1.0 if a > 0 else -wide)
+            m_r, m_z = n_r * wide, n_z * high
+            inside = area_below(abs(m_r), abs(m_z), constant - n_r * x - n_z * y - min(m_r, 0.0) - min(m_z, 0.0))
+            beyond = max(w.hard[row, column] - inside, inside - 1.0 + w.soft[row, column])
+            total += beyond * beyond if beyond > 0.0 else 0.0
+    return total
+
+
+@not_inlined
+def fitting_line(j, i, share, hard_r, hard_z, soft_r, soft_z, w):
+    """(normal of the hard side, its share of the cell) of the line between the groups in cell (j, i).
+
+    Youngs' normal of f_hard - f_soft. Where there is void around, a surface may have a corner: the line is then drawn from the
+    two surfaces, from either of them, or from the hard share of the solids, weighted by how well it fits what is around.
+    """
+    if void_around(j, i, w) <= 0.0:
+        return hard_r - soft_r, hard_z - soft_z, share
+    whole, n_r, n_z, part = 0.0, 0.0, 0.0, 0.0
+    for way in range(4):
+        along_r, along_z, side = hard_r - soft_r, hard_z - soft_z, share
+        if way == 1:
+            along_r, along_z, side = hard_r, hard_z, w.hard[j, i]
+        elif way == 2:
+            along_r, along_z, side = -soft_r, -soft_z, 1.0 - w.soft[j, i]
+        elif way == 3:
+            along_r, along_z = share_fall(j, i, 0, 1, w), share_fall(j, i, 1, 0, w)
+        size = abs(along_r) + abs(along_z)
+        if size < 1e-14:
+            continue
+        off = misfit(j, i, along_r, along_z, side, w)
+        weight = 1.0 / (off * off + FIT * FIT)
+        whole += weight
+        n_r += weight * along_r / size
+        n_z += weight * along_z / size
+        part += weight * side
+    if whole == 0.0:
+        return 0.0, 0.0, share
+    return n_r / whole, n_z / whole, part / whole
+
+
 @serial
 def number_nodes(w):
     """Slot of every row's first contact node and, after the last row, the number of slots.
@@ -134,9 +251,7 @@ def contact_lines(j, w):
         soft_r, soft_z = youngs_gradient(
             j, i, w.soft[below, left], w.soft[below, i], w.soft[below, right], w.soft[j, left], w.soft[j, right],
             w.soft[above, left], w.soft[above, i], w.soft[above, right], w.dr, w.dz)
-        along_r, along_z = hard_r - soft_r, hard_z - soft_z
         steep_h, steep_s = hard_r * hard_r + hard_z * hard_z, soft_r * soft_r + soft_z * soft_z
-        size = abs(along_r) + abs(along_z)
         total = w.hard[j, i] + w.soft[j, i]
         share = min(max(w.hard[j, i] / total, 0.0), 1.0) if total > 0.0 else -1.0
         w.line[HARD_R, j, i] = hard_r / w.dr[i]
@@ -152,16 +267,14 @@ def contact_lines(j, w):
         w.line[LINE_R, j, i] = 0.0
         w.line[LINE_Z, j, i] = 0.0
         w.line[CONSTANT, j, i] = 0.0
-        if size > 1e-14 and 0.0 < share < 1.0:
-            both = 1.0 - by_soft - by_hard
-            along_r = 0.5 * both * along_r + by_hard * hard_r - by_soft * soft_r
-            along_z = 0.5 * both * along_z + by_hard * hard_z - by_soft * soft_z
-            share = both * share + by_hard * w.hard[j, i] + by_soft * (1.0 - w.soft[j, i])
-            size = abs(along_r) + abs(along_z)
-            n_r, n_z = along_r / size, along_z / size
-            w.line[LINE_R, j, i] = n_r
-            w.line[LINE_Z, j, i] = n_z
-            w.line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
+        if 0.0 < share < 1.0:
+            n_r, n_z, share = fitting_line(j, i, share, hard_r, hard_z, soft_r, soft_z, w)
+            size = abs(n_r) + abs(n_z)
+            if size > 1e-14:
+                n_r, n_z = n_r / size, n_z / size
+                w.line[LINE_R, j, i] = n_r
+                w.line[LINE_Z, j, i] = n_z
+                w.line[CONSTANT, j, i] = line_constant(abs(n_r), abs(n_z), share) + min(n_r, 0.0) + min(n_z, 0.0)
 
 
 @point
@@ -188,7 +301,7 @@ def weight_beside(j, i, row, column, hard, soft):
     The face of a full cell next to a gap belongs to the full cell alone: void cannot press on it.
     """
     gap = smoothstep((1.0 - hard[j, i] - soft[j, i]) / GAP - 0.5)
-    full = smoothstep(1.0 - (1.0 - max(hard[row, column], soft[row, column])) / GAP)
+    full = smoothstep(1.0 - (1.0 - hard[row, column] - soft[row, column]) / GAP)
     return 1.0 - gap * full
 
 

@@ -60,13 +60,15 @@ def contact_viscosity(j, w):
     """
     seeded = False
     for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
-        rho = w.rhobar[j, i]
+        rho, h = w.rhobar[j, i], w.dz[j]
+        loss = -volume_rate(j, i, -1, w.metrics, h, w.aperture_r, w.aperture_z, w.u, w.v) / (w.metrics[VOL_R, i] * h)
+        w.rate[j, i] = -loss
         if w.hard[j, i] > 0.0 and w.soft[j, i] > 0.0:
             rho = stiff_density(j, i, w.vof, w.q, w.km)
         elif w.skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, w.mesh_box, w.hard, w.soft):
             w.skin[KIND, j, i] = INTERFACE
-        elif w.solid[j, i] > 1.0 - SEED and w.p[j, i] <= 0.0 and meeting(j, i, w.mesh_box, w.hard, w.soft) and is_separating(
-                j, i, w):
+        elif w.solid[j, i] > 1.0 - SEED and strained_pressure(w.p[j, i], w.bulk[j, i], -w.dt * max(-loss, 0.0)) <= 0.0 and meeting(
+                j, i, w.mesh_box, w.hard, w.soft) and is_separating(j, i, w):
             for m in range(w.vof.shape[0]):
                 if w.vof[m, j, i] > 0.0:
                     w.vof[m, j, i] *= 1.0 - SEED
@@ -74,10 +76,6 @@ def contact_viscosity(j, w):
             w.solid[j, i] *= 1.0 - SEED
             w.skin[KIND, j, i] = INTERFACE
             seeded = True
-        h = w.dz[j]
-        volume = w.metrics[VOL_R, i] * h
-        loss = -volume_rate(j, i, -1, w.metrics, h, w.aperture_r, w.aperture_z, w.u, w.v) / volume
-        w.rate[j, i] = -loss
         w.qr[j, i] = 0.0
         w.qz[j, i] = 0.0
         w.qt[j, i] = 0.0

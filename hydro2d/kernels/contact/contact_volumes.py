@@ -47,6 +47,36 @@ def contact_swept_volumes(j, w):
 
 
 @point
+def least_pressure(j, i, w):
+    """Least of the principal pressures of a full cell: minus the largest principal stress."""
+    mean = 0.5 * (w.sig_rr[j, i] + w.sig_zz[j, i])
+    half = 0.5 * (w.sig_rr[j, i] - w.sig_zz[j, i])
+    largest = mean + sqrt(half * half + w.sig_rz[j, i] * w.sig_rz[j, i])
+    return -max(largest, w.sig_tt[j, i])
+
+
+@point
+def group_pushes(g, j, i, w):
+    """With what group g pushes in cell (j, i), if it is full: p_c + q in a cell of the surface, else its least pressure; else 0."""
+    if w.solid[j, i] <= 1.0 - GAP or w.bulk[j, i] <= 0.0:
+        return 0.0
+    if w.skin[KIND, j, i] == INTERFACE:
+        return w.ph[j, i] + w.qr[j, i]
+    share = 0.0
+    for m in range(w.vof.shape[0]):
+        share += w.vof[m, j, i] if w.group[m] == g else 0.0
+    return least_pressure(j, i, w) if share > 0.5 else 0.0
+
+
+@point
+def pressed_by(g, j, i, w):
+    """The largest push of group g on cell (j, i) from its four neighbours."""
+    across = max(group_pushes(g, j, i - 1, w), group_pushes(g, j, i + 1, w))
+    along = max(group_pushes(g, j - 1, i, w), group_pushes(g, j + 1, i, w))
+    return max(across, along)
+
+
+@point
 def surface_volume(j, i, row, column, w):
     """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column) in addition to the swept volume.
 
@@ -72,8 +102,9 @@ def surface_volume(j, i, row, column, w):
         return moved
     push, part = w.ph[full, at] + w.qr[full, at], 1.0
     if w.skin[KIND, full, at] != INTERFACE:
-        push = normal_pressure(full, at, n_r, n_z, w.sig_rr, w.sig_zz, w.sig_rz) / steep
+        push = least_pressure(full, at, w)
         part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
+    push = min(push, min(pressed_by(0, hole, beside, w), pressed_by(1, hole, beside, w)))
     excess = push - w.ph[hole, beside] - w.qr[hole, beside]
     if excess <= 0.0:
         return moved
