@@ -95,6 +95,20 @@ def volume_rate(j, i, g, metrics, h, aperture_r, aperture_z, u, v):
 
 
 @point
+def alternation(difference, here, there):
+    """Part of a difference of p_c + q between two cells of the surface that goes up and down from cell to cell, Pa.
+
+    here, there : by how much either cell exceeds the mean of its neighbours in the surface. A pattern of alternating sign has
+    them opposite, a field that is linear along the surface has none, one that bends has them alike.
+    """
+    if here > 0.0 > there and difference > 0.0:
+        return min(difference, min(here, -there))
+    if here < 0.0 < there and difference < 0.0:
+        return max(difference, max(here, -there))
+    return 0.0
+
+
+@point
 def evened_volume(compliance, difference):
     """Volume that evens out a difference of p_c + q between two cells of the surface in a step (sliding, equation 8).
 

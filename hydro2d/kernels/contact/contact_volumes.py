@@ -12,11 +12,13 @@ from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
-from hydro2d.physics.contact_faces import GAP, closed_volume, evened_volume, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.physics.contact_faces import GAP, alternation, closed_volume, evened_volume, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import smoothstep
 
+#: largest distance, in cells, at which the cells lie that close void between them
+ENCLOSED = 3
 #: share of other bodies and void, and of void alone, in a cell at which the rules of `contact_shares` apply in full
 BLEND_RANGE = 0.01
 
@@ -56,24 +58,60 @@ def least_pressure(j, i, w):
 
 
 @point
-def group_pushes(g, j, i, w):
-    """With what group g pushes in cell (j, i), if it is full: p_c + q in a cell of the surface, else its least pressure; else 0."""
+def push_of(j, i, w):
+    """With what a full cell pushes, Pa: p_c + q in a cell of the surface, else its least principal pressure; 0 if it has void."""
     if w.solid[j, i] <= 1.0 - GAP or w.bulk[j, i] <= 0.0:
         return 0.0
     if w.skin[KIND, j, i] == INTERFACE:
         return w.ph[j, i] + w.qr[j, i]
-    share = 0.0
-    for m in range(w.vof.shape[0]):
-        share += w.vof[m, j, i] if w.group[m] == g else 0.0
-    return least_pressure(j, i, w) if share > 0.5 else 0.0
+    return least_pressure(j, i, w)
 
 
 @point
-def pressed_by(g, j, i, w):
-    """The largest push of group g on cell (j, i) from its four neighbours."""
-    across = max(group_pushes(g, j, i - 1, w), group_pushes(g, j, i + 1, w))
-    along = max(group_pushes(g, j - 1, i, w), group_pushes(g, j + 1, i, w))
-    return max(across, along)
+def enclosing_push(j, i, w):
+    """Least of the pushes of the first full cells in the four directions from a cell with void; 0 if it is open on one side.
+
+    Up to ENCLOSED cells away. The axis is a mirror; beyond the mesh nothing pushes.
+    """
+    least = 1e300
+    for way in range(4):
+        dj, di = (way == 0) - (way == 1), (way == 2) - (way == 3)
+        push = 0.0
+        for n in range(1, ENCLOSED + 1):
+            row, column = j + n * dj, i + n * di
+            if column < w.mesh_box[2] and w.constrained[0] == w.mesh_box[2]:
+                push = least
+                break
+            if not (w.mesh_box[0] <= row < w.mesh_box[1] and w.mesh_box[2] <= column < w.mesh_box[3]):
+                break
+            if w.solid[row, column] > 1.0 - GAP:
+                push = push_of(row, column, w)
+                break
+        least = min(least, push)
+    return max(least, 0.0)
+
+
+@point
+def stands_out(j, i, w):
+    """By how much p_c + q of a cell of the surface exceeds the mean of its neighbours in the surface, Pa.
+
+    0 where there are no two neighbours, one on either side. A cell counts as long as it has no void, up to GAP; the axis is a
+    mirror.
+    """
+    here = w.ph[j, i] + w.qr[j, i]
+    number, total = 0.0, 0.0
+    if i == w.mesh_box[2]:
+        number, total = 1.0, here
+    for way in range(4):
+        row, column = j + (way == 0) - (way == 1), i + (way == 2) - (way == 3)
+        if w.mesh_box[0] <= row < w.mesh_box[1] and w.mesh_box[2] <= column < w.mesh_box[3]:
+            if w.skin[KIND, row, column] == INTERFACE:
+                part = smoothstep(1.0 - (1.0 - w.solid[row, column]) / GAP)
+                number += part
+                total += part * (w.ph[row, column] + w.qr[row, column])
+    if number <= 1.0:
+        return 0.0
+    return (here - total / number) * min(number - 1.0, 1.0) * smoothstep(1.0 - (1.0 - w.solid[j, i]) / GAP)
 
 
 @point
@@ -89,7 +127,7 @@ def surface_volume(j, i, row, column, w):
     moved = 0.0
     if here_meets and there_meets:
         compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-        moved = evened_volume(compliance, here - there)
+        moved = evened_volume(compliance, alternation(here - there, stands_out(j, i, w), stands_out(row, column, w)))
     opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
         smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
     if opened == 0.0:
@@ -100,11 +138,9 @@ def surface_volume(j, i, row, column, w):
     steep = n_r * n_r + n_z * n_z
     if steep == 0.0 or w.solid[full, at] <= 1.0 - GAP or w.bulk[full, at] <= 0.0:
         return moved
-    push, part = w.ph[full, at] + w.qr[full, at], 1.0
+    push, part = min(push_of(full, at, w), enclosing_push(hole, beside, w)), 1.0
     if w.skin[KIND, full, at] != INTERFACE:
-        push = least_pressure(full, at, w)
         part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
-    push = min(push, min(pressed_by(0, hole, beside, w), pressed_by(1, hole, beside, w)))
     excess = push - w.ph[hole, beside] - w.qr[hole, beside]
     if excess <= 0.0:
         return moved
