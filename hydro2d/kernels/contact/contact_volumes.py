@@ -17,8 +17,6 @@ from hydro2d.physics.interfaces import cumulative
 from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import smoothstep
 
-#: largest distance, in cells, at which the cells lie that close void between them
-ENCLOSED = 3
 #: share of other bodies and void, and of void alone, in a cell at which the rules of `contact_shares` apply in full
 BLEND_RANGE = 0.01
 
@@ -58,37 +56,24 @@ def least_pressure(j, i, w):
 
 
 @point
-def push_of(j, i, w):
-    """With what a full cell pushes, Pa: p_c + q in a cell of the surface, else its least principal pressure; 0 if it has void."""
+def group_pushes(g, j, i, w):
+    """With what group g pushes in cell (j, i), if it is full: p_c + q in a cell of the surface, else its least pressure; else 0."""
     if w.solid[j, i] <= 1.0 - GAP or w.bulk[j, i] <= 0.0:
         return 0.0
     if w.skin[KIND, j, i] == INTERFACE:
         return w.ph[j, i] + w.qr[j, i]
-    return least_pressure(j, i, w)
+    share = 0.0
+    for m in range(w.vof.shape[0]):
+        share += w.vof[m, j, i] if w.group[m] == g else 0.0
+    return least_pressure(j, i, w) if share > 0.5 else 0.0
 
 
 @point
-def enclosing_push(j, i, w):
-    """Least of the pushes of the first full cells in the four directions from a cell with void; 0 if it is open on one side.
-
-    Up to ENCLOSED cells away. The axis is a mirror; beyond the mesh nothing pushes.
-    """
-    least = 1e300
-    for way in range(4):
-        dj, di = (way == 0) - (way == 1), (way == 2) - (way == 3)
-        push = 0.0
-        for n in range(1, ENCLOSED + 1):
-            row, column = j + n * dj, i + n * di
-            if column < w.mesh_box[2] and w.constrained[0] == w.mesh_box[2]:
-                push = least
-                break
-            if not (w.mesh_box[0] <= row < w.mesh_box[1] and w.mesh_box[2] <= column < w.mesh_box[3]):
-                break
-            if w.solid[row, column] > 1.0 - GAP:
-                push = push_of(row, column, w)
-                break
-        least = min(least, push)
-    return max(least, 0.0)
+def pressed_by(g, j, i, w):
+    """The largest push of group g on cell (j, i) from its four neighbours."""
+    across = max(group_pushes(g, j, i - 1, w), group_pushes(g, j, i + 1, w))
+    along = max(group_pushes(g, j - 1, i, w), group_pushes(g, j + 1, i, w))
+    return max(across, along)
 
 
 @point
@@ -115,6 +100,17 @@ def stands_out(j, i, w):
 
 
 @point
+def slip_at(j, i, along_r, n_r, n_z, w):
+    """Mean speed at which the groups slip along the surface with the normal n at the ends of face (j, i), m/s."""
+    total, steep = 0.0, n_r * n_r + n_z * n_z
+    for end in range(2):
+        row, column = (j + end, i) if along_r else (j, i + end)
+        w_r, w_z = w.u[1, row, column] - w.u[0, row, column], w.v[1, row, column] - w.v[0, row, column]
+        total += abs(w_z * n_r - w_r * n_z) / sqrt(steep)
+    return 0.5 * total
+
+
+@point
 def surface_volume(j, i, row, column, w):
     """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column) in addition to the swept volume.
 
@@ -138,14 +134,19 @@ def surface_volume(j, i, row, column, w):
     steep = n_r * n_r + n_z * n_z
     if steep == 0.0 or w.solid[full, at] <= 1.0 - GAP or w.bulk[full, at] <= 0.0:
         return moved
-    push, part = min(push_of(full, at, w), enclosing_push(hole, beside, w)), 1.0
+    push, part = w.ph[full, at] + w.qr[full, at], 1.0
     if w.skin[KIND, full, at] != INTERFACE:
+        push = least_pressure(full, at, w)
         part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
+    push = min(push, min(pressed_by(0, hole, beside, w), pressed_by(1, hole, beside, w)))
     excess = push - w.ph[hole, beside] - w.qr[hole, beside]
     if excess <= 0.0:
         return moved
     swept = w.metrics[FACE_R, column] * w.dz[j] if row == j else w.metrics[AZ_IN, i] + w.metrics[AZ_OUT, i]
-    return moved + opened * closed_volume(part * swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
+    more = closed_volume(part * swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
+    if w.skin[KIND, full, at] == INTERFACE:
+        more = min(more, swept * w.dt * slip_at(row, column, row == j, n_r, n_z, w))
+    return moved + opened * more
 
 
 @vertex_rows
@@ -347,7 +348,10 @@ def contact_fluxes(part, w):
                         more = more if up else -more
                         w.flux_volume[m, j, i] += more
                         rest -= more
-            room = min(void * w.size[row, column], abs(w.face[j, i])) if (rest > 0.0) == up else 0.0
+            room = min(void * w.size[row, column], abs(w.face[j, i]))
+            if (rest > 0.0) != up:
+                void = 1.0 - cumulative(to_row, to_column, w.group.shape[0] - 1, w.hard_first, w.vof)
+                room = void * w.size[to_row, to_column]
             beyond = max(abs(rest) - room, 0.0)
             if beyond > 0.0:
                 left = add_group_flux(0, beyond if rest > 0.0 else -beyond, j, i, w)
