@@ -25,7 +25,9 @@ from hydro2d.kernels.contact import (
     contact_motion,
     contact_velocities,
     contact_volumes,
+    dividing_lines,
     extension,
+    surface_volumes,
 )
 
 slip_zones = Phase(
@@ -63,7 +65,7 @@ find_contact = Phase(
 
     Then, as in `close_cells` without contact, where and why the step is least.
     """,
-    contact_geometry.contact_lines,
+    dividing_lines.contact_lines,
     WAIT,
     contact_geometry.face_apertures,
     extension.find_filled,
@@ -106,10 +108,10 @@ deform = Phase(
     when("remembers", eos_memory.remember),
     vertex_forces.swept_volumes,
     when("contact",
-         contact_volumes.even_out,
+         surface_volumes.even_out,
          contact_checkerboard.find_insides,
          WAIT,
-         contact_volumes.heat_evened_cells,
+         surface_volumes.heat_evened_cells,
          contact_volumes.contact_swept_volumes,
          contact_checkerboard.find_checkerboards,
          WAIT,

@@ -32,6 +32,14 @@ def largest_principal(rr, zz, rz):
 
 
 @point
+def least_pressure(j, i, sig_rr, sig_zz, sig_tt, sig_rz):
+    """Least of the principal pressures of cell (j, i), Pa: minus its largest principal stress, the hoop stress included."""
+    half = 0.5 * (sig_rr[j, i] - sig_zz[j, i])
+    in_plane = 0.5 * (sig_rr[j, i] + sig_zz[j, i]) + sqrt(half * half + sig_rz[j, i] * sig_rz[j, i])
+    return -max(in_plane, sig_tt[j, i])
+
+
+@point
 def stress_scale(solid_mode, solids):
     """Factor on sum f_m s_m of a mixed cell: 1, or in mode `solid` one over the share of solids.
 

@@ -50,7 +50,7 @@ def contact_viscosity(j, w):
     The density of a cell of both groups is the mean by compressibility: the stiffer body's mass must not push the other. One q
     follows from the common rate of volume over the cell's length along the normal; it falls as the cell has more void to close.
     Void next to the other group is a gap, across which nothing pulls. Where the groups separate at a vertex of a full cell
-    without pressure, the cell is given a seed of void.
+    that would be under tension after the step, the cell is given a seed of void.
 
     Reads    the arrays that face_apertures wrote; hard, soft, p, bulk [j, i]; u, v [b, j, i]; km [m, j, i]; cl, rhobar [j, i]
     Updates  vof [m, j, i], q (rho) [k, m, j, i], solid [j, i], skin [3, j, i] (kind), row_step [j], mixed_count [j],
@@ -67,8 +67,8 @@ def contact_viscosity(j, w):
             rho = stiff_density(j, i, w.vof, w.q, w.km)
         elif w.skin[KIND, j, i] == FREE_SURFACE and meeting(j, i, w.mesh_box, w.hard, w.soft):
             w.skin[KIND, j, i] = INTERFACE
-        elif w.solid[j, i] > 1.0 - SEED and strained_pressure(w.p[j, i], w.bulk[j, i], -w.dt * max(-loss, 0.0)) <= 0.0 and meeting(
-                j, i, w.mesh_box, w.hard, w.soft) and is_separating(j, i, w):
+        elif (w.solid[j, i] > 1.0 - SEED and meeting(j, i, w.mesh_box, w.hard, w.soft) and is_separating(j, i, w)
+              and strained_pressure(w.p[j, i], w.bulk[j, i], w.dt * max(w.rate[j, i], 0.0)) <= 0.0):
             for m in range(w.vof.shape[0]):
                 if w.vof[m, j, i] > 0.0:
                     w.vof[m, j, i] *= 1.0 - SEED

@@ -3,18 +3,14 @@
 Both groups sweep the faces, each by its aperture (kernels/contact_geometry); a body flows with its group's velocity.
 """
 
-from math import sqrt
-
-from hydro2d.jit import cell_rows, kernel, not_inlined, point, vertex_rows
+from hydro2d.jit import cell_rows, kernel, not_inlined, vertex_rows
 from hydro2d.kernels.column_ranges import first_row, outer_rows, past_row, union
-from hydro2d.kernels.contact.contact_geometry import HARD_FIRST, HARD_R, HARD_Z, SOFT_AFTER, SOFT_R, SOFT_Z
-from hydro2d.kernels.cut_cells import INTERFACE, KIND
+from hydro2d.kernels.contact.contact_geometry import HARD_FIRST, SOFT_AFTER
 from hydro2d.kernels.interfaces import ACROSS, ALONG, NOTHING, SHARE, fill_strips
-from hydro2d.mesh.fields import RHO, E
-from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
-from hydro2d.physics.contact_faces import GAP, alternation, closed_volume, evened_volume, face_flow_r, face_flow_z, largest_of, volume_rate
+from hydro2d.mesh.fields import E
+from hydro2d.mesh.grid import FACE_R
+from hydro2d.physics.contact_faces import GAP, face_flow_r, face_flow_z, largest_of, volume_rate
 from hydro2d.physics.interfaces import cumulative
-from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import smoothstep
 
 #: share of other bodies and void, and of void alone, in a cell at which the rules of `contact_shares` apply in full
@@ -44,158 +40,6 @@ def contact_swept_volumes(j, w):
         for g in range(2):
             w.own_z[g, j, i] = w.even_z[j, i] + 0.5 * w.dt * (
                 face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v) + face_flow_z(j, i, g, w.metrics, w.aperture_z, w.v0))
-
-
-@point
-def least_pressure(j, i, w):
-    """Least of the principal pressures of a full cell: minus the largest principal stress."""
-    mean = 0.5 * (w.sig_rr[j, i] + w.sig_zz[j, i])
-    half = 0.5 * (w.sig_rr[j, i] - w.sig_zz[j, i])
-    largest = mean + sqrt(half * half + w.sig_rz[j, i] * w.sig_rz[j, i])
-    return -max(largest, w.sig_tt[j, i])
-
-
-@point
-def group_pushes(g, j, i, w):
-    """With what group g pushes in cell (j, i), if it is full: p_c + q in a cell of the surface, else its least pressure; else 0."""
-    if w.solid[j, i] <= 1.0 - GAP or w.bulk[j, i] <= 0.0:
-        return 0.0
-    if w.skin[KIND, j, i] == INTERFACE:
-        return w.ph[j, i] + w.qr[j, i]
-    share = 0.0
-    for m in range(w.vof.shape[0]):
-        share += w.vof[m, j, i] if w.group[m] == g else 0.0
-    return least_pressure(j, i, w) if share > 0.5 else 0.0
-
-
-@point
-def pressed_by(g, j, i, w):
-    """The largest push of group g on cell (j, i) from its four neighbours."""
-    across = max(group_pushes(g, j, i - 1, w), group_pushes(g, j, i + 1, w))
-    along = max(group_pushes(g, j - 1, i, w), group_pushes(g, j + 1, i, w))
-    return max(across, along)
-
-
-@point
-def stands_out(j, i, w):
-    """By how much p_c + q of a cell of the surface exceeds the mean of its neighbours in the surface, Pa.
-
-    0 where there are no two neighbours, one on either side. A cell counts as long as it has no void, up to GAP; the axis is a
-    mirror.
-    """
-    here = w.ph[j, i] + w.qr[j, i]
-    number, total = 0.0, 0.0
-    if i == w.mesh_box[2]:
-        number, total = 1.0, here
-    for way in range(4):
-        row, column = j + (way == 0) - (way == 1), i + (way == 2) - (way == 3)
-        if w.mesh_box[0] <= row < w.mesh_box[1] and w.mesh_box[2] <= column < w.mesh_box[3]:
-            if w.skin[KIND, row, column] == INTERFACE:
-                part = smoothstep(1.0 - (1.0 - w.solid[row, column]) / GAP)
-                number += part
-                total += part * (w.ph[row, column] + w.qr[row, column])
-    if number <= 1.0:
-        return 0.0
-    return (here - total / number) * min(number - 1.0, 1.0) * smoothstep(1.0 - (1.0 - w.solid[j, i]) / GAP)
-
-
-@point
-def slip_at(j, i, along_r, n_r, n_z, w):
-    """Mean speed at which the groups slip along the surface with the normal n at the ends of face (j, i), m/s."""
-    total, steep = 0.0, n_r * n_r + n_z * n_z
-    for end in range(2):
-        row, column = (j + end, i) if along_r else (j, i + end)
-        w_r, w_z = w.u[1, row, column] - w.u[0, row, column], w.v[1, row, column] - w.v[0, row, column]
-        total += abs(w_z * n_r - w_r * n_z) / sqrt(steep)
-    return 0.5 * total
-
-
-@point
-def surface_volume(j, i, row, column, w):
-    """Volume that moves in a step from cell (j, i) of a contact to its neighbour (row, column) in addition to the swept volume.
-
-    Between cells of the surface it evens out p_c + q (explanation/sliding, equation 8). Void between the groups in one of them
-    is closed by its full neighbour (equation 9): a cell of the surface pushes with p_c + q, any other with its stress across
-    the surface. The weight of this grows with the void, up to GAP.
-    """
-    here_meets, there_meets = w.skin[KIND, j, i] == INTERFACE, w.skin[KIND, row, column] == INTERFACE
-    here, there = w.ph[j, i] + w.qr[j, i], w.ph[row, column] + w.qr[row, column]
-    moved = 0.0
-    if here_meets and there_meets:
-        compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-        moved = evened_volume(compliance, alternation(here - there, stands_out(j, i, w), stands_out(row, column, w)))
-    opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
-        smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
-    if opened == 0.0:
-        return moved
-    full, at, hole, beside = (j, i, row, column) if opened > 0.0 else (row, column, j, i)
-    n_r = w.line[HARD_R, hole, beside] + w.line[SOFT_R, hole, beside]
-    n_z = w.line[HARD_Z, hole, beside] + w.line[SOFT_Z, hole, beside]
-    steep = n_r * n_r + n_z * n_z
-    if steep == 0.0 or w.solid[full, at] <= 1.0 - GAP or w.bulk[full, at] <= 0.0:
-        return moved
-    push, part = w.ph[full, at] + w.qr[full, at], 1.0
-    if w.skin[KIND, full, at] != INTERFACE:
-        push = least_pressure(full, at, w)
-        part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
-    push = min(push, min(pressed_by(0, hole, beside, w), pressed_by(1, hole, beside, w)))
-    excess = push - w.ph[hole, beside] - w.qr[hole, beside]
-    if excess <= 0.0:
-        return moved
-    swept = w.metrics[FACE_R, column] * w.dz[j] if row == j else w.metrics[AZ_IN, i] + w.metrics[AZ_OUT, i]
-    more = closed_volume(part * swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
-    if w.skin[KIND, full, at] == INTERFACE:
-        more = min(more, swept * w.dt * slip_at(row, column, row == j, n_r, n_z, w))
-    return moved + opened * more
-
-
-@vertex_rows
-def even_out(j, w):
-    """Volumes that even out p_c along the surface, and those that close void between the groups.
-
-    With a pressure constant in every cell of the surface and linear velocities, a pattern that alternates from cell to cell
-    pushes no vertex. The volumes that the faces between these cells sweep are therefore corrected by the difference.
-
-    Reads    ph, qr, bulk, rhobar, solid, volume, sig_rr, sig_zz, sig_rz [j, i], skin [3, j, i], line [10, j, i]
-    Writes   even_r, even_z [j, i]
-    """
-    j0, j1 = outer_rows(w.parts)
-    if j < j1:
-        for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1] + 1):
-            inside = w.contact_columns[j, 0] < i < w.contact_columns[j, 1]
-            w.even_r[j, i] = surface_volume(j, i - 1, j, i, w) if inside else 0.0
-    lo, hi = union(w.contact_columns, max(j - 1, j0), min(j + 1, j1))
-    for i in range(lo, hi):
-        inside = j0 < j < j1 and w.contact_columns[j - 1, 0] <= i < w.contact_columns[j - 1, 1] and (
-            w.contact_columns[j, 0] <= i < w.contact_columns[j, 1])
-        w.even_z[j, i] = surface_volume(j - 1, i, j, i, w) if inside else 0.0
-
-
-@cell_rows
-def heat_evened_cells(j, w):
-    """Heats the bodies by the work lost as p_c evens out: half to either cell, shared by mass.
-
-    Updates  q (e) [k, m, j, i]
-    """
-    for i in range(w.contact_columns[j, 0], w.contact_columns[j, 1]):
-        here = w.ph[j, i] + w.qr[j, i]
-        heat = 0.0
-        if w.even_r[j, i] != 0.0:
-            heat += w.even_r[j, i] * (w.ph[j, i - 1] + w.qr[j, i - 1] - here)
-        if w.even_r[j, i + 1] != 0.0:
-            heat += w.even_r[j, i + 1] * (here - w.ph[j, i + 1] - w.qr[j, i + 1])
-        if w.even_z[j, i] != 0.0:
-            heat += w.even_z[j, i] * (w.ph[j - 1, i] + w.qr[j - 1, i] - here)
-        if w.even_z[j + 1, i] != 0.0:
-            heat += w.even_z[j + 1, i] * (here - w.ph[j + 1, i] - w.qr[j + 1, i])
-        if heat == 0.0:
-            continue
-        mass = 0.0
-        for m in range(w.vof.shape[0]):
-            mass += w.vof[m, j, i] * w.q[RHO, m, j, i] * w.volume[j, i] if w.vof[m, j, i] > 0.0 else 0.0
-        for m in range(w.vof.shape[0]):
-            if w.vof[m, j, i] > 0.0:
-                w.q[E, m, j, i] += 0.5 * heat / mass
 
 
 @cell_rows
