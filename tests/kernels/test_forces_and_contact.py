@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels import vertex_forces
-from hydro2d.kernels.contact import contact_geometry, contact_motion, contact_volumes
+from hydro2d.kernels.contact import contact_geometry, contact_motion, contact_volumes, dividing_lines
 from hydro2d.kernels.contact.contact_geometry import (
     CONSTANT,
     HARD_FIRST,
@@ -181,7 +181,7 @@ def halves(nz: int = 4) -> Cells:
     cells.skin[KIND] = WHOLE
     cells.call(vertex_forces.vertex_masses, i1=8)
     cells.call(contact_geometry.find_contact_nodes)
-    cells.call(contact_geometry.contact_lines)
+    cells.call(dividing_lines.contact_lines)
     cells.call(contact_geometry.face_apertures)
     return cells
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from hydro2d.physics import contact_faces
 from tests.physics.cells import COLUMNS, GEOMETRIES, ROWS, polygon_volume, rate_of_volume, small
+from tests.physics.continuity import changes_in_proportion
 
 end_apertures = contact_faces.end_apertures.py_func
 known = contact_faces.known.py_func
@@ -16,6 +17,7 @@ blend = contact_faces.blend.py_func
 face_flow_r = contact_faces.face_flow_r.py_func
 face_flow_z = contact_faces.face_flow_z.py_func
 volume_rate = contact_faces.volume_rate.py_func
+alternation = contact_faces.alternation.py_func
 evened_volume = contact_faces.evened_volume.py_func
 closed_volume = contact_faces.closed_volume.py_func
 largest_of = contact_faces.largest_of.py_func
@@ -169,9 +171,10 @@ def test_cells_that_share_only_a_vertex_do_not_meet():
     assert not meet(1, 1, {(1, 1): 1.0}, {(2, 2): 1.0})
 
 
-def test_a_neighbour_may_have_a_gap_of_void_of_one_per_cent():
-    assert meet(1, 1, {(1, 1): 1.0}, {(1, 2): 0.991})
-    assert not meet(1, 1, {(1, 1): 1.0}, {(1, 2): 0.989})
+def test_a_neighbour_may_have_void_of_one_and_a_half_per_cent():
+    """Half as much again as where groups part: a cell that has just opened still meets its neighbour."""
+    assert meet(1, 1, {(1, 1): 1.0}, {(1, 2): 0.9851})
+    assert not meet(1, 1, {(1, 1): 1.0}, {(1, 2): 0.9849})
 
 
 @pytest.mark.parametrize("cell", [(1, 1), (1, 2), (2, 1), (2, 2)])
@@ -357,6 +360,53 @@ def test_of_bodies_as_large_as_each_other_the_first_counts():
 
 
 # ----------------------------------------------------------------------------------------- volumes that pressure moves
+
+
+def alternating(*pressures):
+    """`alternation` between the second and the third of four cells in a row along the surface."""
+    first, here, there, last = pressures
+    return alternation(here - there, here - 0.5 * (first + there), there - 0.5 * (here + last))
+
+
+@given(VELOCITY, VELOCITY)
+def test_a_linear_field_does_not_alternate(first, slope):
+    assert alternating(*(first + slope * n for n in range(4))) == pytest.approx(0.0, abs=1e-12 * (abs(first) + abs(slope)))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_of_a_field_that_alternates_the_whole_difference_counts(sign):
+    assert alternating(3.0 - sign, 3.0 + sign, 3.0 - sign, 3.0 + sign) == 2.0 * sign
+
+
+@pytest.mark.parametrize("bend", [1.0, -1.0])
+def test_a_field_that_bends_does_not_alternate(bend):
+    assert alternating(*(bend * (n - 1.2) ** 2 for n in range(4))) == 0.0
+
+
+def test_a_difference_against_the_pattern_does_not_alternate():
+    """A cell above its neighbours beside a still higher one that is below the mean of its own."""
+    assert alternation(-1.0, 2.0, -3.0) == 0.0
+    assert alternation(1.0, -2.0, 3.0) == 0.0
+
+
+@given(VELOCITY, VELOCITY, VELOCITY)
+def test_what_alternates_has_the_sign_of_the_difference_and_is_no_larger_than_anything_it_comes_from(difference, here, there):
+    found = alternation(difference, here, there)
+    assert found * difference >= 0.0
+    assert abs(found) <= min(abs(difference), abs(here), abs(there))
+
+
+@given(VELOCITY, VELOCITY, VELOCITY)
+def test_what_alternates_is_the_same_from_either_cell_and_upside_down(difference, here, there):
+    found = alternation(difference, here, there)
+    assert alternation(-difference, there, here) == -found
+    assert alternation(-difference, -here, -there) == -found
+
+
+@pytest.mark.parametrize("values", [(0.0, 2.0, -3.0), (2.0, 0.0, -3.0), (1.0, 2.0, 0.0), (2.0, 2.0, -2.0)])
+@pytest.mark.parametrize("which", range(3))
+def test_alternation_comes_in_without_a_jump(values, which):
+    changes_in_proportion(lambda x: alternation(*values[:which], x, *values[which + 1:]), values[which], 1.0)
 
 
 def test_evening_takes_a_twentieth_of_what_would_balance_the_softer_cell():

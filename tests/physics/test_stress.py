@@ -15,6 +15,7 @@ von_mises = stress.von_mises.py_func
 stress_scale = stress.stress_scale.py_func
 largest_principal = stress.largest_principal.py_func
 normal_pressure = stress.normal_pressure.py_func
+least_pressure = stress.least_pressure.py_func
 
 STRESS = st.floats(-1e9, 1e9)
 STRAIN = st.floats(-0.1, 0.1)
@@ -147,6 +148,32 @@ def test_shear_pulls_along_one_diagonal_and_pushes_along_the_other():
     none, shear, half = np.array([[0.0]]), np.array([[4.0]]), math.sqrt(0.5)
     assert normal_pressure(0, 0, half, half, none, none, shear) == pytest.approx(-4.0)
     assert normal_pressure(0, 0, half, -half, none, none, shear) == pytest.approx(4.0)
+
+
+def least(rr, zz, tt, rz):
+    """`least_pressure` of cell (1, 0), the only one that is known."""
+    stresses = np.full((4, 2, 2), np.nan)
+    stresses[:, 1, 0] = rr, zz, tt, rz
+    return least_pressure(1, 0, *stresses)
+
+
+@given(STRESS, STRESS, STRESS, STRESS)
+def test_the_least_pressure_is_minus_the_largest_eigenvalue_of_the_stress(rr, zz, tt, rz):
+    tensor = np.array([[rr, 0.0, rz], [0.0, tt, 0.0], [rz, 0.0, zz]])
+    assert least(rr, zz, tt, rz) == pytest.approx(-np.linalg.eigvalsh(tensor)[-1], rel=1e-12, abs=1e-6)
+
+
+def test_the_least_pressure_of_a_pressure_is_that_pressure():
+    assert least(-5e9, -5e9, -5e9, 0.0) == 5e9
+
+
+def test_a_ring_that_is_stretched_presses_on_nothing():
+    assert least(-5.0, -4.0, 2.0, 0.0) == -2.0
+
+
+def test_a_cell_that_is_loaded_along_its_free_surface_presses_on_nothing():
+    assert least(0.0, -9.0, -3.0, 0.0) == 0.0
+    assert least(-4.5, -4.5, -3.0, 4.5) == pytest.approx(0.0)  # the same, turned by an eighth
 
 
 @pytest.mark.parametrize("solids", [1e-6, 0.3, 1.0])
