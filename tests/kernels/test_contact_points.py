@@ -1,16 +1,13 @@
-"""What contact does at vertices: masters, impulses, the force on a piece of surface, ties, what evens out, what slopes see."""
+"""What contact does at vertices: masters, impulses, the force on a piece of surface, ties, what slopes see."""
 
 import numpy as np
 import pytest
 
 from hydro2d.kernels import momentum
 from hydro2d.kernels.contact import contact_geometry, contact_velocities
-from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z, REACH
+from hydro2d.kernels.contact.contact_geometry import REACH, SLIVER
 from hydro2d.kernels.contact.contact_velocities import heat_contact_nodes, resolve_contact
-from hydro2d.kernels.contact.contact_volumes import even_out, heat_evened_cells
 from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
-from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
-from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.contact_faces import GAP
 from hydro2d.physics.momentum import SLIGHT
@@ -340,143 +337,37 @@ def test_a_full_cell_has_the_face_to_a_gap_for_itself(other, void):
     assert weight(0.5, 1.0 - GAP) == weight(0.5 * GAP, 1.0) == weight(0.5, 0.5) == 1.0
 
 
-# --------------------------------------------------------------------------------------- which surface draws the line
+@pytest.mark.parametrize("hard", [0.0, 0.4, 1.0])
+def test_a_cell_full_of_both_groups_has_the_face_to_a_gap_for_itself(hard):
+    """As one full of either group."""
+    w = np.array([[0.2, hard]]), np.array([[0.3, 1.0 - hard]])
+    assert contact_geometry.weight_beside.py_func(0, 0, 0, 1, *w) == 0.0
+    assert contact_geometry.weight_beside.py_func(0, 1, 0, 0, *w) == 1.0
 
 
-@pytest.mark.parametrize("ratio", [1.0, 1.0 + contact_geometry.STEEPER])
-def test_the_steeper_surface_takes_over_without_a_jump(ratio):
-    steeper = contact_geometry.steeper.py_func
-    changes_in_proportion(lambda x: steeper(x, 1.0), ratio, 2.0 / contact_geometry.STEEPER)
-    assert steeper(1.0, 1.0) == 0.0
-    assert steeper(1.2, 1.0) == 1.0
-    assert steeper(1.0, 1.2) == 0.0
+def sliver(share: float, n_r: float) -> tuple[float, float, float]:
+    """Apertures of the left edge of a full cell, at which this share is hard (n_r = 1), or from which it is (n_r = -1)."""
+    line = np.zeros((10, 1, 1))
+    line[contact_geometry.SHARE] = share
+    if 0.0 < share < 1.0:
+        line[contact_geometry.LINE_R] = n_r
+        line[contact_geometry.CONSTANT] = share if n_r > 0.0 else share - 1.0
+    return face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, one_cell(line, share, 1.0 - share))
 
 
-@pytest.mark.parametrize("void", [GAP, 2.0 * GAP])
-@pytest.mark.parametrize("whole", [0.5 * contact_geometry.BETWEEN, contact_geometry.BETWEEN])
-def test_void_parts_the_groups_without_a_jump(void, whole):
-    weight = contact_geometry.separation_weight.py_func
-    changes_in_proportion(lambda x: weight(x, 0.1 * whole, 1.0), void, 2.0 / GAP)
-    changes_in_proportion(lambda x: weight(0.1, x, 1.0), whole, 4.0 / contact_geometry.BETWEEN)
-    assert weight(0.1, 0.0, 1.0) == 1.0
-    start, end = contact_geometry.SEPARATION_START, contact_geometry.SEPARATION_FULL
-    for void in (start, end):
-        changes_in_proportion(lambda x: weight(x, 1.0, 1.0), void, 2.0 / (end - start))
-    assert weight(0.49, 1.0, 1.0) == 0.0
-    assert weight(0.76, 1.0, 1.0) == 1.0
-    assert weight(0.5 * GAP, 0.0, 1.0) == weight(0.1, 2.0 * contact_geometry.BETWEEN, 1.0) == weight(0.1, 0.0, 0.0) == 0.0
+@pytest.mark.parametrize("n_r", [1.0, -1.0])
+@pytest.mark.parametrize("share", [0.0, SLIVER, 1.0 - SLIVER, 1.0])
+def test_a_group_comes_to_a_face_without_a_jump(share, n_r):
+    """A breath of it that lies at the edge of its cell wets all of that edge, but does not count at once."""
+    sides = (1.0,) if share == 0.0 else ((-1.0,) if share == 1.0 else (-1.0, 1.0))
+    changes_in_proportion(lambda x: sliver(x, n_r), share, 2.0 / SLIVER, sides=sides)
 
 
-# ------------------------------------------------------------------------------- what evens out along the surface
-
-
-def evened(pressure, kind=INTERFACE, viscosity=0.0, solid=1.0, stress=(0.0, 0.0, 0.0), normal=(1.0, 0.0)):
-    """(volumes through faces along r and along z, heat of the two bodies of every cell (J)) of 6 x 6 cells of the surface.
-
-    stress : rr, zz, rz of all cells, in Pa;  normal : of the surface;  rho c is 5, and a step 0.1 s
-    """
-    shape, vertices, columns = (6, 6), (7, 7), np.tile([0, 6], (6, 1))
-    volume, bulk, vof = 2.0 + np.add.outer(np.arange(6.0), np.arange(6.0)), np.full(shape, 5.0), np.full((2, *shape), 0.5)
-    qr, q, skin, r, z = np.full(shape, viscosity), np.zeros((INTERNAL, 2, *shape)), np.zeros((3, *shape)), *np.full(
-        (2, *vertices), np.nan)
-    q[RHO] = np.array([2.0, 6.0])[:, None, None]
-    skin[KIND] = kind
-    rr, zz, rz = (np.full(shape, each) for each in stress)
-    line, grid = np.zeros((10, *shape)), Grid(np.linspace(0.0, 6.0, 7), np.linspace(0.0, 6.0, 7), "planar")
-    line[HARD_R], line[HARD_Z] = normal[0], normal[1]
-    even_out(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, skin=skin, bulk=bulk, ph=pressure,
-             qr=qr, even_r=r, even_z=z, dt=0.1, dz=np.ones(6), metrics=grid.metrics[:, grid.g:], line=line, sig_rr=rr,
-             sig_zz=zz, sig_rz=rz, rhobar=np.full(shape, 5.0), solid=np.broadcast_to(np.asarray(solid, float), shape).copy()))
-    heat_evened_cells(0, handle(parts=np.array([0, 6]), contact_columns=columns, volume=volume, ph=pressure, qr=qr, even_r=r,
-                even_z=z, vof=vof, q=q))
-    return r[:6], z[:, :6], volume, q[E] * q[RHO] * vof * volume
-
-
-def test_a_uniform_pressure_moves_nothing():
-    r, z, _, heat = evened(np.full((6, 6), 3.0), viscosity=0.7)
-    assert (r == 0.0).all()
-    assert (z == 0.0).all()
-    assert (heat == 0.0).all()
-
-
-def test_a_pattern_along_the_surface_decays_and_what_it_loses_is_heat():
-    """Every cell that is above its neighbours grows by a twentieth of what would make the stiffer of a pair even."""
-    pattern = 3.0 + 0.2 * (-1.0) ** np.add.outer(np.arange(6), np.arange(6))
-    r, z, volume, heat = evened(pattern)
-    change = np.diff(r, axis=1) + np.diff(z, axis=0)
-    assert ((change > 0.0) == (pattern > 3.0)).all()
-    after = pattern - 5.0 * change / volume
-    assert np.ptp(after) < np.ptp(pattern)
-    assert after.mean() == pytest.approx(3.0, abs=0.05)
-    assert r[2, 3] == pytest.approx(0.05 * volume[2, 2] / 5.0 * (pattern[2, 2] - pattern[2, 3]))
-    assert change.sum() == pytest.approx(0.0, abs=1e-14)  # nothing leaves
-    lost = np.sum(change * pattern)
-    by_faces = np.sum(r[:, 1:6] * -np.diff(pattern, axis=1)) + np.sum(z[1:6] * -np.diff(pattern, axis=0))
-    assert lost == pytest.approx(by_faces)
-    assert heat.sum() == pytest.approx(lost, rel=1e-12)
-    np.testing.assert_allclose(heat[1], 3.0 * heat[0])  # by mass
-
-
-def test_nothing_evens_out_off_the_surface():
-    pressure = np.random.default_rng(0).random((6, 6))
-    kind = np.full((6, 6), INTERFACE)
-    kind[:, 3] = FREE_SURFACE
-    r, z, _, heat = evened(pressure, kind)
-    assert (r[:, 3:5] == 0.0).all()
-    assert (z[:, 3] == 0.0).all()
-    assert (heat[:, :, 3] == 0.0).all()
-    assert (r[:, [1, 2, 5]] != 0.0).all()
-
-
-def hole(void, kind=INTERFACE):
-    """(filled shares, kinds) of cells of which one, (2, 3), has void between the groups; its neighbours are of this kind."""
-    solid, kinds = np.ones((6, 6)), np.full((6, 6), kind)
-    solid[2, 3], kinds[2, 3] = 1.0 - void, INTERFACE
-    return solid, kinds
-
-
-def around():
-    """Pressure of 3 Pa everywhere but in that cell."""
-    pressure = np.full((6, 6), 3.0)
-    pressure[2, 3] = 0.0
-    return pressure
-
-
-def test_cells_of_the_surface_close_void_between_the_groups():
-    """By p / (rho c) through each whole face, beside what evens out."""
-    solid, kinds = hole(0.1)
-    r, z, volume, heat = evened(around(), kinds, solid=solid)
-    none = evened(around(), kinds)
-    closing = 0.1 * 3.0 / 5.0
-    for found, before, at, sign in ((r, none[0], (2, 3), 1), (r, none[0], (2, 4), -1), (z, none[1], (2, 3), 1),
-                                    (z, none[1], (3, 3), -1)):  # fmt: skip
-        assert found[at] - before[at] == pytest.approx(sign * closing), at
-    change = np.diff(r, axis=1) + np.diff(z, axis=0)
-    assert heat.sum() == pytest.approx(np.sum(change * around()), rel=1e-12)
-    assert volume.shape == change.shape
-
-
-def test_closing_comes_in_with_the_void():
-    found = [evened(around(), kinds, solid=solid)[0][2, 3] for solid, kinds in map(hole, (0.0, 1e-4, 0.5 * GAP, GAP, 0.5))]
-    assert found[0] < found[1] < found[2] < found[3] == pytest.approx(found[4])
-    assert found[1] - found[0] < 1e-3 * (found[3] - found[0])
-
-
-def test_bodies_beside_it_close_void_with_the_stress_across_the_surface():
-    """A bar under axial load has none across its own surface, whatever its pressure."""
-    solid, kinds = hole(0.1, WHOLE)
-    load = {"stress": (0.0, -9.0, 0.0), "normal": (1.0, 0.0)}
-    r, z, *_ = evened(around(), kinds, solid=solid, **load)
-    assert (r == 0.0).all()
-    assert (z == 0.0).all()
-    r, z, *_ = evened(around(), kinds, solid=solid, stress=(-9.0, 0.0, 0.0), normal=(1.0, 1.0))
-    assert (r[2, 3], z[2, 3]) == pytest.approx((0.1 * 4.5 / 5.0 / np.sqrt(2.0),) * 2)
-
-
-def test_void_beside_void_and_tension_close_nothing():
-    solid, kinds = hole(0.1, WHOLE)
-    assert (evened(around(), kinds, solid=np.full((6, 6), 0.9), stress=(-9.0, -9.0, 0.0))[0] == 0.0).all()
-    assert (evened(around(), kinds, solid=solid, stress=(9.0, 9.0, 0.0))[0] == 0.0).all()
+def test_half_a_sliver_counts_by_half_and_more_than_a_sliver_in_full():
+    assert sliver(0.5 * SLIVER, 1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
+    assert sliver(1.0 - 0.5 * SLIVER, -1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
+    assert sliver(1.001 * SLIVER, 1.0) == (1.0, 1.0, 1.0)
+    assert sliver(1.0 - 1.001 * SLIVER, -1.0) == (1.0, 0.0, 0.0)
 
 
 # ------------------------------------------------------------------------------ slopes beside vertices without mass

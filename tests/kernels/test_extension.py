@@ -161,7 +161,7 @@ def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
 
 
 def inward(soft, j: int, i: int, first: int = 0) -> tuple[float, float]:
-    """`own_inward` of the soft group at vertex (j, i), for shares of the cells of a mesh that begins at row and column first."""
+    """`own_inward` of the soft group at vertex (j, i), for its shares in cells; the mesh begins at row and column first."""
     soft = np.asarray(soft, float)
     return own_inward(0, j, i, handle(hard=np.full_like(soft, np.nan), soft=soft,
                       mesh_box=np.array([first, len(soft), first, len(soft)])))

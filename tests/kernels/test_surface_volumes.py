@@ -1,0 +1,387 @@
+"""Volumes that pressure moves between the cells of a contact: what alternates evens out, and void between groups closes."""
+
+import numpy as np
+import pytest
+
+from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z
+from hydro2d.kernels.contact.surface_volumes import (
+    contains,
+    even_out,
+    heat_evened_cells,
+    pressed_by,
+    push_of,
+    slip_at,
+    stands_out,
+)
+from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
+from hydro2d.mesh.fields import RHO, E
+from hydro2d.physics.contact_faces import GAP
+from tests.kernels.cells import Cells
+from tests.physics.continuity import changes_in_proportion
+
+#: cells of the mesh along either side, the first of them after the ghosts, and the rows and columns of all
+N, FIRST = 6, 2
+MESH, EDGES = slice(FIRST, FIRST + N), slice(FIRST, FIRST + N + 1)
+SOFT, HARD = 0, 1
+#: factor between pressure and what a face of 1 m closes in a step of 0.1 s: rho c is 5
+CLOSED = 0.1 / 5.0
+
+
+class Surface(Cells):
+    """6 x 6 cells of half of each group, all of them in the contact; indices without the ghosts, of which nothing is known.
+
+    pressure : p_c, Pa;  kind, solid : kinds and filled shares of the cells;  normal : of the surface;  slip : of the hard
+    group along z beside the soft one, m/s.  K and rho c are 5 in SI units; the volumes of the cells differ.
+    """
+
+    def __init__(self, pressure=0.0, kind=INTERFACE, solid=1.0, normal=(1.0, 0.0), slip=1e3, viscosity=0.0):
+        super().__init__(nr=N, nz=N, bodies=2, group=[SOFT, HARD])
+        for name in ("ph", "qr", "sig_rr", "sig_zz", "sig_tt", "sig_rz"):
+            getattr(self, name)[...] = np.nan
+            getattr(self, name)[MESH, MESH] = 0.0
+        self.ph[MESH, MESH], self.qr[MESH, MESH], self.solid[MESH, MESH] = pressure, viscosity, solid
+        self.skin[KIND, MESH, MESH], self.vof[:, MESH, MESH] = kind, 0.5
+        self.q[RHO] = np.array([2.0, 6.0])[:, None, None]
+        self.bulk[MESH, MESH], self.rhobar[MESH, MESH] = 5.0, 5.0
+        self.line[HARD_R], self.line[HARD_Z] = normal
+        self.contact_columns[MESH] = FIRST, FIRST + N
+        self.v[HARD] = slip
+        self.volumes = np.ones(self.grid.shape)
+        self.volumes[MESH, MESH] = 2.0 + np.add.outer(np.arange(N), np.arange(N))
+
+    def fill(self, group: int, j, i) -> None:
+        """Fills whole cells with one group."""
+        at = np.s_[MESH, MESH]
+        self.vof[group][at][j, i], self.vof[1 - group][at][j, i], self.skin[KIND][at][j, i] = 1.0, 0.0, WHOLE
+
+    def press(self, j, i, rr: float, zz: float, tt: float, rz: float = 0.0) -> None:
+        """Gives cells a stress."""
+        for name, value in (("sig_rr", rr), ("sig_zz", zz), ("sig_tt", tt), ("sig_rz", rz)):
+            getattr(self, name)[MESH, MESH][j, i] = value
+
+    def of(self, function, j: int, i: int, *more):
+        """The value of a function of a cell."""
+        names = {"j": j + FIRST, "i": i + FIRST}
+        if more and function in (contains, pressed_by):
+            names["g"] = more[0]
+        return self.call(function, **names)
+
+    def moved(self):
+        """(volumes through faces along r and along z, growth of the cells, heat of both bodies of every cell in J)."""
+        self.even_r[...], self.even_z[...] = np.nan, np.nan
+        self.call(even_out, dt=0.1, volume=self.volumes)
+        r, z = self.even_r[MESH, EDGES], self.even_z[EDGES, MESH]
+        self.q[E] = 0.0
+        self.call(heat_evened_cells, volume=self.volumes)
+        heat = (self.q[E] * self.q[RHO] * self.vof * self.volumes)[:, MESH, MESH]
+        return r, z, np.diff(r, axis=1) + np.diff(z, axis=0), heat
+
+
+#: up and down from cell to cell, in both directions
+CHECKERS = 0.2 * (-1.0) ** np.add.outer(np.arange(N), np.arange(N))
+
+
+# -------------------------------------------------------------------------------------------------- equation 8: evening
+
+
+def test_a_uniform_pressure_moves_nothing():
+    r, z, _, heat = Surface(3.0, viscosity=0.7).moved()
+    assert (r == 0.0).all()
+    assert (z == 0.0).all()
+    assert (heat == 0.0).all()
+
+
+def test_a_pattern_along_the_surface_decays_and_what_it_loses_is_heat():
+    """Every cell that is above its neighbours grows by a twentieth of what would make the stiffer of a pair even."""
+    pattern, cells = 3.0 + CHECKERS, Surface(3.0 + CHECKERS)
+    r, z, change, heat = cells.moved()
+    volume = cells.volumes[MESH, MESH]
+    assert ((change > 0.0) == (pattern > 3.0)).all()
+    after = pattern - 5.0 * change / volume
+    assert np.ptp(after) < np.ptp(pattern)
+    assert after.mean() == pytest.approx(3.0, abs=0.05)
+    assert r[2, 3] == pytest.approx(0.05 * volume[2, 2] / 5.0 * (pattern[2, 2] - pattern[2, 3]))
+    assert change.sum() == pytest.approx(0.0, abs=1e-14)  # nothing leaves
+    lost = np.sum(change * pattern)
+    by_faces = np.sum(r[:, 1:N] * -np.diff(pattern, axis=1)) + np.sum(z[1:N] * -np.diff(pattern, axis=0))
+    assert lost == pytest.approx(by_faces)
+    assert heat.sum() == pytest.approx(lost, rel=1e-12)
+    np.testing.assert_allclose(heat[1], 3.0 * heat[0])  # by mass
+
+
+def along_z(pressure) -> Surface:
+    """A surface of one column of cells with these pressures."""
+    kind = np.full((N, N), WHOLE)
+    kind[:, 3] = INTERFACE
+    return Surface(np.tile(pressure, (N, 1)).T, kind)
+
+
+@pytest.mark.parametrize("pressure", [1.0 + 2.0 * np.arange(N), -7.0 * np.arange(N), (np.arange(N) - 2.3) ** 2])
+def test_what_is_linear_along_the_surface_or_bends_stays(pressure):
+    _, z, _, heat = along_z(pressure).moved()
+    assert z[1:N, 3] == pytest.approx(0.0, abs=1e-14)
+    assert heat == pytest.approx(0.0, abs=1e-13)
+
+
+def test_of_a_pattern_on_a_slope_the_pattern_evens_out():
+    """The pairs next to the ends stay: there a cell does not know what alternates."""
+    slope, pattern = 0.01 * np.arange(N), 0.2 * (-1.0) ** np.arange(N)
+    z, volume = along_z(slope + pattern).moved()[1], 2.0 + 3.0 + np.arange(N)
+    np.testing.assert_allclose(z[2:5, 3], 0.05 * volume[1:4] / 5.0 * np.array([-0.4, 0.4, -0.4]), atol=0.05 * 8 / 5 * 0.011)
+    assert (z[[1, 5], 3] == 0.0).all()
+
+
+def test_nothing_evens_out_off_the_surface():
+    kind = np.full((N, N), INTERFACE)
+    kind[:, 3] = FREE_SURFACE
+    r, z, _, heat = Surface(CHECKERS, kind).moved()
+    assert (r[:, 3:5] == 0.0).all()
+    assert (z[:, 3] == 0.0).all()
+    assert (heat[:, :, 3] == 0.0).all()
+    assert (r[:, [1, 2, 5]] != 0.0).all()
+
+
+# ---------------------------------------------------------------------------------- what stands out from its neighbours
+
+
+def test_the_middle_of_a_line_does_not_stand_out():
+    cells = along_z(1.0 + 2.0 * np.arange(N))
+    for j in range(1, N - 1):
+        assert cells.of(stands_out, j, 3) == pytest.approx(0.0, abs=1e-14)
+
+
+def test_of_a_pattern_every_cell_stands_out_by_its_whole_difference():
+    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
+    assert [cells.of(stands_out, j, 3) for j in range(1, N - 1)] == pytest.approx([-2.0, 2.0, -2.0, 2.0])
+
+
+def test_viscosity_counts_as_pressure():
+    cells = along_z(np.zeros(N))
+    cells.qr[FIRST + 2, FIRST + 3] = 4.0
+    assert cells.of(stands_out, 2, 3) == 4.0
+    assert cells.of(stands_out, 1, 3) == -2.0
+
+
+def test_the_end_of_a_surface_does_not_stand_out():
+    cells = along_z(np.arange(N) ** 2)
+    cells.skin[KIND, FIRST + 4, FIRST + 3] = WHOLE
+    assert cells.of(stands_out, 3, 3) == 0.0
+    assert cells.of(stands_out, 2, 3) == pytest.approx(-1.0)
+    assert cells.of(stands_out, 0, 3) == cells.of(stands_out, 5, 3) == 0.0  # at edges of the mesh that are no walls
+
+
+@pytest.mark.parametrize(("edge", "j", "i"), [(0, 3, 0), (1, 3, N - 1), (2, 0, 3), (3, N - 1, 3)])
+def test_at_the_axis_and_at_walls_a_surface_goes_on_as_in_a_mirror(edge, j, i):
+    """Across it lies a cell of the same pressure, on the other side one of 1 Pa less."""
+    inward = (0, 1 if edge == 0 else -1) if edge < 2 else (1 if edge == 2 else -1, 0)
+    kind, pressure = np.full((N, N), WHOLE), np.full((N, N), 50.0)
+    for at, value in (((j, i), 3.0), ((j + inward[0], i + inward[1]), 2.0)):
+        kind[at], pressure[at] = INTERFACE, value
+    cells = Surface(pressure, kind)
+    assert cells.of(stands_out, j, i) == 0.0
+    cells.known["constrained"] = np.array([FIRST, FIRST + N, FIRST, FIRST + N])
+    assert cells.of(stands_out, j, i) == pytest.approx(0.5)
+
+
+def test_a_neighbour_with_void_does_not_count():
+    """Two are left, whose mean is -1; of three the mean would be 8."""
+    cells = along_z(np.zeros(N))
+    for j, i, pressure in ((2, 3, 0.0), (1, 3, -2.0), (3, 3, 0.0), (2, 4, 26.0)):
+        cells.skin[KIND, FIRST + j, FIRST + i], cells.ph[FIRST + j, FIRST + i] = INTERFACE, pressure
+    assert cells.of(stands_out, 2, 3) == pytest.approx(-8.0)
+    cells.solid[FIRST + 2, FIRST + 4] = 1.0 - GAP
+    assert cells.of(stands_out, 2, 3) == pytest.approx(1.0)
+    cells.solid[FIRST + 2, FIRST + 3] = 1.0 - GAP  # nor does it stand out itself
+    assert cells.of(stands_out, 2, 3) == 0.0
+
+
+@pytest.mark.parametrize("void", [0.0, GAP])
+@pytest.mark.parametrize("where", [(2, 3), (1, 3), (2, 4)])
+def test_a_cell_ceases_to_stand_out_without_a_jump(void, where):
+    def found(void):
+        cells = Surface(CHECKERS)
+        cells.solid[FIRST + where[0], FIRST + where[1]] = 1.0 - void
+        return cells.of(stands_out, 2, 3)
+
+    changes_in_proportion(found, void, 2.0 / GAP, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
+
+
+# ---------------------------------------------------------------------------------------------- who pushes, and how much
+
+
+def test_a_full_cell_pushes_with_its_least_principal_pressure():
+    cells = Surface(8.0, WHOLE)
+    for stress, push in (((-9.0, -4.0, -6.0), 4.0), ((-5.0, -9.0, -6.0), 5.0), ((-9.0, -9.0, 2.0), -2.0),
+                         ((-5.0, -5.0, -9.0, 2.0), 3.0)):  # fmt: skip
+        cells.press(2, 2, *stress)
+        assert cells.of(push_of, 2, 2) == pytest.approx(push)
+
+
+def test_a_full_cell_of_the_surface_pushes_with_its_common_pressure():
+    cells = Surface(8.0, viscosity=0.5)
+    cells.press(2, 2, 7.0, 7.0, 7.0)
+    assert cells.of(push_of, 2, 2) == 8.5
+
+
+@pytest.mark.parametrize("kind", [WHOLE, INTERFACE])
+def test_a_cell_with_void_does_not_push(kind):
+    cells = Surface(8.0, kind)
+    cells.press(2, 2, -8.0, -8.0, -8.0)
+    for void, push in ((0.999 * GAP, 8.0), (GAP, 0.0), (0.5, 0.0)):
+        cells.solid[FIRST + 2, FIRST + 2] = 1.0 - void
+        assert cells.of(push_of, 2, 2) == push
+    cells.solid[FIRST + 2, FIRST + 2], cells.bulk[FIRST + 2, FIRST + 2] = 1.0, 0.0  # nor does one without bodies
+    assert cells.of(push_of, 2, 2) == 0.0
+
+
+def test_a_cell_of_the_surface_counts_for_both_groups_another_one_for_what_fills_it():
+    cells = Surface()
+    cells.fill(SOFT, 1, 1)
+    cells.fill(HARD, 2, 2)
+    assert [[cells.of(contains, n, n, g) for g in (SOFT, HARD)] for n in range(3)] == [
+        [True, True], [True, False], [False, True]]
+
+
+def test_a_group_presses_with_the_hardest_push_of_its_neighbours():
+    cells = Surface(kind=WHOLE)
+    cells.fill(SOFT, np.s_[:], np.s_[:])
+    for j, i, pressure in ((2, 2, 1.0), (2, 4, 4.0), (1, 3, 2.0), (3, 3, 3.0), (3, 4, 9.0), (2, 3, 9.0)):
+        cells.press(j, i, -pressure, -pressure, -pressure)
+    assert cells.of(pressed_by, 2, 3, SOFT) == 4.0
+    assert cells.of(pressed_by, 2, 3, HARD) == 0.0
+    cells.fill(HARD, 2, 4)
+    assert cells.of(pressed_by, 2, 3, SOFT) == 3.0
+    assert cells.of(pressed_by, 2, 3, HARD) == 4.0
+
+
+def test_a_stretched_neighbour_presses_on_nothing():
+    cells = Surface(kind=WHOLE)
+    cells.fill(SOFT, np.s_[:], np.s_[:])
+    cells.press(np.s_[:], np.s_[:], 2.0, -9.0, -9.0)
+    assert cells.of(pressed_by, 2, 3, SOFT) == 0.0
+
+
+@pytest.mark.parametrize(("along_r", "second"), [(True, (1, 0)), (False, (0, 1))])
+def test_slip_is_the_mean_over_a_face_of_the_speed_along_the_surface(along_r, second):
+    cells = Surface(slip=0.0)
+    j, i = FIRST + 2, FIRST + 3
+    for at, w_r, w_z in (((j, i), 3.0, 4.0), ((j + second[0], i + second[1]), 0.0, 10.0)):
+        cells.u[SOFT][at], cells.u[HARD][at], cells.v[SOFT][at], cells.v[HARD][at] = 1.0, 1.0 + w_r, -2.0, -2.0 + w_z
+
+    def slip(n_r, n_z):
+        return cells.call(slip_at, j=j, i=i, along_r=along_r, n_r=n_r, n_z=n_z)
+
+    assert slip(1.0, 0.0) == pytest.approx(7.0)
+    assert slip(0.0, -5.0) == pytest.approx(1.5)
+    assert slip(4.0, -3.0) == pytest.approx(0.5 * (abs(-3 * 3 - 4 * 4) + 4 * 10) / 5.0)
+
+
+# --------------------------------------------------------------------------------------------------- equation 9: closing
+
+
+def between(kind=WHOLE, void=0.1, soft=(-9.0, -9.0, -9.0), hard=(-9.0, -9.0, -9.0), pressure=0.0, **given) -> Surface:
+    """Void between the groups in cell (2, 3): left of it, below and above all is soft, on its right hard, with these stresses.
+
+    kind : of all other cells
+    """
+    cells = Surface(pressure, **given)
+    cells.fill(SOFT, np.s_[:], np.s_[:])
+    cells.fill(HARD, np.s_[:], np.s_[4:])
+    cells.press(np.s_[:], np.s_[:4], *soft)
+    cells.press(np.s_[:], np.s_[4:], *hard)
+    cells.skin[KIND, MESH, MESH] = kind
+    cells.skin[KIND, FIRST + 2, FIRST + 3], cells.solid[FIRST + 2, FIRST + 3] = INTERFACE, 1.0 - void
+    cells.vof[:, FIRST + 2, FIRST + 3] = 0.5 * (1.0 - void)
+    return cells
+
+
+def test_full_soft_cells_close_void_between_the_groups_hard_ones_do_not():
+    """By p/(rho c) through a face across the surface."""
+    r, z, change, _ = between().moved()
+    assert r[2, 3] == pytest.approx(9.0 * CLOSED)
+    assert r[2, 4] == 0.0
+    assert (z == 0.0).all()
+    assert change[2, 2] == -change[2, 3] == pytest.approx(9.0 * CLOSED)
+    assert np.count_nonzero(r) == 1
+
+
+def test_through_a_face_aslant_they_close_its_part_across_the_surface():
+    r, z, *_ = between(normal=(1.0, 1.0)).moved()
+    part = 9.0 * CLOSED / np.sqrt(2.0)
+    assert (r[2, 3], z[2, 3], z[3, 3]) == pytest.approx((part, part, -part))
+
+
+def test_they_close_with_their_least_principal_pressure():
+    """A bar under axial load presses on nothing beside it, whatever its pressure."""
+    assert between(soft=(-9.0, -2.0, -6.0)).moved()[0][2, 3] == pytest.approx(2.0 * CLOSED)
+    assert between(soft=(-9.0, -9.0, -3.0)).moved()[0][2, 3] == pytest.approx(3.0 * CLOSED)
+    for soft in ((0.0, -9.0, -3.0), (-9.0, -9.0, 1.0)):
+        assert (between(soft=soft).moved()[0] == 0.0).all()
+
+
+def test_void_on_which_one_group_does_not_press_stays():
+    assert between(hard=(-4.0, -9.0, -9.0)).moved()[0][2, 3] == pytest.approx(4.0 * CLOSED)
+    for hard in ((0.0, 0.0, 0.0), (3.0, -9.0, -9.0)):
+        assert (between(hard=hard).moved()[0] == 0.0).all()
+
+
+def test_they_close_with_what_exceeds_the_pressure_in_the_void():
+    for pressure in (2.0, 9.0, 12.0):
+        assert between(pressure=pressure).moved()[0][2, 3] == pytest.approx(max(9.0 - pressure, 0.0) * CLOSED)
+
+
+def around() -> np.ndarray:
+    """Pressure of 3 Pa everywhere but in cell (2, 3)."""
+    pressure = np.full((N, N), 3.0)
+    pressure[2, 3] = 0.0
+    return pressure
+
+
+#: faces of cell (2, 3), along r and z, and the sign of what flows into it
+AROUND = ((0, (2, 3), 1.0), (0, (2, 4), -1.0), (1, (2, 3), 1.0), (1, (3, 3), -1.0))
+
+
+def test_cells_of_the_surface_close_void_between_the_groups():
+    """By p/(rho c) through each whole face, and with heat as for what evens out."""
+    cells = between(INTERFACE, pressure=around())
+    found = cells.moved()
+    for way, at, sign in AROUND:
+        assert found[way][at] == pytest.approx(sign * 3.0 * CLOSED), at
+    assert np.count_nonzero(found[0]) + np.count_nonzero(found[1]) == 4
+    change, heat = found[2:]
+    assert heat.sum() == pytest.approx(np.sum(change * around()), rel=1e-12)
+    assert heat.sum() == pytest.approx(4.0 * 3.0 * CLOSED * 3.0)
+
+
+@pytest.mark.parametrize("slip", [0.0, 0.1, 0.5])
+def test_cells_of_the_surface_close_void_no_faster_than_the_groups_slip(slip):
+    """0.6 m/s otherwise; a full soft cell does not ask for the slip."""
+    found = between(INTERFACE, pressure=around(), slip=slip).moved()
+    for way, at, sign in AROUND:
+        assert found[way][at] == pytest.approx(sign * 0.1 * slip), at
+    assert between(slip=slip).moved()[0][2, 3] == pytest.approx(9.0 * CLOSED)
+
+
+def test_beside_void_alone_and_under_tension_nothing_closes():
+    cells = between()
+    cells.solid[MESH, MESH] = 0.9
+    assert (cells.moved()[0] == 0.0).all()
+    assert (between(soft=(9.0, 9.0, 9.0)).moved()[0] == 0.0).all()
+    assert (between(INTERFACE, pressure=-around()).moved()[0] == 0.0).all()
+
+
+def test_void_in_a_free_surface_is_no_void_between_the_groups():
+    cells = between()
+    cells.skin[KIND, FIRST + 2, FIRST + 3] = FREE_SURFACE
+    assert (cells.moved()[0] == 0.0).all()
+
+
+@pytest.mark.parametrize("kind", [WHOLE, INTERFACE])
+def test_closing_comes_in_with_the_void(kind):
+    def closed(void):
+        return between(kind, void, pressure=around()).moved()[0][2, 3]
+
+    for void in (0.0, 0.5 * GAP, GAP):
+        changes_in_proportion(closed, void, 2.0 / GAP, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
+    assert kind == INTERFACE or closed(0.5 * GAP) == pytest.approx(0.5 * closed(GAP))
+    assert closed(GAP) == pytest.approx(closed(0.5), rel=1e-12)
