@@ -96,6 +96,38 @@ def test_without_void_all_that_is_swept_is_body():
     assert sum(flux(0.4, 0.6, -0.01)) == pytest.approx(-0.01, abs=1e-15)
 
 
+# ------------------------------------------------------------------------------------------- counterflow
+
+
+def counterflow(void: float, face: float) -> tuple[float, float]:
+    """The soft body flows to the left, out of a full cell, more than the face sweeps; on the left is the hard body, at rest,
+    and void. What goes the other way is of the left cell."""
+    return fluxes(upright(0.0, 1.0, 1.0 - void), face, (-0.02, 0.0))
+
+
+def test_void_goes_the_other_way_and_no_body_is_held_up():
+    for face in (-0.015, -0.005, 0.0):
+        assert counterflow(0.05, face) == (0.0, -0.02)
+
+
+def test_void_to_the_left_goes_the_other_way_as_well():
+    """The hard body flows to the right, into a cell of soft body and void; without void the soft body is taken from there."""
+    for face in (0.015, 0.005):
+        assert fluxes(upright(0.0, 0.95), face, (0.0, 0.02)) == (0.02, 0.0)
+        assert fluxes(upright(0.0, 1.0), face, (0.0, 0.02)) == pytest.approx((0.02, face - 0.02), abs=1e-15)
+
+
+def test_no_more_void_goes_the_other_way_than_there_is():
+    for void in (0.0, 0.004, 0.01):
+        assert counterflow(void, -0.005) == pytest.approx((0.0, -0.005 - void), abs=1e-15)
+
+
+@pytest.mark.parametrize("void", [0.0, 0.01, 0.015])
+def test_a_counterflow_of_void_comes_in_without_a_jump(void):
+    changes_in_proportion(lambda x: counterflow(x, -0.005), void, 2.0, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
+    changes_in_proportion(lambda face: counterflow(0.01, face), -0.02 + void, 2.0)
+
+
 # ------------------------------------------------------------------------------------------- continuity
 
 

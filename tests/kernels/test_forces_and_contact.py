@@ -22,6 +22,7 @@ from hydro2d.kernels.contact.contact_geometry import (
 from hydro2d.kernels.contact.contact_motion import SEED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
+from hydro2d.physics.contact_faces import GAP
 from tests.kernels.cells import Cells
 
 ROWS = slice(2, 6)
@@ -228,6 +229,35 @@ def test_apertures_are_what_the_line_leaves_of_a_face():
     assert not cells.touch[3, 4:6].any()
 
 
+def void_and_void(left: float, right: float) -> Cells:
+    """Half of the solids hard left of r-face 5 and two tenths right of it, with this void; both groups have mass everywhere."""
+    cells = halves()
+    cells.mass[...] = 1.0
+    for column, share, void in ((4, 0.5, left), (5, 0.2, right)):
+        cells.hard[ROWS, column], cells.soft[ROWS, column] = share * (1.0 - void), (1.0 - share) * (1.0 - void)
+        cells.line[[LINE_R, LINE_Z], :, column], cells.line[SHARE, :, column] = 0.0, share
+    cells.call(contact_geometry.face_apertures)
+    return cells
+
+
+@pytest.mark.parametrize(("left", "right"), [(0.75, 0.75), (0.6, 0.9), (0.3, 0.7)])
+def test_the_aperture_of_a_face_is_a_mean_whatever_the_weights_add_up_to(left, right):
+    """Two cells with some void each: no part of the face is lost."""
+    cells = void_and_void(left * GAP, right * GAP)
+    on_left = contact_geometry.weight_beside(3, 4, 3, 5, cells.hard, cells.soft)
+    on_right = contact_geometry.weight_beside(3, 5, 3, 4, cells.hard, cells.soft)
+    assert 0.8 < on_left * on_right < 1.0
+    mean = (0.5 * on_left + 0.2 * on_right) / (on_left + on_right)
+    assert cells.aperture_r[:, 3, 5] == pytest.approx([mean, mean], rel=1e-14)
+    assert cells.aperture_z[:, 4, 4].tolist() == [0.5, 0.5]  # along z both cells are alike
+
+
+def test_a_cell_of_both_groups_without_void_has_the_face_to_a_gap_for_itself():
+    assert void_and_void(0.0, 0.0).aperture_r[:, 3, 5] == pytest.approx([0.35, 0.35])
+    assert void_and_void(0.0, 0.3).aperture_r[:, 3, 5].tolist() == [0.5, 0.5]
+    assert void_and_void(0.3, 0.0).aperture_r[:, 3, 5].tolist() == [0.2, 0.2]
+
+
 def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
     cells = halves()
     cells.p[...], cells.bulk[...], cells.rate[...], cells.ph[...] = 100.0, 50.0, 1.0, 70.0
@@ -238,10 +268,10 @@ def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
     assert cells.ph[3, 6] == 70.0
 
 
-def seen(cells: Cells) -> np.ndarray:
+def seen(cells: Cells, dt: float = 0.0) -> np.ndarray:
     step = np.full(8, 1e300)
     cells.call(contact_motion.contact_viscosity, viscosity_linear=0.5, viscosity_quadratic=2.0, courant=0.5,
-               shock_courant=0.5, dt=0.0, row_step=step)  # fmt: skip
+               shock_courant=0.5, dt=dt, row_step=step)  # fmt: skip
     return step
 
 
@@ -273,6 +303,40 @@ def test_a_full_cell_whose_groups_part_is_given_room():
     assert cells.q[RHO, 0, 3, 4] == 1.0 / (1.0 - SEED)
     assert cells.mixed_count[3] == 2
     assert cells.mixed[3, :2].tolist() == [3, 4]
+
+
+def parting(soft: float, pressure: float, dt: float, closing: float = 0.0) -> list[bool]:
+    """Whether the full cells on either side of the surface, of hard and of soft body, get a seed of void in a step.
+
+    soft : velocity of the soft body along r, m/s; the soft cell gains as much of its volume per second;  closing : share of
+    its volume that every cell loses per second as both groups move along z
+    """
+    cells = halves()
+    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = cells.solid[...] = 1.0
+    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[1.0], [0.0]], 0.0, 1.0
+    cells.p[...], cells.u[0], cells.v[...] = pressure, soft, -closing * np.arange(9.0)[:, None]
+    seen(cells, dt)
+    assert cells.rate[3, 3:5] == pytest.approx([-closing, soft - closing])
+    assert ((cells.solid[3] < 1.0) == (cells.skin[KIND, 3] == INTERFACE)).all()
+    return (cells.solid[3, 3:5] == 1.0 - SEED).tolist()
+
+
+def test_a_seed_is_given_to_a_cell_that_would_be_under_tension_after_the_step():
+    """K = 1 Pa: at a pressure of 0.5 Pa after half a second; the hard cell, which does not grow, keeps its pressure."""
+    assert parting(1.0, 0.5, 0.499) == [False, False]
+    assert parting(1.0, 0.5, 0.501) == [False, True]
+    assert parting(1.0, 0.0, 0.0) == [True, True]
+    assert parting(1.0, -0.1, 0.5) == [True, True]
+
+
+def test_a_cell_whose_volume_falls_gets_no_seed_before_its_pressure_is_gone():
+    assert parting(1.0, 1e-6, 0.5, closing=3.0) == [False, False]
+    assert parting(1.0, -1e-6, 0.5, closing=3.0) == [True, True]
+
+
+def test_groups_that_do_not_part_get_no_seed():
+    for soft in (0.0, -1.0):
+        assert parting(soft, -1.0, 0.5) == [False, False]
 
 
 def test_a_gap_next_to_the_other_group_is_no_free_surface():
