@@ -167,6 +167,8 @@ def test_the_end_of_a_surface_does_not_stand_out():
     cells.skin[KIND, FIRST + 4, FIRST + 3] = WHOLE
     assert cells.of(stands_out, 3, 3) == 0.0
     assert cells.of(stands_out, 2, 3) == pytest.approx(-1.0)
+    cells.solid[FIRST + 2, FIRST + 3] = 1.0 - 0.5 * GAP  # and the one neighbour of (3, 3) counts by half
+    assert cells.of(stands_out, 3, 3) == 0.0
     assert cells.of(stands_out, 0, 3) == cells.of(stands_out, 5, 3) == 0.0  # at edges of the mesh that are no walls
 
 
@@ -193,6 +195,14 @@ def test_a_neighbour_with_void_does_not_count():
     assert cells.of(stands_out, 2, 3) == pytest.approx(1.0)
     cells.solid[FIRST + 2, FIRST + 3] = 1.0 - GAP  # nor does it stand out itself
     assert cells.of(stands_out, 2, 3) == 0.0
+
+
+def test_beside_a_neighbour_that_opens_a_cell_stands_out_less_and_less():
+    """It has only one other neighbour; halfway to GAP half is left of the pattern."""
+    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
+    for void, left in ((0.5 * GAP, 1.0), (GAP, 0.0)):
+        cells.solid[FIRST + 1, FIRST + 3] = 1.0 - void
+        assert cells.of(stands_out, 2, 3) == pytest.approx(left)
 
 
 @pytest.mark.parametrize("void", [0.0, GAP])
@@ -240,6 +250,9 @@ def test_a_cell_of_the_surface_counts_for_both_groups_another_one_for_what_fills
     cells.fill(HARD, 2, 2)
     assert [[cells.of(contains, n, n, g) for g in (SOFT, HARD)] for n in range(3)] == [
         [True, True], [True, False], [False, True]]
+    cells.fill(SOFT, 3, 3)
+    cells.vof[:, FIRST + 3, FIRST + 3] = 0.6, 0.4
+    assert [cells.of(contains, 3, 3, g) for g in (SOFT, HARD)] == [True, False]
 
 
 def test_a_group_presses_with_the_hardest_push_of_its_neighbours():
