@@ -17,6 +17,8 @@ from hydro2d.solver.simulation import Simulation
 RADIUS, LENGTH = 3.3784, 97.79  # mm
 #: cells across the radius: the flank at 0.18 to 0.95 of its cell, and on the coarsest and the finest of the study's meshes
 MESHES = (4.73, 5.5, 6.18, 7.35, 8.05)
+#: with this one the plate touches the shank from 27 mm behind the tip on, from 40 us on, and leaves hoop tension of 0.3 GPa
+TOUCHED = 5.87
 UNDEFORMABLE = (
     'body.rod.material="W_undeformable"',
     'materials.W_undeformable={based_on="W_alloy", fracture_pressure="100 GPa", strength={model="elastic-plastic", '
@@ -78,10 +80,18 @@ def undeformable(cells: float, velocity: int, *overrides: str):
 @pytest.mark.parametrize("velocity", [781, 1086])
 @pytest.mark.parametrize("cells", MESHES)
 def test_the_skin_of_an_undeformable_rod_bears_its_share(cells, velocity):
-    """Mean over 22 mm within 3 % of what the inside bears, every row within 7 %, at 30, 60 and 100 us."""
+    """Mean over 22 mm within 1 % of what the inside bears, every row within 9 %, where 6 % are wanted; at 30, 60 and 100 us."""
     for axial, _ in undeformable(cells, velocity):
-        assert abs(axial.mean()) < 0.03
-        assert np.abs(axial).max() < 0.07
+        assert abs(axial.mean()) < 0.01
+        assert np.abs(axial).max() < 0.09
+
+
+@pytest.mark.thorough
+@pytest.mark.xfail(strict=True, reason="-4.1 and -4.4 % in the mean at 60 and 100 us, worst row -14 %; 1 and 9 % are wanted")
+def test_the_skin_bears_its_share_where_the_plate_touches_it():
+    for axial, _ in undeformable(TOUCHED, 1086):
+        assert abs(axial.mean()) < 0.01
+        assert np.abs(axial).max() < 0.09
 
 
 @pytest.mark.thorough
