@@ -13,15 +13,25 @@ from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.closure import NO_VOID
 from hydro2d.physics.interfaces import youngs_gradient
 from hydro2d.physics.stress import stress_scale
-from hydro2d.physics.traction import STEEP, along_normal, half_pressure, pull_left, smoothstep, strain_across
+from hydro2d.physics.traction import (
+    BESIDE_GAS,
+    FREE_SURFACE,
+    INTERFACE,
+    JOINT,
+    KIND,
+    NORMAL_R,
+    NORMAL_Z,
+    STEEP,
+    WHOLE,
+    along_normal,
+    half_pressure,
+    pull_left,
+    smoothstep,
+    strain_across,
+)
 
-#: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell,
-#: none or one of them a gas
-WHOLE, FREE_SURFACE, INTERFACE, JOINT, BESIDE_GAS = 0.0, 1.0, 2.0, 3.0, 4.0
 #: share of the velocity difference across the surface that a step removes from a body's mass at a vertex in the gas
 MOST_TIED = 0.5
-#: rows of `skin`
-NORMAL_R, NORMAL_Z, KIND = range(3)
 
 
 @point

@@ -4,6 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import point
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R
+from hydro2d.physics.traction import smoothstep
 
 #: share of void in a cell of both groups up to which they touch
 GAP = 0.01
@@ -47,6 +48,51 @@ def dual_share(g, j, i, mesh_box, volume, metrics, hard, soft):
             whole += corner
             part += corner * (hard[row, column] if g == 1 else soft[row, column])
     return part / whole
+
+
+@point
+def weight_beside(j, i, row, column, hard, soft):
+    """Weight of the aperture in cell (j, i) for the face shared with (row, column), which may be full of one group.
+
+    The face of a full cell next to a gap belongs to the full cell alone: void cannot press on it.
+    """
+    gap = smoothstep((1.0 - hard[j, i] - soft[j, i]) / GAP - 0.5)
+    full = smoothstep(1.0 - (1.0 - hard[row, column] - soft[row, column]) / GAP)
+    return 1.0 - gap * full
+
+
+@point
+def weights_beside(j, i, row, column, hard, soft):
+    """`weight_beside` of cell (j, i) and of its neighbour (row, column) for the face between them."""
+    return weight_beside(j, i, row, column, hard, soft), weight_beside(row, column, j, i, hard, soft)
+
+
+@point
+def own_inward(j, i, mesh_box, constrained, share):
+    """Direction from vertex (j, i) into bodies that fill `share` of the cells: towards the 16 cells around it, by share over
+    distance squared.
+
+    A unit vector, or (0, 0) where they cancel. The axis and walls are mirrors; beyond other edges there is nothing.
+    """
+    along_r, along_z = 0.0, 0.0
+    for row in range(j - 2, j + 2):
+        for column in range(i - 2, i + 2):
+            at_j, at_i = row, column
+            if row < mesh_box[0] and constrained[2] == mesh_box[0]:
+                at_j = 2 * mesh_box[0] - 1 - row
+            if row >= mesh_box[1] and constrained[3] == mesh_box[1]:
+                at_j = 2 * mesh_box[1] - 1 - row
+            if column < mesh_box[2] and constrained[0] == mesh_box[2]:
+                at_i = 2 * mesh_box[2] - 1 - column
+            if column >= mesh_box[3] and constrained[1] == mesh_box[3]:
+                at_i = 2 * mesh_box[3] - 1 - column
+            if mesh_box[0] <= at_j < mesh_box[1] and mesh_box[2] <= at_i < mesh_box[3]:
+                y, x = row - j + 0.5, column - i + 0.5
+                part = share[at_j, at_i] / (x * x + y * y)
+                along_r += part * x
+                along_z += part * y
+    size = sqrt(along_r * along_r + along_z * along_z)
+    return (along_r / size, along_z / size) if size > 1e-12 else (0.0, 0.0)
 
 
 @point

@@ -9,6 +9,11 @@ from math import sqrt
 
 from hydro2d.jit import point
 
+#: kinds of cells, in row KIND of `skin`: not cut; a surface against void; two groups; bodies of one group that fill the cell,
+#: none or one of them a gas
+WHOLE, FREE_SURFACE, INTERFACE, JOINT, BESIDE_GAS = 0.0, 1.0, 2.0, 3.0, 4.0
+#: rows of `skin`
+NORMAL_R, NORMAL_Z, KIND = range(3)
 #: share of void from which a crack carries no tension
 SURE = 1e-3
 #: fall of a fraction across a cell from which the normal counts in full

@@ -13,7 +13,7 @@ from math import sqrt
 
 from hydro2d.jit import point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
-from hydro2d.physics.contact_faces import GAP, end_apertures, known
+from hydro2d.physics.contact_faces import GAP, end_apertures, known, weights_beside
 from hydro2d.physics.traction import smoothstep
 
 #: rows of `line`: normal of the hard side in the unit square, its constant, hard share of the solids; slopes, down the hard
@@ -99,17 +99,6 @@ def face_aperture(j, i, x0, y0, x1, y1, w):
     return 1.0, 1.0 - high * (1.0 - low * first), 1.0 - high * (1.0 - low * last)
 
 
-@point
-def weight_beside(j, i, row, column, hard, soft):
-    """Weight of the aperture in cell (j, i) for the face shared with (row, column), which may be full of one group.
-
-    The face of a full cell next to a gap belongs to the full cell alone: void cannot press on it.
-    """
-    gap = smoothstep((1.0 - hard[j, i] - soft[j, i]) / GAP - 0.5)
-    full = smoothstep(1.0 - (1.0 - hard[row, column] - soft[row, column]) / GAP)
-    return 1.0 - gap * full
-
-
 @vertex_rows
 def face_apertures(j, w):
     """Apertures of the hard group on the faces around contact nodes, and the normals and contact at these nodes.
@@ -133,8 +122,7 @@ def face_apertures(j, w):
             if i < w.mesh_box[3]:
                 solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, w)
             if solid_l > 0.0 and solid_r > 0.0:
-                solid_l = weight_beside(j, i - 1, j, i, w.hard, w.soft)
-                solid_r = weight_beside(j, i, j, i - 1, w.hard, w.soft)
+                solid_l, solid_r = weights_beside(j, i - 1, j, i, w.hard, w.soft)
             number = solid_l + solid_r if solid_l + solid_r > 0.0 else 1.0
             low = (solid_l * low_l + solid_r * low_r) / number
             high = (solid_l * high_l + solid_r * high_r) / number
@@ -149,8 +137,7 @@ def face_apertures(j, w):
         if j < w.mesh_box[1]:
             solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, w)
         if solid_b > 0.0 and solid_t > 0.0:
-            solid_b = weight_beside(j - 1, i, j, i, w.hard, w.soft)
-            solid_t = weight_beside(j, i, j - 1, i, w.hard, w.soft)
+            solid_b, solid_t = weights_beside(j - 1, i, j, i, w.hard, w.soft)
         number = solid_b + solid_t if solid_b + solid_t > 0.0 else 1.0
         w.aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, w.mass[0, j, i], w.mass[1, j, i])
         w.aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, w.mass[0, j, i + 1], w.mass[1, j, i + 1])

@@ -124,10 +124,9 @@ def contact_fluxes(part, w):
 
     In a cell the group with the flatter surface comes first among the nested interfaces; where void separates the groups, each
     group comes first for itself, by the weights of `contact_lines`. The bodies together may flow less or more than the volume
-    that the face sweeps. Void, which flows with the face, makes up a deficit as far as the donor cell has any. The soft bodies
-    take the remainder as far as they can supply it, then the hard ones (`add_group_flux`). Where the donor cell has a gap, a
-    full cell that receives volume is filled by its own body as long as the donor has any: no void enters a body from its
-    surface.
+    that the face sweeps. Void makes up the difference as far as the cell from which it flows has any. The soft bodies take the
+    remainder as far as they can supply it, then the hard ones (`add_group_flux`). Where the donor cell has a gap, a full cell
+    that receives volume is filled by its own body as long as the donor has any: no void enters a body from its surface.
 
     Reads    face [j, i], own [b, j, i], the arrays that contact_shares wrote, vof [m, j, i], group [m], line [10, j, i];
              hard_first, soft_first [m], the bodies in the order in which their interfaces are nested
@@ -192,10 +191,9 @@ def contact_fluxes(part, w):
                         more = more if up else -more
                         w.flux_volume[m, j, i] += more
                         rest -= more
-            room = min(void * w.size[row, column], abs(w.face[j, i]))
-            if (rest > 0.0) != up:
-                void = 1.0 - cumulative(to_row, to_column, w.group.shape[0] - 1, w.hard_first, w.vof)
-                room = void * w.size[to_row, to_column]
+            row, column = (j - dj, i - di) if rest > 0.0 else (j, i)
+            void = 1.0 - cumulative(row, column, w.group.shape[0] - 1, w.hard_first, w.vof)
+            room = void * w.size[row, column]
             beyond = max(abs(rest) - room, 0.0)
             if beyond > 0.0:
                 left = add_group_flux(0, beyond if rest > 0.0 else -beyond, j, i, w)

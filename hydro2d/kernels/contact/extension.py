@@ -10,7 +10,7 @@ from math import sqrt
 from hydro2d.jit import kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact.contact_geometry import REACH
-from hydro2d.physics.contact_faces import dual_share
+from hydro2d.physics.contact_faces import dual_share, own_inward
 from hydro2d.physics.traction import smoothstep
 
 #: filled share of its dual cell up to which a node of a group is under-filled, and from which it is not
@@ -178,33 +178,6 @@ def tied_weight(x, g, w):
     return w.weights[x, g, last] if last >= 0 and w.where[x, g, last] == TIED else 0.0
 
 
-@point
-def share_of(g, row, column, w):
-    """Share of cell (row, column) that group g fills, 0 beyond the mesh."""
-    if row < w.mesh_box[0] or row >= w.mesh_box[1] or column < w.mesh_box[2] or column >= w.mesh_box[3]:
-        return 0.0
-    return w.hard[row, column] if g == 1 else w.soft[row, column]
-
-
-@point
-def own_inward(g, j, i, w):
-    """Direction from vertex (j, i) into the bodies of group g: towards the 16 cells around it, by share over distance.
-
-    A unit vector, or (0, 0) where they cancel.
-    """
-    along_r, along_z = 0.0, 0.0
-    for row in range(j - 2, j + 2):
-        for column in range(i - 2, i + 2):
-            y, x = row - j + 0.5, column - i + 0.5
-            part = share_of(g, row, column, w) / (x * x + y * y)
-            along_r += part * x
-            along_z += part * y
-    if i == w.mesh_box[2]:  # on the axis
-        along_r = 0.0
-    size = sqrt(along_r * along_r + along_z * along_z)
-    return (along_r / size, along_z / size) if size > 1e-12 else (0.0, 0.0)
-
-
 @vertex_rows
 def find_extensions(j, w):
     """Slaves among the contact nodes, the strength of their ties, and their masters with weights.
@@ -231,7 +204,7 @@ def find_extensions(j, w):
                 w.weights[x, g, n] = 0.0
             sign = 1.0 if g == 0 else -1.0
             inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
-            own_r, own_z = own_inward(g, j, i, w)
+            own_r, own_z = own_inward(j, i, w.mesh_box, w.constrained, w.hard if g == 1 else w.soft)
             if own_r != 0.0 or own_z != 0.0:
                 inward_r, inward_z = own_r, own_z
             reach = REACH - 1 if in_debris(g, j, i, w) else REACH

@@ -12,77 +12,8 @@ from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
 from hydro2d.physics.contact_faces import GAP, alternation, closed_volume, evened_volume
-from hydro2d.physics.stress import least_pressure
+from hydro2d.physics.contact_pushes import pressed_by, push_of, slip_at, stands_out
 from hydro2d.physics.traction import smoothstep
-
-
-@point
-def push_of(j, i, w):
-    """With what a full cell pushes into void beside it, Pa: p_c + q in a cell of the surface, else its least pressure.
-
-    0 in a cell with void itself. The normal stress of a skin is noise about zero where nothing presses on it, and what its
-    outward half moved would never come back; the least pressure is below zero there, and so is that of a stretched ring.
-    """
-    if w.solid[j, i] <= 1.0 - GAP or w.bulk[j, i] <= 0.0:
-        return 0.0
-    if w.skin[KIND, j, i] == INTERFACE:
-        return w.ph[j, i] + w.qr[j, i]
-    return least_pressure(j, i, w.sig_rr, w.sig_zz, w.sig_tt, w.sig_rz)
-
-
-@point
-def contains(g, j, i, w):
-    """Whether group g is in cell (j, i), a full cell of the surface counting for both."""
-    if w.skin[KIND, j, i] == INTERFACE:
-        return True
-    share = 0.0
-    for m in range(w.vof.shape[0]):
-        share += w.vof[m, j, i] if w.group[m] == g else 0.0
-    return share > 0.5
-
-
-@point
-def pressed_by(g, j, i, w):
-    """The largest push of group g on cell (j, i) from its four neighbours, Pa."""
-    largest = 0.0
-    for row, column in ((j, i - 1), (j, i + 1), (j - 1, i), (j + 1, i)):
-        if contains(g, row, column, w):
-            largest = max(largest, push_of(row, column, w))
-    return largest
-
-
-@point
-def stands_out(j, i, w):
-    """By how much p_c + q of a cell of the surface exceeds the mean of its neighbours in the surface, Pa.
-
-    0 where there are no two neighbours, one on either side. A cell counts as long as it has no void, up to GAP; the axis and
-    walls are mirrors.
-    """
-    here = w.ph[j, i] + w.qr[j, i]
-    number, total = 0.0, 0.0
-    for edge, row, column, at in ((0, j, i - 1, i), (1, j, i + 1, i + 1), (2, j - 1, i, j), (3, j + 1, i, j + 1)):
-        if at == w.mesh_box[2 - 2 * (edge // 2) + edge % 2]:
-            if at == w.constrained[edge]:
-                number += 1.0
-                total += here
-        elif w.skin[KIND, row, column] == INTERFACE:
-            part = smoothstep(1.0 - (1.0 - w.solid[row, column]) / GAP)
-            number += part
-            total += part * (w.ph[row, column] + w.qr[row, column])
-    if number <= 1.0:
-        return 0.0
-    return (here - total / number) * min(number - 1.0, 1.0) * smoothstep(1.0 - (1.0 - w.solid[j, i]) / GAP)
-
-
-@point
-def slip_at(j, i, along_r, n_r, n_z, w):
-    """Mean speed at which the groups slip along the surface with the normal n at the ends of face (j, i), m/s."""
-    total, steep = 0.0, n_r * n_r + n_z * n_z
-    for end in range(2):
-        row, column = (j + end, i) if along_r else (j, i + end)
-        w_r, w_z = w.u[1, row, column] - w.u[0, row, column], w.v[1, row, column] - w.v[0, row, column]
-        total += abs(w_z * n_r - w_r * n_z) / sqrt(steep)
-    return 0.5 * total
 
 
 @point
@@ -98,7 +29,9 @@ def surface_volume(j, i, row, column, w):
     moved = 0.0
     if here_meets and there_meets:
         compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-        moved = evened_volume(compliance, alternation(here - there, stands_out(j, i, w), stands_out(row, column, w)))
+        moved = evened_volume(compliance, alternation(here - there,
+            stands_out(j, i, w.mesh_box, w.constrained, w.skin, w.solid, w.ph, w.qr),
+            stands_out(row, column, w.mesh_box, w.constrained, w.skin, w.solid, w.ph, w.qr)))
     opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
         smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
     if opened == 0.0:
@@ -107,20 +40,20 @@ def surface_volume(j, i, row, column, w):
     n_r = w.line[HARD_R, hole, beside] + w.line[SOFT_R, hole, beside]
     n_z = w.line[HARD_Z, hole, beside] + w.line[SOFT_Z, hole, beside]
     steep = n_r * n_r + n_z * n_z
-    push = push_of(full, at, w)
-    if steep == 0.0 or push <= 0.0 or (w.skin[KIND, full, at] != INTERFACE and contains(1, full, at, w)):
+    push = push_of(full, at, w.skin, w.solid, w.bulk, w.ph, w.qr, w.sig_rr, w.sig_zz, w.sig_tt, w.sig_rz)
+    if steep == 0.0 or push <= 0.0 or (w.skin[KIND, full, at] != INTERFACE and w.hard[full, at] > 0.5):
         return moved
-    push = min(push, min(pressed_by(0, hole, beside, w), pressed_by(1, hole, beside, w)))
+    for g in range(2):
+        push = min(push, pressed_by(g, hole, beside, w.hard, w.soft, w.skin, w.solid, w.bulk, w.ph, w.qr, w.sig_rr, w.sig_zz,
+                                    w.sig_tt, w.sig_rz))
     excess = push - w.ph[hole, beside] - w.qr[hole, beside]
     if excess <= 0.0:
         return moved
     swept = w.metrics[FACE_R, column] * w.dz[j] if row == j else w.metrics[AZ_IN, i] + w.metrics[AZ_OUT, i]
+    part = 1.0 if w.skin[KIND, full, at] == INTERFACE else sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
+    more = closed_volume(part * swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
     if w.skin[KIND, full, at] == INTERFACE:
-        more = closed_volume(swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
-        more = min(more, swept * w.dt * slip_at(row, column, row == j, n_r, n_z, w))
-    else:
-        part = sqrt((n_r * n_r if row == j else n_z * n_z) / steep)
-        more = closed_volume(part * swept, w.dt, excess, w.rhobar[full, at], w.bulk[full, at])
+        more = min(more, swept * w.dt * slip_at(row, column, row == j, n_r, n_z, w.u, w.v))
     return moved + opened * more
 
 
@@ -132,7 +65,7 @@ def even_out(j, w):
     pushes no vertex. The volumes that the faces between these cells sweep are therefore corrected by the difference.
 
     Reads    ph, qr, bulk, rhobar, solid, volume, sig_rr, sig_zz, sig_tt, sig_rz [j, i], skin [3, j, i], line [10, j, i],
-             vof [m, j, i]; u, v [b, j, i]
+             hard, soft [j, i]; u, v [b, j, i]
     Writes   even_r, even_z [j, i]
     """
     j0, j1 = outer_rows(w.parts)
