@@ -110,6 +110,34 @@ def test_void_goes_the_other_way_and_no_body_is_held_up():
         assert counterflow(0.05, face) == (0.0, -0.02)
 
 
+def mirrored(void: float, face: float) -> tuple[float, float]:
+    """`counterflow` seen in a mirror: the soft body flows to the right out of a full cell; the giver has hard body and void."""
+    vof = np.zeros((2, *SHAPE))
+    vof[1, :, :GIVER], vof[0, :, GIVER:] = 1.0, 1.0
+    vof[0, ROW, GIVER] = 1.0 - void
+    return fluxes(vof, -face, (0.02, 0.0))
+
+
+def test_a_face_that_sweeps_nothing_is_like_one_that_sweeps_hardly_anything():
+    """Void makes up the flow from where it comes, whichever way the face moves."""
+    for face in (-1e-12, 0.0, 1e-12):
+        assert counterflow(0.05, face) == (0.0, -0.02)
+        assert mirrored(0.05, face) == (0.0, 0.02)
+
+
+@pytest.mark.parametrize("void", [0.0, 0.01, 0.05])
+@pytest.mark.parametrize("face", [-0.015, -1e-12, 0.0, 1e-12, 0.005])
+def test_counterflow_in_a_mirror_is_mirrored(void, face):
+    hard, soft = counterflow(void, face)
+    assert mirrored(void, face) == pytest.approx((-hard, -soft), abs=1e-15)
+
+
+@pytest.mark.parametrize("void", [0.0, 0.01, 0.05])
+def test_counterflow_does_not_jump_where_the_face_turns(void):
+    changes_in_proportion(lambda face: counterflow(void, face), 0.0, 2.0)
+    changes_in_proportion(lambda face: mirrored(void, face), 0.0, 2.0)
+
+
 def test_void_to_the_left_goes_the_other_way_as_well():
     """The hard body flows to the right, into a cell of soft body and void; without void the soft body is taken from there."""
     for face in (0.015, 0.005):

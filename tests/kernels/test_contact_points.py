@@ -9,7 +9,6 @@ from hydro2d.kernels.contact.contact_geometry import REACH, SLIVER
 from hydro2d.kernels.contact.contact_velocities import heat_contact_nodes, resolve_contact
 from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.grid import Grid
-from hydro2d.physics.contact_faces import GAP
 from hydro2d.physics.momentum import SLIGHT
 from hydro2d.solver import contact_ties
 from tests.kernels.cells import handle
@@ -321,28 +320,6 @@ def test_an_edge_of_a_void_cell_has_no_weight():
     line = np.full((10, 1, 1), -1.0)
     for inside in (True, False):
         assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.0, 0.0, inside)) == (0.0, 0.0, 0.0)
-
-
-@pytest.mark.parametrize(("other", "void"), [(1.0, 0.5 * GAP), (1.0, 1.5 * GAP), (1.0 - GAP, 0.5), (1.0, 0.5)])
-def test_a_full_cell_has_the_face_to_a_gap_for_itself(other, void):
-    """The weight of a cell with void on its face to a cell of the other group is nil, and becomes so without a jump."""
-    def weight(void: float, other: float) -> float:
-        hard, soft = np.array([[1.0 - void, 0.0]]), np.array([[0.0, other]])
-        assert contact_geometry.weight_beside.py_func(0, 1, 0, 0, hard, soft) == 1.0 or other < 1.0 - 0.5 * GAP
-        return contact_geometry.weight_beside.py_func(0, 0, 0, 1, hard, soft)
-
-    changes_in_proportion(lambda x: weight(x, other), void, 2.0 / GAP)
-    changes_in_proportion(lambda x: weight(void, x), other, 2.0 / GAP)
-    assert weight(0.5, 1.0) == 0.0
-    assert weight(0.5, 1.0 - GAP) == weight(0.5 * GAP, 1.0) == weight(0.5, 0.5) == 1.0
-
-
-@pytest.mark.parametrize("hard", [0.0, 0.4, 1.0])
-def test_a_cell_full_of_both_groups_has_the_face_to_a_gap_for_itself(hard):
-    """As one full of either group."""
-    w = np.array([[0.2, hard]]), np.array([[0.3, 1.0 - hard]])
-    assert contact_geometry.weight_beside.py_func(0, 0, 0, 1, *w) == 0.0
-    assert contact_geometry.weight_beside.py_func(0, 1, 0, 0, *w) == 1.0
 
 
 def sliver(share: float, n_r: float) -> tuple[float, float, float]:

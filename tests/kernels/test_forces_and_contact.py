@@ -22,7 +22,7 @@ from hydro2d.kernels.contact.contact_geometry import (
 from hydro2d.kernels.contact.contact_motion import SEED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
-from hydro2d.physics.contact_faces import GAP
+from hydro2d.physics.contact_faces import GAP, weights_beside
 from tests.kernels.cells import Cells
 
 ROWS = slice(2, 6)
@@ -244,8 +244,7 @@ def void_and_void(left: float, right: float) -> Cells:
 def test_the_aperture_of_a_face_is_a_mean_whatever_the_weights_add_up_to(left, right):
     """Two cells with some void each: no part of the face is lost."""
     cells = void_and_void(left * GAP, right * GAP)
-    on_left = contact_geometry.weight_beside(3, 4, 3, 5, cells.hard, cells.soft)
-    on_right = contact_geometry.weight_beside(3, 5, 3, 4, cells.hard, cells.soft)
+    on_left, on_right = weights_beside(3, 4, 3, 5, cells.hard, cells.soft)
     assert 0.8 < on_left * on_right < 1.0
     mean = (0.5 * on_left + 0.2 * on_right) / (on_left + on_right)
     assert cells.aperture_r[:, 3, 5] == pytest.approx([mean, mean], rel=1e-14)

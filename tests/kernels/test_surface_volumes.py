@@ -4,15 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z
-from hydro2d.kernels.contact.surface_volumes import (
-    contains,
-    even_out,
-    heat_evened_cells,
-    pressed_by,
-    push_of,
-    slip_at,
-    stands_out,
-)
+from hydro2d.kernels.contact.surface_volumes import even_out, heat_evened_cells
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.physics.contact_faces import GAP
@@ -59,16 +51,10 @@ class Surface(Cells):
         for name, value in (("sig_rr", rr), ("sig_zz", zz), ("sig_tt", tt), ("sig_rz", rz)):
             getattr(self, name)[MESH, MESH][j, i] = value
 
-    def of(self, function, j: int, i: int, *more):
-        """The value of a function of a cell."""
-        names = {"j": j + FIRST, "i": i + FIRST}
-        if more and function in (contains, pressed_by):
-            names["g"] = more[0]
-        return self.call(function, **names)
-
     def moved(self):
         """(volumes through faces along r and along z, growth of the cells, heat of both bodies of every cell in J)."""
         self.even_r[...], self.even_z[...] = np.nan, np.nan
+        self.soft[...], self.hard[...] = self.vof
         self.call(even_out, dt=0.1, volume=self.volumes)
         r, z = self.even_r[MESH, EDGES], self.even_z[EDGES, MESH]
         self.q[E] = 0.0
@@ -139,154 +125,6 @@ def test_nothing_evens_out_off_the_surface():
     assert (z[:, 3] == 0.0).all()
     assert (heat[:, :, 3] == 0.0).all()
     assert (r[:, [1, 2, 5]] != 0.0).all()
-
-
-# ---------------------------------------------------------------------------------- what stands out from its neighbours
-
-
-def test_the_middle_of_a_line_does_not_stand_out():
-    cells = along_z(1.0 + 2.0 * np.arange(N))
-    for j in range(1, N - 1):
-        assert cells.of(stands_out, j, 3) == pytest.approx(0.0, abs=1e-14)
-
-
-def test_of_a_pattern_every_cell_stands_out_by_its_whole_difference():
-    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
-    assert [cells.of(stands_out, j, 3) for j in range(1, N - 1)] == pytest.approx([-2.0, 2.0, -2.0, 2.0])
-
-
-def test_viscosity_counts_as_pressure():
-    cells = along_z(np.zeros(N))
-    cells.qr[FIRST + 2, FIRST + 3] = 4.0
-    assert cells.of(stands_out, 2, 3) == 4.0
-    assert cells.of(stands_out, 1, 3) == -2.0
-
-
-def test_the_end_of_a_surface_does_not_stand_out():
-    cells = along_z(np.arange(N) ** 2)
-    cells.skin[KIND, FIRST + 4, FIRST + 3] = WHOLE
-    assert cells.of(stands_out, 3, 3) == 0.0
-    assert cells.of(stands_out, 2, 3) == pytest.approx(-1.0)
-    cells.solid[FIRST + 2, FIRST + 3] = 1.0 - 0.5 * GAP  # and the one neighbour of (3, 3) counts by half
-    assert cells.of(stands_out, 3, 3) == 0.0
-    assert cells.of(stands_out, 0, 3) == cells.of(stands_out, 5, 3) == 0.0  # at edges of the mesh that are no walls
-
-
-@pytest.mark.parametrize(("edge", "j", "i"), [(0, 3, 0), (1, 3, N - 1), (2, 0, 3), (3, N - 1, 3)])
-def test_at_the_axis_and_at_walls_a_surface_goes_on_as_in_a_mirror(edge, j, i):
-    """Across it lies a cell of the same pressure, on the other side one of 1 Pa less."""
-    inward = (0, 1 if edge == 0 else -1) if edge < 2 else (1 if edge == 2 else -1, 0)
-    kind, pressure = np.full((N, N), WHOLE), np.full((N, N), 50.0)
-    for at, value in (((j, i), 3.0), ((j + inward[0], i + inward[1]), 2.0)):
-        kind[at], pressure[at] = INTERFACE, value
-    cells = Surface(pressure, kind)
-    assert cells.of(stands_out, j, i) == 0.0
-    cells.known["constrained"] = np.array([FIRST, FIRST + N, FIRST, FIRST + N])
-    assert cells.of(stands_out, j, i) == pytest.approx(0.5)
-
-
-def test_a_neighbour_with_void_does_not_count():
-    """Two are left, whose mean is -1; of three the mean would be 8."""
-    cells = along_z(np.zeros(N))
-    for j, i, pressure in ((2, 3, 0.0), (1, 3, -2.0), (3, 3, 0.0), (2, 4, 26.0)):
-        cells.skin[KIND, FIRST + j, FIRST + i], cells.ph[FIRST + j, FIRST + i] = INTERFACE, pressure
-    assert cells.of(stands_out, 2, 3) == pytest.approx(-8.0)
-    cells.solid[FIRST + 2, FIRST + 4] = 1.0 - GAP
-    assert cells.of(stands_out, 2, 3) == pytest.approx(1.0)
-    cells.solid[FIRST + 2, FIRST + 3] = 1.0 - GAP  # nor does it stand out itself
-    assert cells.of(stands_out, 2, 3) == 0.0
-
-
-def test_beside_a_neighbour_that_opens_a_cell_stands_out_less_and_less():
-    """It has only one other neighbour; halfway to GAP half is left of the pattern."""
-    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
-    for void, left in ((0.5 * GAP, 1.0), (GAP, 0.0)):
-        cells.solid[FIRST + 1, FIRST + 3] = 1.0 - void
-        assert cells.of(stands_out, 2, 3) == pytest.approx(left)
-
-
-@pytest.mark.parametrize("void", [0.0, GAP])
-@pytest.mark.parametrize("where", [(2, 3), (1, 3), (2, 4)])
-def test_a_cell_ceases_to_stand_out_without_a_jump(void, where):
-    def found(void):
-        cells = Surface(CHECKERS)
-        cells.solid[FIRST + where[0], FIRST + where[1]] = 1.0 - void
-        return cells.of(stands_out, 2, 3)
-
-    changes_in_proportion(found, void, 2.0 / GAP, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
-
-
-# ---------------------------------------------------------------------------------------------- who pushes, and how much
-
-
-def test_a_full_cell_pushes_with_its_least_principal_pressure():
-    cells = Surface(8.0, WHOLE)
-    for stress, push in (((-9.0, -4.0, -6.0), 4.0), ((-5.0, -9.0, -6.0), 5.0), ((-9.0, -9.0, 2.0), -2.0),
-                         ((-5.0, -5.0, -9.0, 2.0), 3.0)):  # fmt: skip
-        cells.press(2, 2, *stress)
-        assert cells.of(push_of, 2, 2) == pytest.approx(push)
-
-
-def test_a_full_cell_of_the_surface_pushes_with_its_common_pressure():
-    cells = Surface(8.0, viscosity=0.5)
-    cells.press(2, 2, 7.0, 7.0, 7.0)
-    assert cells.of(push_of, 2, 2) == 8.5
-
-
-@pytest.mark.parametrize("kind", [WHOLE, INTERFACE])
-def test_a_cell_with_void_does_not_push(kind):
-    cells = Surface(8.0, kind)
-    cells.press(2, 2, -8.0, -8.0, -8.0)
-    for void, push in ((0.999 * GAP, 8.0), (GAP, 0.0), (0.5, 0.0)):
-        cells.solid[FIRST + 2, FIRST + 2] = 1.0 - void
-        assert cells.of(push_of, 2, 2) == push
-    cells.solid[FIRST + 2, FIRST + 2], cells.bulk[FIRST + 2, FIRST + 2] = 1.0, 0.0  # nor does one without bodies
-    assert cells.of(push_of, 2, 2) == 0.0
-
-
-def test_a_cell_of_the_surface_counts_for_both_groups_another_one_for_what_fills_it():
-    cells = Surface()
-    cells.fill(SOFT, 1, 1)
-    cells.fill(HARD, 2, 2)
-    assert [[cells.of(contains, n, n, g) for g in (SOFT, HARD)] for n in range(3)] == [
-        [True, True], [True, False], [False, True]]
-    cells.fill(SOFT, 3, 3)
-    cells.vof[:, FIRST + 3, FIRST + 3] = 0.6, 0.4
-    assert [cells.of(contains, 3, 3, g) for g in (SOFT, HARD)] == [True, False]
-
-
-def test_a_group_presses_with_the_hardest_push_of_its_neighbours():
-    cells = Surface(kind=WHOLE)
-    cells.fill(SOFT, np.s_[:], np.s_[:])
-    for j, i, pressure in ((2, 2, 1.0), (2, 4, 4.0), (1, 3, 2.0), (3, 3, 3.0), (3, 4, 9.0), (2, 3, 9.0)):
-        cells.press(j, i, -pressure, -pressure, -pressure)
-    assert cells.of(pressed_by, 2, 3, SOFT) == 4.0
-    assert cells.of(pressed_by, 2, 3, HARD) == 0.0
-    cells.fill(HARD, 2, 4)
-    assert cells.of(pressed_by, 2, 3, SOFT) == 3.0
-    assert cells.of(pressed_by, 2, 3, HARD) == 4.0
-
-
-def test_a_stretched_neighbour_presses_on_nothing():
-    cells = Surface(kind=WHOLE)
-    cells.fill(SOFT, np.s_[:], np.s_[:])
-    cells.press(np.s_[:], np.s_[:], 2.0, -9.0, -9.0)
-    assert cells.of(pressed_by, 2, 3, SOFT) == 0.0
-
-
-@pytest.mark.parametrize(("along_r", "second"), [(True, (1, 0)), (False, (0, 1))])
-def test_slip_is_the_mean_over_a_face_of_the_speed_along_the_surface(along_r, second):
-    cells = Surface(slip=0.0)
-    j, i = FIRST + 2, FIRST + 3
-    for at, w_r, w_z in (((j, i), 3.0, 4.0), ((j + second[0], i + second[1]), 0.0, 10.0)):
-        cells.u[SOFT][at], cells.u[HARD][at], cells.v[SOFT][at], cells.v[HARD][at] = 1.0, 1.0 + w_r, -2.0, -2.0 + w_z
-
-    def slip(n_r, n_z):
-        return cells.call(slip_at, j=j, i=i, along_r=along_r, n_r=n_r, n_z=n_z)
-
-    assert slip(1.0, 0.0) == pytest.approx(7.0)
-    assert slip(0.0, -5.0) == pytest.approx(1.5)
-    assert slip(4.0, -3.0) == pytest.approx(0.5 * (abs(-3 * 3 - 4 * 4) + 4 * 10) / 5.0)
 
 
 # --------------------------------------------------------------------------------------------------- equation 9: closing

@@ -6,12 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import contact_faces
+from hydro2d.physics.contact_faces import GAP
 from tests.physics.cells import COLUMNS, GEOMETRIES, ROWS, polygon_volume, rate_of_volume, small
 from tests.physics.continuity import changes_in_proportion
 
 end_apertures = contact_faces.end_apertures.py_func
 known = contact_faces.known.py_func
 dual_share = contact_faces.dual_share.py_func
+weight_beside = contact_faces.weight_beside.py_func
+weights_beside = contact_faces.weights_beside.py_func
+own_inward = contact_faces.own_inward.py_func
 meeting = contact_faces.meeting.py_func
 blend = contact_faces.blend.py_func
 face_flow_r = contact_faces.face_flow_r.py_func
@@ -134,6 +138,158 @@ def test_parts_of_cells_count_by_their_share():
     arguments = 3, 3, edges_of(g), g.volume, g.metrics, hard, soft
     assert dual_share(HARD, *arguments) == pytest.approx(0.3)
     assert dual_share(SOFT, *arguments) == pytest.approx(0.2)
+
+
+# ------------------------------------------------------------------------------- weights of the cells beside a face
+
+
+def beside(void_here: float, void_there: float) -> tuple[float, float]:
+    """`weights_beside` of two cells with these shares of void, and those of `weight_beside` alike."""
+    hard, soft = np.full((2, 3, 3), np.nan)
+    hard[1, 1], soft[1, 1] = 0.3 * (1.0 - void_here), 0.7 * (1.0 - void_here)
+    hard[1, 2], soft[1, 2] = 0.6 * (1.0 - void_there), 0.4 * (1.0 - void_there)
+    found = weights_beside(1, 1, 1, 2, hard, soft)
+    assert found == (weight_beside(1, 1, 1, 2, hard, soft), weight_beside(1, 2, 1, 1, hard, soft))
+    return found
+
+
+def test_the_face_of_a_full_cell_beside_a_gap_is_its_own():
+    assert beside(0.0, 0.0) == (1.0, 1.0)
+    assert beside(0.0, 1.5 * GAP) == pytest.approx((1.0, 0.0), abs=1e-12)
+    assert beside(0.3, 0.0) == (0.0, 1.0)
+
+
+def test_of_two_cells_with_gaps_both_have_the_face():
+    assert beside(0.3, 0.2) == (1.0, 1.0)
+    assert beside(GAP, 2.0 * GAP) == (1.0, 1.0)
+
+
+def test_the_weight_of_a_cell_falls_from_half_of_gap_to_gap_and_a_half():
+    assert beside(0.5 * GAP, 0.0)[0] == 1.0
+    assert beside(GAP, 0.0)[0] == pytest.approx(0.5)
+    assert beside(0.3, 0.5 * GAP)[0] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(("other", "void"), [(1.0, 0.5 * GAP), (1.0, 1.5 * GAP), (1.0 - GAP, 0.5), (1.0, 0.5)])
+def test_a_full_cell_has_the_face_to_a_gap_for_itself(other, void):
+    """The weight of a cell with void on its face to a cell of the other group is nil, and becomes so without a jump."""
+    def weight(void: float, other: float) -> float:
+        hard, soft = np.array([[1.0 - void, 0.0]]), np.array([[0.0, other]])
+        assert weight_beside(0, 1, 0, 0, hard, soft) == 1.0 or other < 1.0 - 0.5 * GAP
+        return weight_beside(0, 0, 0, 1, hard, soft)
+
+    changes_in_proportion(lambda x: weight(x, other), void, 2.0 / GAP)
+    changes_in_proportion(lambda x: weight(void, x), other, 2.0 / GAP)
+    assert weight(0.5, 1.0) == 0.0
+    assert weight(0.5, 1.0 - GAP) == weight(0.5 * GAP, 1.0) == weight(0.5, 0.5) == 1.0
+
+
+@pytest.mark.parametrize("hard", [0.0, 0.4, 1.0])
+def test_a_cell_full_of_both_groups_has_the_face_to_a_gap_for_itself(hard):
+    """As one full of either group."""
+    w = np.array([[0.2, hard]]), np.array([[0.3, 1.0 - hard]])
+    assert weight_beside(0, 0, 0, 1, *w) == 0.0
+    assert weight_beside(0, 1, 0, 0, *w) == 1.0
+
+
+# -------------------------------------------------------------------------------------------- the own side of a group
+
+#: edges that are held, left, right, bottom, top: none; the axis; all
+NOWHERE, AXIS, MIRRORS = (-1, -1, -1, -1), (2, -1, -1, -1), (2, 6, 2, 6)
+
+
+def inward(soft, j: int, i: int, constrained=NOWHERE, mesh=(2, 6, 2, 6)) -> tuple[float, float]:
+    """`own_inward` at vertex (j, i) for shares in cells."""
+    return own_inward(j, i, np.array(mesh), np.array(constrained), np.asarray(soft, float))
+
+
+@pytest.mark.parametrize("filled", [0.2, 0.5, 1.0])
+def test_on_a_flat_surface_inward_is_the_normal(filled):
+    """The surface lies in the row of cells below the vertex, which are filled by this share."""
+    soft = np.zeros((8, 8))
+    soft[:3], soft[3] = 1.0, filled
+    assert inward(soft, 4, 4) == pytest.approx((0.0, -1.0), abs=1e-15)
+    assert inward(soft[::-1], 4, 4) == pytest.approx((0.0, 1.0), abs=1e-15)
+    assert inward(soft.T, 4, 4) == pytest.approx((-1.0, 0.0), abs=1e-15)
+    assert inward(soft.T[:, ::-1], 4, 4) == pytest.approx((1.0, 0.0), abs=1e-15)
+
+
+@pytest.mark.parametrize(("rows", "columns", "sign"), [(np.s_[:4], np.s_[:4], (-1, -1)), (np.s_[4:], np.s_[:4], (-1, 1)),
+                                                 (np.s_[:4], np.s_[4:], (1, -1)), (np.s_[4:], np.s_[4:], (1, 1))])
+def test_at_a_corner_inward_is_the_diagonal(rows, columns, sign):
+    soft = np.zeros((8, 8))
+    soft[rows, columns] = 1.0
+    assert inward(soft, 4, 4) == pytest.approx(np.array(sign) / np.sqrt(2.0))
+    assert inward(1.0 - soft, 4, 4) == pytest.approx(-np.array(sign) / np.sqrt(2.0))  # a corner of nothing in the body
+
+
+def test_of_what_is_two_cells_away_a_tenth_as_much_counts():
+    """By share over distance: (0.5, -0.5) and (-1.5, -1.5), a third as far and along the other diagonal."""
+    soft = np.zeros((8, 8))
+    soft[3, 4], soft[2, 2] = 1.0, 0.6
+    r, z = 0.5 / 0.5 - 0.6 * 1.5 / 4.5, -0.5 / 0.5 - 0.6 * 1.5 / 4.5
+    assert inward(soft, 4, 4) == pytest.approx((r / np.hypot(r, z), z / np.hypot(r, z)))
+    soft[1, 4] = soft[3, 6] = 1.0  # three cells away
+    assert inward(soft, 4, 4) == pytest.approx((r / np.hypot(r, z), z / np.hypot(r, z)))
+
+
+@pytest.mark.parametrize("filled", [0.2, 0.5, 1.0])
+@pytest.mark.parametrize("column", [2, 3, 4])
+def test_a_flat_surface_goes_on_beyond_the_axis(column, filled):
+    """Beside it as on it, inward is exactly along the axis, and so is it at an outer wall."""
+    soft = np.zeros((8, 8))
+    soft[:3], soft[3] = 1.0, filled
+    assert inward(soft, 4, column, AXIS) == pytest.approx((0.0, -1.0), abs=1e-15)
+    assert inward(soft[::-1], 4, column, AXIS) == pytest.approx((0.0, 1.0), abs=1e-15)
+    assert inward(soft, 4, 8 - column, (-1, 6, -1, -1)) == pytest.approx((0.0, -1.0), abs=1e-15)
+
+
+@pytest.mark.parametrize("row", [2, 3, 4])
+def test_an_upright_surface_goes_on_beyond_a_wall_across_the_axis(row):
+    soft = np.zeros((8, 8))
+    soft[:, :3], soft[:, 3] = 1.0, 0.4
+    assert inward(soft, row, 4, (-1, -1, 2, -1)) == pytest.approx((-1.0, 0.0), abs=1e-15)
+    assert inward(soft, 8 - row, 4, (-1, -1, -1, 6)) == pytest.approx((-1.0, 0.0), abs=1e-15)
+
+
+def test_at_an_edge_that_is_no_mirror_there_is_nothing_beyond():
+    """Inward is away from the edge as well: what is beyond the mesh does not count, whatever it is there."""
+    soft = np.zeros((8, 8))
+    soft[:3], soft[3] = 1.0, 0.4
+    for column, sign in ((2, 1.0), (3, 1.0), (4, 0.0), (5, -1.0), (6, -1.0)):
+        assert np.sign(inward(soft, 4, column)[0].round(12)) == sign, column
+    full = np.ones((8, 8))
+    assert [inward(full, *at) for at in ((4, 2), (4, 6), (2, 4), (6, 4))] == [
+        pytest.approx(way, abs=1e-15) for way in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))]
+
+
+@pytest.mark.parametrize("at", [(2, 2), (2, 3), (3, 2), (3, 3), (6, 6), (6, 5), (5, 6), (2, 6), (5, 3), (4, 2)])
+def test_mirrors_have_what_is_in_front_of_them(at):
+    """In a mesh between four mirrors, inward is the same as in a mesh of mirrored cells; on a mirror it lies in it."""
+    shares = np.random.default_rng(8).random((4, 4))
+    wide = np.pad(shares, 4, mode="symmetric")
+    unknown = np.full((8, 8), np.nan)
+    unknown[2:6, 2:6] = shares
+    here = inward(unknown, *at, MIRRORS)
+    assert here == pytest.approx(inward(wide, at[0] + 2, at[1] + 2, mesh=(0, 12, 0, 12)), abs=1e-14)
+    assert at[1] not in (2, 6) or here[0] == pytest.approx(0.0, abs=1e-15)
+    assert at[0] not in (2, 6) or here[1] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_a_mirror_elsewhere_is_none_at_the_edge():
+    """The edge that is held is compared with the mesh."""
+    soft = np.zeros((8, 8))
+    soft[:3], soft[3] = 1.0, 0.4
+    assert inward(soft, 4, 2, (3, -1, -1, -1)) == inward(soft, 4, 2)
+
+
+@pytest.mark.parametrize("share", [0.1, 1.0])
+def test_in_the_middle_of_a_film_nothing_is_inward(share):
+    soft = np.zeros((8, 8))
+    soft[3:5] = share
+    assert inward(soft, 4, 4) == (0.0, 0.0)
+    assert inward(soft.T, 4, 4) == (0.0, 0.0)
+    assert inward(np.zeros((8, 8)), 4, 4) == (0.0, 0.0)
 
 
 # ---------------------------------------------------------------------------------------------------------- meeting
