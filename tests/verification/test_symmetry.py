@@ -88,7 +88,7 @@ def test_mirrored_in_z(geometry, options):
 CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_factor="off"', "stop.cycles=320")
 
 
-@pytest.mark.xfail(reason="1.9e-7 m/s in 320 cycles, at a crumb of 1e-5 of a cell; 1e-7 are wanted, and nowhere else are missing")
+@pytest.mark.xfail(reason="1.9e-7 m/s in 320 cycles, at a crumb of 1e-5 of a cell, where 1e-7 are wanted")
 def test_contact_of_mirror_images():
     """Round-off of 1e-15 grows to less than 1e-7 m/s in 320 cycles, since nothing is decided by it."""
     up, down = (impact(sign=sign, options=CONTACT) for sign in (1, -1))
