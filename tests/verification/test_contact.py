@@ -10,7 +10,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.output.derived_quantities import Cells
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, contact, mesh, stop, table, walls
-from tests.verification.running import ADVECTION, Line, advection, between, finish
+from tests.verification.running import ADVECTION, Line, advection, between, finish, to_the_end
 
 FOLDER = "problems/sliding"
 #: the single velocity of all bodies, with which contact is compared
@@ -253,8 +253,9 @@ def test_no_body_flows_out_of_a_cell_in_which_it_is_not():
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize(("offset", "least"), [(0.0, 17.5), (0.1, 14.5), (0.4, 17.0), (0.7, 17.0)])
-def test_two_elastic_balls_rebound(offset, least):
+@pytest.mark.parametrize("offset", [0.0, *(pytest.param(offset, marks=pytest.mark.xfail(reason=f"{got} m/s, wanted 18.0"))
+                                           for offset, got in ((0.1, 15.5), (0.4, 17.96), (0.7, 17.9)))])  # fmt: skip
+def test_two_elastic_balls_rebound(offset):
     """Steel balls of 8 cells per radius meet at 20 m/s each, below all yield; both lie `offset` of a cell farther on.
 
     Wanted is a restitution of 0.95. They part at 15.5 to 18.5 m/s; until evening took only what alternates, at 2 to 7.
@@ -268,8 +269,6 @@ def test_two_elastic_balls_rebound(offset, least):
         + contact("one")
         + stop("60 us")
     )
-    simulation = Simulation(decks.loads(text))
-    while simulation.stop_reason() is None:
-        simulation.step()
-    assert simulation.mean_velocity(0) < -least
-    assert simulation.mean_velocity(1) > least
+    simulation = to_the_end(Simulation(decks.loads(text)))
+    assert simulation.mean_velocity(0) < -18.0
+    assert simulation.mean_velocity(1) > 18.0

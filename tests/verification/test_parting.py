@@ -10,16 +10,14 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, contact, mesh, stop
+from tests.verification.running import to_the_end
 
 MM = 1e-3
 OFFSETS = (0.0, 0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 def end(text: str) -> Simulation:
-    simulation = Simulation(decks.loads(text))
-    while simulation.stop_reason() is None:
-        simulation.step()
-    return simulation
+    return to_the_end(Simulation(decks.loads(text)))
 
 
 def off(text: str, speed: float, *velocities: float) -> tuple[float, float]:
