@@ -123,7 +123,7 @@ def face_apertures(j, w):
                 solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, w)
             if solid_l > 0.0 and solid_r > 0.0:
                 solid_l, solid_r = weights_beside(j, i - 1, j, i, w.hard, w.soft)
-            number = solid_l + solid_r if solid_l + solid_r > 0.0 else 1.0
+            number = max(solid_l + solid_r, 1.0)
             low = (solid_l * low_l + solid_r * low_r) / number
             high = (solid_l * high_l + solid_r * high_r) / number
             w.aperture_r[0, j, i] = known(low, w.mass[0, j, i], w.mass[1, j, i])
@@ -138,7 +138,7 @@ def face_apertures(j, w):
             solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, w)
         if solid_b > 0.0 and solid_t > 0.0:
             solid_b, solid_t = weights_beside(j - 1, i, j, i, w.hard, w.soft)
-        number = solid_b + solid_t if solid_b + solid_t > 0.0 else 1.0
+        number = max(solid_b + solid_t, 1.0)
         w.aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, w.mass[0, j, i], w.mass[1, j, i])
         w.aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, w.mass[0, j, i + 1], w.mass[1, j, i + 1])
     for k in range(w.contact_node_count[j]):
