@@ -257,8 +257,8 @@ def test_no_body_flows_out_of_a_cell_in_which_it_is_not():
     0.1, marks=pytest.mark.xfail(reason="15.5 m/s; wanted: 18"))])
 def test_two_elastic_balls_rebound(offset):
     """Steel balls of 8 cells per radius meet at 20 m/s each, below all yield; both lie `offset` of a cell farther on.
-    Wanted is a restitution of 0.95. They part at 18 m/s, at one place at 15.5; until evening took what alternates, at 2 to 7.
-    Wanted is a restitution of 0.95. They part at 18 m/s, at one place at 15.5; until evening took only what alternates, at 2 to 7.
+
+    Wanted is a restitution of 0.95. They part at 18 m/s, at one place at 15.5.
     """
     elastic = {"model": "elastic-plastic", "yield_stress": "50 GPa", "shear_modulus": "77 GPa"}
     text = (
