@@ -317,9 +317,10 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
     """Volumes, densities and energies of the bodies of a cut cell after the step.
 
     Each body takes the work of its own normal stress, the mean over the step, on the growth of its volume. The rest of the
-    cell's work (pressure, viscosity and hourglass filter, J per radian) is shared by mass.
+    cell's work (pressure and viscosity, J per radian) is shared by mass.
 
-    Reads    mix [j, GROWTH, m]; mix [j, NORMAL, m], its normal deviator before the step; mix [j, HEAT, m], the deviators' work
+    Reads    mix [j, GROWTH, m]; mix [j, NORMAL, m], its normal deviator before the step; mix [j, HEAT, m], the work of its
+             deviators, of ties and of the hourglass filter
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
     # Step 1: the work of each body on its own change of volume, and the rest, which all share

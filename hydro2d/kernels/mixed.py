@@ -189,14 +189,19 @@ def soften(j, i, w):
 
 
 @point
-def filter_work(j, i, motion, cell_mass):
-    """Work of the hourglass filter on a cell, by the groups' shares of its mass."""
-    work, mass = 0.0, 0.0
-    for g in range(cell_mass.shape[0]):
-        if cell_mass[g, j, i] > 0.0:
-            mass += cell_mass[g, j, i]
-            work += cell_mass[g, j, i] * motion[j, g, HOURGLASS]
-    return work / mass
+def heat_of_filter(j, i, w):
+    """Gives each group's bodies, by mass, the work of the hourglass filter on the motion of that group.
+
+    The filter acts on a group by the group's share of the mass of the cell (`group_force`).
+
+    Updates  mix [j, HEAT, m], J per radian
+    """
+    mass = 0.0
+    for m in range(w.vof.shape[0]):
+        mass += w.vof[m, j, i] * w.q[RHO, m, j, i] if w.vof[m, j, i] > 0.0 else 0.0
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0:
+            w.mix[j, HEAT, m] += w.vof[m, j, i] * w.q[RHO, m, j, i] / mass * w.motion[j, w.group[m], HOURGLASS]
 
 
 @point
@@ -213,7 +218,7 @@ def work_beside_gas(j, i, volume, change, inverse, work, target, relaxed, w):
     """Work in a cell that a gas shares with stiffer bodies: of each body's own pressure on its own change of volume, the rest
     by mass (explanation/mixed-cells, equation 6).
 
-    change is that of the volume, work that of pressure, viscosity and hourglass filter on the cell, and relaxed the share of a
+    change is that of the volume, work that of pressure and viscosity on the cell, and relaxed the share of a
     body's excess pressure over the target that it loses.
 
     Reads    mix [j, SOFT, m]; ph [j, i]
@@ -252,9 +257,8 @@ def fill_cell(j, i, change, volume, work_p, work_q, w):
             bound = min(bound, relaxation_bound(relaxation_strain(w.relaxation, w.pm[m, j, i], mean_p, w.km[m, j, i])))
     gas = is_beside_gas(j, i, w.gases, w.vof)
     if gas:
-        work = work_p + work_q + filter_work(j, i, w.motion, w.cell_mass)
         relaxed = bound * w.relaxation if w.tipton else 0.0
-        work_beside_gas(j, i, volume, change, inverse, work, mean_p, relaxed, w)
+        work_beside_gas(j, i, volume, change, inverse, work_p + work_q, mean_p, relaxed, w)
     after = volume + change
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
@@ -280,7 +284,7 @@ def deform_mixed(j, w):
 
     Fluids that fill a cell together share its change of volume by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m. Their
     pressures then relax, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar. Pressure work is shared by w_m, viscous
-    and hourglass work by volume fraction; deviatoric work goes to the body whose stress did it. In a cell with a gas, work is
+    and hourglass work by volume fraction (the latter by mass in a cut cell and beside a gas, to the group's own bodies); deviatoric work goes to the body whose stress did it. In a cell with a gas, work is
     shared as in `work_beside_gas` (explanation/mixed-cells). All bodies are treated so with `uniform`, and in the hard zone of
     a slip layer. Cut cells follow from the traction: `strain_bodies_across`, `fill_cut_cell`.
     Strength is by strength_mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
@@ -319,12 +323,14 @@ def deform_mixed(j, w):
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
                 heat_of_ties(j, i, g, w)
+        if cut or is_beside_gas(j, i, w.gases, w.vof):
+            heat_of_filter(j, i, w)
         cell_yield = strain_deviators(j, i, w.dt / volume, w)
         if cut:
             target = strain_bodies_across(j, i, own, cell_yield, change / volume, w)
         return_deviators(j, i, own, cell_yield, dominant, w)
         if cut:
-            fill_cut_cell(j, i, change, volume, target, work_p + work_q + filter_work(j, i, w.motion, w.cell_mass), w)
+            fill_cut_cell(j, i, change, volume, target, work_p + work_q, w)
         else:
             fill_cell(j, i, change, volume, work_p, work_q, w)
         push_bodies(j, i, w)

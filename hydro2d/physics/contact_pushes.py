@@ -10,6 +10,9 @@ from hydro2d.physics.contact_faces import GAP
 from hydro2d.physics.stress import least_pressure
 from hydro2d.physics.traction import INTERFACE, KIND, smoothstep
 
+#: share of a cell from which its group alone counts as being in it, as far as its neighbour across a mesh line goes
+ALONE = 0.9
+
 
 @point
 def push_of(j, i, skin, solid, bulk, ph, qr, sig_rr, sig_zz, sig_tt, sig_rz):
@@ -44,8 +47,18 @@ def pressed_by(g, j, i, hard, soft, skin, solid, bulk, ph, qr, sig_rr, sig_zz, s
 
 
 @point
-def stands_out(j, i, mesh_box, constrained, skin, solid, ph, qr):
-    """By how much p_c + q of a cell of the surface exceeds the mean of its neighbours in the surface, Pa.
+def along_surface(j, i, row, column, hard, soft):
+    """Whether neighbours of a contact lie along its surface: 1, or 0 where the surface is the face between them.
+
+    It is where one group fills the one and the other group the other.
+    """
+    return 1.0 - max(smoothstep((min(hard[j, i], soft[row, column]) - ALONE) / (1.0 - ALONE)),
+                     smoothstep((min(soft[j, i], hard[row, column]) - ALONE) / (1.0 - ALONE)))
+
+
+@point
+def stands_out(j, i, mesh_box, constrained, skin, hard, soft, solid, ph, qr):
+    """By how much p_c + q of a cell of the surface exceeds the mean of its neighbours along the surface, Pa.
 
     0 where there are no two neighbours. A cell counts as long as it has no void, up to GAP; the axis and
     walls are mirrors.
@@ -58,7 +71,7 @@ def stands_out(j, i, mesh_box, constrained, skin, solid, ph, qr):
                 number += 1.0
                 total += here
         elif skin[KIND, row, column] == INTERFACE:
-            part = smoothstep(1.0 - (1.0 - solid[row, column]) / GAP)
+            part = smoothstep(1.0 - (1.0 - solid[row, column]) / GAP) * along_surface(j, i, row, column, hard, soft)
             number += part
             total += part * (ph[row, column] + qr[row, column])
     if number <= 1.0:
@@ -68,10 +81,13 @@ def stands_out(j, i, mesh_box, constrained, skin, solid, ph, qr):
 
 @point
 def slip_at(j, i, along_r, n_r, n_z, u, v):
-    """Mean speed at which the groups slip along the surface with the normal n at the ends of face (j, i), m/s."""
+    """By how much the groups slip faster along the surface with the normal n than they close or open across it, m/s.
+
+    The mean of both ends of face (j, i). Bodies that meet close a gap; they do not slip.
+    """
     total, steep = 0.0, n_r * n_r + n_z * n_z
     for end in range(2):
         row, column = (j + end, i) if along_r else (j, i + end)
         w_r, w_z = u[1, row, column] - u[0, row, column], v[1, row, column] - v[0, row, column]
-        total += abs(w_z * n_r - w_r * n_z) / sqrt(steep)
+        total += max(abs(w_z * n_r - w_r * n_z) - abs(w_r * n_r + w_z * n_z), 0.0) / sqrt(steep)
     return 0.5 * total

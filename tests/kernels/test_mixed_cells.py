@@ -107,12 +107,16 @@ def test_shares_in_a_change_of_volume():
     assert mean == 15.0
 
 
-def test_the_filter_works_on_each_group_by_its_mass():
+def test_the_heat_of_the_filter_goes_to_the_group_whose_motion_it_damps():
+    """In shares of the mass of the cell, 1 to 4; within a group, by mass."""
     cell = Cell(group=(0, 1))
-    cell.cell_mass[:, *AT], cell.motion[2, :, HOURGLASS] = (1.0, 3.0), (8.0, 4.0)
-    assert cell.run(mixed.filter_work) == 5.0
-    cell.cell_mass[1, *AT] = 0.0
-    assert cell.run(mixed.filter_work) == 8.0
+    cell.motion[2, :, HOURGLASS] = 10.0, 0.0
+    cell.run(mixed.heat_of_filter)
+    assert cell.mix[2, HEAT].tolist() == pytest.approx([2.0, 0.0])
+    cell = Cell(group=(1, 1))
+    cell.motion[2, :, HOURGLASS] = 0.0, 10.0
+    cell.run(mixed.heat_of_filter)
+    assert cell.mix[2, HEAT].tolist() == pytest.approx([2.0, 8.0])
 
 
 def test_the_rise_of_the_pressure_of_a_cell():
@@ -236,13 +240,13 @@ def test_a_cell_without_change_keeps_its_bits():
 
 
 def test_a_gas_makes_a_cell_go_by_its_own_rule():
-    """As in `work_beside_gas`: 0.08 (10 + 1) J and 0.02 (10 + 1) J of 1.5 + 0.2; the rest by mass."""
+    """As in `work_beside_gas`: 0.08 (10 + 1) J and 0.02 (10 + 1) J of 1.5; the rest by mass."""
     cell = Cell()
     cell.known["gases"][0], cell.pm[:, *AT] = True, 12.0
-    cell.moving(filter=0.2)
+    cell.moving()
     filled(cell)
     own = 13.0 * np.array([0.08, 0.02])
-    assert cell.q[E, :, *AT] == pytest.approx(1 + (own + np.array([0.2, 0.8]) * (1.7 - own.sum())) / (1.0, 4.0))
+    assert cell.q[E, :, *AT] == pytest.approx(1 + (own + np.array([0.2, 0.8]) * (1.5 - own.sum())) / (1.0, 4.0))
 
 
 def test_the_whole_step_of_a_cell_of_two_gases():

@@ -13,6 +13,7 @@ counts_for = contact_pushes.counts_for.py_func
 pressed_by = contact_pushes.pressed_by.py_func
 stands_out = contact_pushes.stands_out.py_func
 slip_at = contact_pushes.slip_at.py_func
+along_surface = contact_pushes.along_surface.py_func
 
 #: cells of the mesh along either side, and the first of them after the ghosts
 N, FIRST = 6, 2
@@ -62,7 +63,8 @@ class Surface:
 
     def out(self, j: int, i: int) -> float:
         """`stands_out` of a cell."""
-        return stands_out(FIRST + j, FIRST + i, MESH_BOX, self.constrained, self.skin, self.solid, self.ph, self.qr)
+        return stands_out(FIRST + j, FIRST + i, MESH_BOX, self.constrained, self.skin, self.hard, self.soft, self.solid,
+                          self.ph, self.qr)
 
 
 #: up and down from cell to cell, in both directions
@@ -151,6 +153,40 @@ def test_a_cell_ceases_to_stand_out_without_a_jump(void, where):
     changes_in_proportion(found, void, 2.0 / GAP, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
 
 
+def filled(hard_below, hard_above, kind=INTERFACE):
+    """A surface along r with rows of cells on both sides that one group fills by these shares, under 1, 2, 4 ... 32 Pa."""
+    cells = Surface(2.0 ** np.arange(N), kind)
+    for rows, hard in ((np.s_[:3], hard_below), (np.s_[3:], hard_above)):
+        for group, share in ((cells.hard, hard), (cells.soft, 1.0 - hard)):
+            group[MESH, MESH][rows] = share
+    return cells
+
+
+def test_a_cell_across_the_surface_is_not_along_it():
+    """Between full cells of either group the surface is a mesh line: what is on its other side does not count."""
+
+    def along(hard_here, hard_there):
+        cells = filled(hard_here, hard_there)
+        found = [along_surface(FIRST + a, FIRST + 2, FIRST + b, FIRST + 2, cells.hard, cells.soft) for a, b in ((2, 3), (3, 2))]
+        assert found[0] == found[1]
+        return found[0]
+
+    assert along(1.0, 0.0) == along(0.0, 1.0) == 0.0
+    assert along(1.0, 1.0) == along(0.0, 0.0) == along(0.9, 0.0) == along(1.0, 0.1) == along(0.5, 0.5) == 1.0
+    assert along(0.95, 0.0) == pytest.approx(0.5)
+    assert along(0.95, 0.05) == pytest.approx(0.5)
+
+
+def test_two_rows_on_either_side_of_a_mesh_line_stand_out_as_one():
+    """In the row at the line a cell has two neighbours along the surface; the end of a surface does not stand out."""
+    cells = filled(1.0, 0.0)
+    cells.skin[KIND, MESH, MESH][[0, 1, 4, 5]] = WHOLE
+    for row in (2, 3):
+        assert cells.out(row, 2) == pytest.approx(4.0 - 0.5 * (2.0 + 8.0))
+    cells.skin[KIND, MESH, FIRST + 4:] = WHOLE
+    assert cells.out(2, 3) == cells.out(3, 3) == 0.0  # with the cell across, 8 - (4 + 8)/2
+
+
 # ---------------------------------------------------------------------------------------------- who pushes, and how much
 
 
@@ -236,7 +272,7 @@ def test_a_stretched_neighbour_presses_on_nothing():
 
 
 @pytest.mark.parametrize(("along_r", "second"), [(True, (1, 0)), (False, (0, 1))])
-def test_slip_is_the_mean_over_a_face_of_the_speed_along_the_surface(along_r, second):
+def test_slip_is_the_mean_over_a_face_of_what_goes_along_the_surface_beyond_what_closes(along_r, second):
     u, v = np.full((2, 2, N, N), np.nan)
     for at, w_r, w_z in (((2, 3), 3.0, 4.0), ((2 + second[0], 3 + second[1]), 0.0, 10.0)):
         u[SOFT][at], u[HARD][at], v[SOFT][at], v[HARD][at] = 1.0, 1.0 + w_r, -2.0, -2.0 + w_z
@@ -244,6 +280,15 @@ def test_slip_is_the_mean_over_a_face_of_the_speed_along_the_surface(along_r, se
     def slip(n_r, n_z):
         return slip_at(2, 3, along_r, n_r, n_z, u, v)
 
-    assert slip(1.0, 0.0) == pytest.approx(7.0)
-    assert slip(0.0, -5.0) == pytest.approx(1.5)
-    assert slip(4.0, -3.0) == pytest.approx(0.5 * (abs(-3 * 3 - 4 * 4) + 4 * 10) / 5.0)
+    assert slip(1.0, 0.0) == pytest.approx(0.5 * ((4.0 - 3.0) + 10.0))
+    assert slip(0.0, -5.0) == 0.0
+    assert slip(4.0, -3.0) == pytest.approx(0.5 * (5.0 + (4 * 10 - 3 * 10) / 5.0))
+
+
+def test_bodies_that_meet_do_not_slip():
+    """At a rim their surfaces are not normal to their velocities."""
+    u, v = np.zeros((2, 2, N, N))
+    v[HARD] = 40.0
+    for tilt in (0.0, 0.5, 1.0):
+        assert slip_at(2, 3, True, tilt, 1.0, u, v) == 0.0
+    assert slip_at(2, 3, True, 2.0, 1.0, u, v) == pytest.approx(40.0 / np.sqrt(5.0))

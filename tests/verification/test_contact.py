@@ -252,23 +252,24 @@ def test_no_body_flows_out_of_a_cell_in_which_it_is_not():
 # ------------------------------------------------------------------------------------------------ two balls that rebound
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("offset", [0.0, 0.4, 0.7, pytest.param(
-    0.1, marks=pytest.mark.xfail(reason="15.5 m/s; wanted: 18"))])
-def test_two_elastic_balls_rebound(offset):
-    """Steel balls of 8 cells per radius meet at 20 m/s each, below all yield; both lie `offset` of a cell farther on.
+@pytest.mark.parametrize(("cells", "offset"), [(8, 0.0), (8, 0.1), (8, 0.3), (8, 0.4), (8, 0.6), (8, 0.7), (8, 0.9), (12, 0.1),
+                                               (16, 0.3)])
+def test_two_elastic_balls_rebound(cells, offset):
+    """Steel balls of 8 to 16 cells per radius meet at 20 m/s each, below all yield, with a restitution of 0.95 or more.
 
-    Wanted is a restitution of 0.95. They part at 18 m/s, at one place at 15.5.
+    Both lie `offset` of a cell farther on. A rim that closes head on is no void that slip carries into the contact: while such
+    void was closed, 15.5 to 18.7 m/s were left. (On 16 cells, 18.98 m/s with their faces on a mesh line.)
     """
+    size = 4.0 / cells
     elastic = {"model": "elastic-plastic", "yield_stress": "50 GPa", "shear_modulus": "77 GPa"}
     text = (
-        mesh(("6 mm", 12), ("20 mm", 40))
+        mesh(("6 mm", round(6.0 / size)), ("20 mm", round(20.0 / size)))
         + table("materials.elastic", based_on="steel_4340", strength=elastic)
-        + body("one", "elastic", "sphere", centre=f"{5.5 + 0.5 * offset} mm", radius="4 mm", velocity="20 m/s")
-        + body("other", "elastic", "sphere", centre=f"{14.5 + 0.5 * offset} mm", radius="4 mm", velocity="-20 m/s")
+        + body("one", "elastic", "sphere", centre=f"{5.5 + size * offset} mm", radius="4 mm", velocity="20 m/s")
+        + body("other", "elastic", "sphere", centre=f"{14.5 + size * offset} mm", radius="4 mm", velocity="-20 m/s")
         + contact("one")
         + stop("60 us")
     )
     simulation = to_the_end(Simulation(decks.loads(text)))
-    assert simulation.mean_velocity(0) < -18.0
-    assert simulation.mean_velocity(1) > 18.0
+    assert simulation.mean_velocity(0) < -19.0
+    assert simulation.mean_velocity(1) > 19.0

@@ -4,11 +4,12 @@ import functools
 
 import numpy as np
 import pytest
+from numpy.lib.stride_tricks import sliding_window_view
 
 from hydro2d.deck import deck as decks
 from hydro2d.kernels.contact import contact_velocities
 from hydro2d.kernels.contact.extension import TIED
-from hydro2d.mesh.fields import EP, SRR, SRZ
+from hydro2d.mesh.fields import EP, SRR, SRZ, SZZ
 from hydro2d.solver import given
 from hydro2d.solver.audit import Audit
 from hydro2d.solver.simulation import Simulation
@@ -240,19 +241,29 @@ def shape(simulation):
 
 
 def checkerboards(simulation):
-    """Root mean squares of the pattern up and down in pressure and deviators of full cells, in the last twelve rows, Pa."""
+    """Root mean squares of what alternates from cell to cell in pressure and deviators in the last twelve rows, Pa.
+
+    As in the damping (explanation/sliding, equation 10): by how much a cell stands out at all four of its vertices. A stress
+    that bends over a few cells has a pattern of one sign at a vertex, but does not alternate.
+    """
     state, grid = simulation.state, simulation.grid
     f = grid.interior(state.vof[0])
     tip = np.flatnonzero(f[:, 0] > 0.5).max()
-    full = f[tip - 12 : tip + 1] == 1.0
-    around = full[:-1, :-1] & full[1:, :-1] & full[:-1, 1:] & full[1:, 1:]
-    assert around.sum() > 20
-    patterns = []
-    for stress in (state.pm[0], *state.q[SRR:SRZ + 1, 0]):
-        a = grid.interior(stress)[tip - 12 : tip + 1]
-        pattern = 0.25 * ((a[:-1, :-1] + a[1:, 1:]) - (a[1:, :-1] + a[:-1, 1:]))[around]
-        patterns.append(np.sqrt(np.mean(pattern**2)))
-    return patterns
+
+    def beside_axis(a, sign=1.0):
+        rows = grid.interior(a)[tip - 12 : tip + 1]
+        return np.concatenate([sign * rows[:, :1], rows], axis=1)
+
+    full = sliding_window_view(beside_axis(state.vof[0]) == 1.0, (3, 3)).all(axis=(2, 3))
+    assert full.sum() > 20
+    found = []
+    for stress, sign in ((state.pm[0], 1.0), (state.q[SRR, 0], 1.0), (state.q[SZZ, 0], 1.0), (state.q[SRZ, 0], -1.0)):
+        a = beside_axis(stress, sign)
+        at = 0.25 * ((a[:-1, :-1] + a[1:, 1:]) - (a[1:, :-1] + a[:-1, 1:]))
+        corners = np.array([at[:-1, :-1], -at[1:, :-1], at[1:, 1:], -at[:-1, 1:]])
+        out = np.where((corners > 0.0).all(axis=0) | (corners < 0.0).all(axis=0), np.abs(corners).min(axis=0), 0.0)
+        found.append(np.sqrt(np.mean(out[full] ** 2)))
+    return found
 
 
 @functools.cache
@@ -280,11 +291,11 @@ def test_an_undeformable_nose_keeps_its_shape():
 
 
 def test_no_checkerboard_stays_in_the_nose():
-    """Pressure and deviators go up and down from cell to cell by 33 to 50 MPa, the median in time; they did by 70 to 100.
+    """Pressure and deviators go up and down from cell to cell by 1 to 13 MPa, the median in time; undamped by 12 to 80.
 
-    Single moments lie between 14 and 140, by chance.
+    The pattern at single vertices is 31 to 55 MPa, but it is that of a stress of 2 GPa which bends within six cells.
     """
-    assert np.median(flight()[1], axis=0).max() < 55e6
+    assert np.median(flight()[1], axis=0).max() < 15e6
 
 
 def test_an_undeformable_shank_keeps_its_radius():

@@ -12,7 +12,7 @@ from hydro2d.kernels.cut_cells import INTERFACE, KIND
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R
 from hydro2d.physics.contact_faces import GAP, alternation, closed_volume, evened_volume
-from hydro2d.physics.contact_pushes import pressed_by, push_of, slip_at, stands_out
+from hydro2d.physics.contact_pushes import along_surface, pressed_by, push_of, slip_at, stands_out
 from hydro2d.physics.traction import smoothstep
 
 
@@ -29,9 +29,9 @@ def surface_volume(j, i, row, column, w):
     moved = 0.0
     if here_meets and there_meets:
         compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
-        moved = evened_volume(compliance, alternation(here - there,
-            stands_out(j, i, w.mesh_box, w.constrained, w.skin, w.solid, w.ph, w.qr),
-            stands_out(row, column, w.mesh_box, w.constrained, w.skin, w.solid, w.ph, w.qr)))
+        moved = along_surface(j, i, row, column, w.hard, w.soft) * evened_volume(compliance, alternation(here - there,
+            stands_out(j, i, w.mesh_box, w.constrained, w.skin, w.hard, w.soft, w.solid, w.ph, w.qr),
+            stands_out(row, column, w.mesh_box, w.constrained, w.skin, w.hard, w.soft, w.solid, w.ph, w.qr)))
     opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
         smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
     if opened == 0.0:
