@@ -7,7 +7,7 @@ from hydro2d.kernels.plastic_return import flow, return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, LANES, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.corner import hourglass_square, stress_power
+from hydro2d.physics.corner import filter_power, stress_power
 from hydro2d.physics.kinematics import velocity_gradient
 from hydro2d.physics.plasticity import forget, is_fluid, keep_internal, take_internal
 from hydro2d.physics.stress import turn_and_strain, von_mises
@@ -20,7 +20,7 @@ from strength.radial_return import return_together
 def strain_row(m, j, b, w):
     """Energy and elastic trial deviators of body m in the cells of row j that it fills.
 
-    Reads    u0, v0, u, v [b, j, i]; sig_.., hg_coefficient [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
+    Reads    u0, v0, u, v, filter_r, filter_z [b, j, i]; sig_.. [j, i]; vof [m, j, i]; scratch [0, b, i], shear modulus
     Updates  q (energy, deviators) [k, m, j, i]
     Writes   scratch [1, b, i], von Mises norm of the trial: negative up to the cutoff density, 0 where the body fills no
              cell, and without a shear modulus; scratch [2, b, i], spin
@@ -31,7 +31,8 @@ def strain_row(m, j, b, w):
     zz_j = w.sig_zz[j]
     tt_j = w.sig_tt[j]
     rz_j = w.sig_rz[j]
-    hg_j = w.hg_coefficient[j]
+    push_r = w.filter_r[g, j]
+    push_z = w.filter_z[g, j]
     shear_j = w.scratch[0, b]
     trial_j = w.scratch[1, b]
     spin_j = w.scratch[2, b]
@@ -58,7 +59,7 @@ def strain_row(m, j, b, w):
         rr, tt, zz, rbz, zbr = after
         work = 0.5 * w.dt * (
             stress_power(rr_j[i], tt_j[i], zz_j[i], rz_j[i], before, after)
-            + hg_j[i] * hourglass_square(i, ub0, ut0, vb0, vt0, ub, ut, vb, vt))
+            + filter_power(i, push_r[i], push_z[i], ub0, ut0, vb0, vt0, ub, ut, vb, vt))
         rho = rho_j[i]
         gain = work / (rho * volume)
         e_j[i] += gain if pure else 0.0
@@ -202,7 +203,7 @@ def deform(j, part, w):
     the deviators are strained with the velocities at the end of the step (explanation/lagrangian-step, equations 5 and
     7). Failed and molten material and material at or below its cutoff density carries no deviator.
 
-    Reads    group [m]; u0, v0, u, v [b, j, i]; fr, fz, sig_.., hg_coefficient [j, i]; vof, pm, tm [m, j, i]
+    Reads    group [m]; u0, v0, u, v, filter_r, filter_z [b, j, i]; fr, fz, sig_.. [j, i]; vof, pm, tm [m, j, i]
     Updates  q [k, m, j, i]
     Scratch  scratch [s, part, i], shear modulus, trial stress and spin; internal [j, k]; lanes [part, k]
     """

@@ -41,12 +41,12 @@ from hydro2d.kernels.mixed_strength import (
     strain_deviators,
     work_of_deviators,
 )
-from hydro2d.kernels.thermodynamics import compression_viscosity_row, pressures_row, viscosity_row
+from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
 from hydro2d.mesh.fields import DMG, RHO, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
-from hydro2d.physics.corner import hourglass_square
+from hydro2d.physics.corner import filter_power
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import velocity_gradient
 from hydro2d.physics.stress import release
@@ -110,10 +110,8 @@ def insert_void_mixed_row(j, w):
 def close_cells(j, part, w):
     """Equation of state, void where a cell fractures, and artificial viscosity.
 
-    The viscosity acts in the directions of the mesh, or with along_compression in that of the strongest compression.
-
-    Reads, updates and writes as pressures_row, insert_void_mixed_row, and viscosity_row or compression_viscosity_row, and
-             the list of mixed cells;  writes row_step [j], no limit yet
+    Reads, updates and writes as pressures_row, insert_void_mixed_row, and viscosity_row, and the list of mixed cells; writes
+             row_step [j], no limit yet
     Scratch  scratch [s, part, i]
     """
     pressures_row(j, part, w)
@@ -126,10 +124,7 @@ def close_cells(j, part, w):
         if w.skin[KIND, j, i] != WHOLE:
             w.p[j, i], w.bulk[j, i] = common_traction(j, i, w)
     insert_void_mixed_row(j, w)
-    if w.along_compression:
-        compression_viscosity_row(j, w)
-    else:
-        viscosity_row(j, w)
+    viscosity_row(j, w)
     w.row_step[j] = 1e300
 
 
@@ -152,8 +147,8 @@ def cell_motion(j, i, g, w):
     w.motion[j, g, MEAN_TT] = 0.5 * (a_tt + tt)
     w.motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
     w.motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
-    w.motion[j, g, HOURGLASS] = 0.5 * w.dt * w.hg_coefficient[j, i] * hourglass_square(
-        i, w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1])
+    w.motion[j, g, HOURGLASS] = 0.5 * w.dt * filter_power(
+        i, w.filter_r[g, j, i], w.filter_z[g, j, i], w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1])
 
 
 @point

@@ -90,7 +90,6 @@ METHOD = (
     Work("courant", "", "Courant number: share of the time in which a wave crosses a cell"),
     Work("shock_courant", "", "Courant number in a shock"),
     Work("advective_courant", "", "share of a cell that a vertex may cross in a step"),
-    Work("along_compression", "", "whether viscosity acts along the compression alone", bool),
     Work("viscosity_linear", "", "linear coefficient of the viscosity"),
     Work("viscosity_quadratic", "", "quadratic coefficient of the viscosity"),
     Work("hourglass", "", "coefficient of the hourglass filter"),

@@ -12,7 +12,7 @@ from hydro2d.kernels.column_ranges import columns, mixed_row, outer_rows
 from hydro2d.kernels.interfaces import flux_range
 from hydro2d.mesh.fields import DMG, LEAST, MOST, PER_MASS, RHO, SRR, SRZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT
-from hydro2d.physics.advection import TINY, upwind
+from hydro2d.physics.advection import TINY, steepness_at, upwind
 from hydro2d.physics.traction import smoothstep
 
 #: share of its upper bound from which a field counts as at it: round-off in the mean of ones must not heal failed material
@@ -26,8 +26,8 @@ def flux_row(dj, j, m, slot, b, w):
     """Fluxes through the faces of row j of the fields that body m carries.
 
     Second order and monotone in cells whose neighbours are full of the same body. The slope fades out towards cells filled by
-    less than FILLED; in and next to these the donor's own value is taken. No slope is larger than steepness times the smaller
-    difference to a neighbour. Specific quantities use the mass coordinate, deviators the volume coordinate (explanation/remap,
+    less than FILLED; in and next to these the donor's own value is taken. No slope is larger than the steepness times the smaller
+    difference to a neighbour (`steepness_at`). Specific quantities use the mass coordinate, deviators the volume coordinate (explanation/remap,
     equation 4), both of the body alone: no cell loses more of the body than it has.
 
     Reads    carried [m, n], how many rows of q the body carries in addition to its density, and which;
@@ -52,13 +52,15 @@ def flux_row(dj, j, m, slot, b, w):
         mass = w.flux[RHO, m, slot, lo:hi]
         half_v = w.scratch[0, b, lo:hi]
         half_m = w.scratch[1, b, lo:hi]
+        steep = w.scratch[2, b, lo:hi]
         for x in range(n):
             up = swept[x] > 0.0
             left, right = f_ll[x], f_rr[x]  # read before the choice, which would otherwise be a gather
             volume_l, volume_r = f_l[x] * size_l[x], f_r[x] * size_r[x]
             least = min(min(f_l[x], f_r[x]), left if up else right)
             clean = 0.5 * smoothstep((least - FILLED) / (1.0 - FILLED))
-            donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], w.steepness)
+            steep[x] = steepness_at(up, r_ll[x], r_l[x], r_r[x], r_rr[x], w.steepness)
+            donor, slope = upwind(up, r_ll[x], r_l[x], r_r[x], r_rr[x], steep[x])
             volume = max(volume_l if up else volume_r, TINY)
             half_v[x] = clean * (1.0 - abs(swept[x]) / volume)
             flow = swept[x] * (donor + half_v[x] * slope)
@@ -75,7 +77,7 @@ def flux_row(dj, j, m, slot, b, w):
             carrier = w.flux[RHO, m, slot, lo:hi] if by_mass else w.flux_volume[m, j, lo:hi]
             weight = w.scratch[1 if by_mass else 0, b, lo:hi]
             for x in range(n):
-                donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x], w.steepness)
+                donor, slope = upwind(swept[x] > 0.0, a_ll[x], a_l[x], a_r[x], a_rr[x], steep[x])
                 out[x] = carrier[x] * (donor + weight[x] * slope)
 
 

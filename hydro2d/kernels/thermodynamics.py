@@ -248,58 +248,6 @@ def row_minimum(a, first, number):
 
 @rowwise
 def viscosity_row(j, w):
-    """Artificial viscosity direction by direction of the mesh.
-
-    q_r depends only on the radial difference du, q_z only on the axial one (a shock along z must not see dr), and either on no
-    more than the loss of volume, |div u| dx: at a stagnation point, where compression in one direction is expansion in the
-    other, there is no shock and no q. Christensen's limiter switches both off where the velocity is smooth. So does more than a
-    little void (`shut`), which closes before anything is compressed. The hoop stress has q_r (explanation/lagrangian-step).
-
-    Reads    u, v [b, j, i]; rhobar, bulk, solid, cl [j, i]; dt, the last step
-    Writes   qr, qz, qt [j, i]
-    """
-    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
-    ub = w.u[0, j]
-    ut = w.u[0, j + 1]
-    vbb = w.v[0, j - 1]
-    vb = w.v[0, j]
-    vt = w.v[0, j + 1]
-    vtt = w.v[0, j + 2]
-    qr_j = w.qr[j]
-    qz_j = w.qz[j]
-    qt_j = w.qt[j]
-    rho_j = w.rhobar[j]
-    cl_j = w.cl[j]
-    bulk_j = w.bulk[j]
-    solid_j = w.solid[j]
-    h = w.dz[j]
-    for x in range(n):
-        i = lo + x
-        void = rho_j[i] == 0.0
-        rho = 1.0 if void else rho_j[i]
-        du = 0.5 * ((ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i]))
-        du_l = 0.5 * ((ub[i] - ub[i - 1]) + (ut[i] - ut[i - 1]))
-        du_r = 0.5 * ((ub[i + 2] - ub[i + 1]) + (ut[i + 2] - ut[i + 1]))
-        dv = 0.5 * ((vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1]))
-        dv_b = 0.5 * ((vb[i] - vbb[i]) + (vb[i + 1] - vbb[i + 1]))
-        dv_t = 0.5 * ((vtt[i] - vt[i]) + (vtt[i + 1] - vt[i + 1]))
-        c = bulk_j[i] / rho
-        c = sqrt(c) if c > 0.0 else cl_j[i]
-        loss = -divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
-        du_q = max(du, -max(loss, 0.0) * w.dr[i])
-        dv_q = max(dv, -max(loss, 0.0) * h)
-        full = shut(solid_j[i])
-        run = w.dt * cl_j[i]
-        linear_r, linear_z = linear_in_step(w.viscosity_linear, run / w.dr[i]), linear_in_step(w.viscosity_linear, run / h)
-        q_r = full * directional_viscosity(rho, c, du_q, smoothness(du_l, du, du_r), linear_r, w.viscosity_quadratic)
-        q_z = full * directional_viscosity(rho, c, dv_q, smoothness(dv_b, dv, dv_t), linear_z, w.viscosity_quadratic)
-        qr_j[i] = 0.0 if void else q_r
-        qz_j[i] = 0.0 if void else q_z
-        qt_j[i] = qr_j[i]
-
-
-@rowwise
-def compression_viscosity_row(j, w):
     """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, no hoop stress.
 
     q depends on the difference of the velocity along n over the cell, at most on the loss of volume times its length. It is

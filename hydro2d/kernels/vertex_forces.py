@@ -10,7 +10,7 @@ from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
 from hydro2d.physics.corner import axial_force, hourglass_force, radial_force
-from hydro2d.physics.kinematics import divergence
+from hydro2d.physics.kinematics import alternating_mode, divergence
 from hydro2d.physics.momentum import corner_sum
 from hydro2d.physics.traction import strained_pressure
 
@@ -26,6 +26,26 @@ def mixed_stress(j, i, w):
             rr, zz = w.solid[j, i] * w.q[SRR, m, j, i], w.solid[j, i] * w.q[SZZ, m, j, i]
             return rr, zz, -(rr + zz), w.solid[j, i] * w.q[SRZ, m, j, i]
     return bodies_stress(-1, j, i, w)
+
+
+@rowwise
+def filter_row(b, j, w):
+    """What the hourglass filters of row j push with: their coefficient times what alternates of the mode of group b.
+
+    Reads    u0, v0, cell_mass [b, j, i]; hg_coefficient [j, i]
+    Writes   filter_r, filter_z [b, j, i], N per radian
+    """
+    lo, n = columns(w.active_range[j, 0], w.active_range[j, 1])
+    u = w.u0[b]
+    v = w.v0[b]
+    mass = w.cell_mass[b]
+    hg_j = w.hg_coefficient[j]
+    r_j = w.filter_r[b, j]
+    z_j = w.filter_z[b, j]
+    for x in range(n):
+        i = lo + x
+        r_j[i] = hg_j[i] * alternating_mode(j, i, u, mass)
+        z_j[i] = hg_j[i] * alternating_mode(j, i, v, mass)
 
 
 @cell_rows
@@ -90,6 +110,8 @@ def total_stress(j, w):
         zz[i] = own_zz - ph_j[i] - qz_j[i]
         tt[i] = own_tt - ph_j[i] - qt_j[i]
         rz[i] = own_rz - qrz_j[i]
+    for b in range(w.u0.shape[0]):
+        filter_row(b, j, w)
 
 
 @vertex_rows
@@ -170,7 +192,7 @@ def accelerate_row(b, j, w):
     The cells take the work of the same corner forces (`hydro2d.physics.corner`) in `deform` (explanation/lagrangian-step,
     equations 4 to 6). Contact nodes are left to the contact (explanation/sliding).
 
-    Reads    u0, v0, mass [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz, hg_coefficient (of the hourglass filter) [j, i]
+    Reads    u0, v0, mass, filter_r, filter_z [b, j, i]; sig_rr, sig_zz, sig_tt, sig_rz [j, i]
     Writes   u, v [b, j, i] for whole rows
     """
     lo, n = accelerated_columns(b, j, w)
@@ -186,8 +208,8 @@ def accelerate_row(b, j, w):
         # Step 1: forces of the stresses of the four cells around the vertex, and of their hourglass filters (4 and 6)
         force_r = radial_force(j, i, w.sig_rr, w.sig_tt, w.sig_rz, w.metrics, w.dz)
         force_z = axial_force(j, i, w.sig_zz, w.sig_rz, w.metrics, w.dz)
-        force_r += hourglass_force(j, i, w.hg_coefficient, w.u0[b])
-        force_z += hourglass_force(j, i, w.hg_coefficient, w.v0[b])
+        force_r += hourglass_force(j, i, w.filter_r[b])
+        force_z += hourglass_force(j, i, w.filter_z[b])
         # Step 2: the velocity (5); a vertex without mass has none
         keep = 1.0 if m_j[i] > 0.0 else 0.0
         scale = keep * w.dt / max(m_j[i], TINY)

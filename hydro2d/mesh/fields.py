@@ -174,6 +174,8 @@ WORK = (
     Work("mixed", "j i", "their columns", int),
     Work("skin", "3 j i", "normal of the surface that cuts a cell, its square the weight; kind of cut cell"),
     Work("mix", "j 17 m", "data of each body in a mixed cell while it deforms"),
+    Work("filter_r", "b j i", "force of the hourglass filter on the radial velocities of a cell, N per radian"),
+    Work("filter_z", "b j i", "the same along z"),
     Work("motion", "j b 10", "velocity gradient of a group in a mixed cell"),
     Work("internal", "j n", "internal variables of a body in a cell while it deforms"),
     Work("strips", "j 3 4 m", "each body in the strips that two faces of a mixed cell sweep, and in all of it"),

@@ -66,15 +66,12 @@ def axial_force(j, i, zz, rz, metrics, dz):
 
 
 @point
-def hourglass_force(j, i, kappa, u):
+def hourglass_force(j, i, pushes):
     """Force of the hourglass filters of the four cells around vertex (j, i), N per radian (equation 6).
 
-    kappa : coefficients of the filter [j, i], kg/s per radian;  u : one component of the velocity [j, i], m/s
+    pushes : what the filter of a cell pushes with along r or z [j, i], N per radian
     """
-    b, k = j - 1, i - 1
-    inner = kappa[j, k] * hourglass_mode(k, u[j], u[j + 1]) - kappa[b, k] * hourglass_mode(k, u[b], u[j])
-    outer = kappa[b, i] * hourglass_mode(i, u[b], u[j]) - kappa[j, i] * hourglass_mode(i, u[j], u[j + 1])
-    return inner + outer
+    return (pushes[j, i - 1] - pushes[j - 1, i - 1]) + (pushes[j - 1, i] - pushes[j, i])
 
 
 @point
@@ -89,11 +86,11 @@ def stress_power(rr, tt, zz, rz, before, after):
 
 
 @point
-def hourglass_square(i, u0_b, u0_t, v0_b, v0_t, u_b, u_t, v_b, v_t):
-    """h . (h + h') of cell i, m^2/s^2, with its hourglass modes at the start and at the end of a step.
+def filter_power(i, push_r, push_z, u0_b, u0_t, v0_b, v0_t, u_b, u_t, v_b, v_t):
+    """Twice the power that the hourglass filter of cell i takes from the motion, W per radian.
 
-    Times the coefficient of the filter: twice the power that its forces, made of h, take from the motion.
+    push_r, push_z : what it pushes with, N per radian; velocities at the start and at the end of a step, m/s
     """
     h_u0, h_v0 = hourglass_mode(i, u0_b, u0_t), hourglass_mode(i, v0_b, v0_t)
     h_u, h_v = hourglass_mode(i, u_b, u_t), hourglass_mode(i, v_b, v_t)
-    return h_u0 * (h_u0 + h_u) + h_v0 * (h_v0 + h_v)
+    return push_r * (h_u0 + h_u) + push_z * (h_v0 + h_v)

@@ -23,6 +23,26 @@ def hourglass_mode(i, b, t):
 
 
 @point
+def alternating_mode(j, i, u, mass):
+    """Part of the hourglass mode of cell (j, i) that alternates from cell to cell: minmod(h, (h - h_mean)/2).
+
+    h_mean is the mean of the neighbours', a neighbour with less mass than the cell counting less. A smooth field has nearly the
+    same mode in them, the shortest wave the opposite one (explanation/lagrangian-step, equation 6).
+
+    u : one component of the velocity [j, i], m/s;  mass : of the cells [j, i], kg
+    """
+    here, own = hourglass_mode(i, u[j], u[j + 1]), mass[j, i]
+    left, right = min(mass[j, i - 1], own), min(mass[j, i + 1], own)
+    below, above = min(mass[j - 1, i], own), min(mass[j + 1, i], own)
+    around = (left * hourglass_mode(i - 1, u[j], u[j + 1]) + right * hourglass_mode(i + 1, u[j], u[j + 1])) + (
+        below * hourglass_mode(i, u[j - 1], u[j]) + above * hourglass_mode(i, u[j + 1], u[j + 2]))
+    total = (left + right) + (below + above)
+    excess = 0.5 * (here - (around / total if total > 0.0 else -here))
+    size = min(abs(here), abs(excess)) if here * excess > 0.0 else 0.0
+    return size if here > 0.0 else -size
+
+
+@point
 def divergence(i, ub, ut, vb, vt, metrics, h):
     """Rate of volume change per volume of cell i from its four vertices (explanation/lagrangian-step, equation 2)."""
     radial = 0.5 * h * (metrics[FACE_R, i + 1] * (ub[i + 1] + ut[i + 1]) - metrics[FACE_R, i] * (ub[i] + ut[i]))

@@ -24,7 +24,6 @@ class Method:
     ramp_cycles: int
     initial_dt_factor: float
     dt_min: float
-    along_compression: bool
     viscosity_linear: float
     viscosity_quadratic: float
     hourglass: float
@@ -77,7 +76,6 @@ class Method:
             ramp_cycles=n.ramp_cycles,
             initial_dt_factor=n.initial_dt_factor,
             dt_min=n.dt_min,
-            along_compression=n.viscosity_along == "compression",
             viscosity_linear=n.viscosity_linear,
             viscosity_quadratic=n.viscosity_quadratic,
             hourglass=n.hourglass,

@@ -42,7 +42,7 @@ class Cells:
         none = np.full(4, -1)
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
                       "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": none, "pushing": none,
-                      "transmitting": none, "along_compression": False, "dj": 0, "di": 1, "steepness": 2.0,
+                      "transmitting": none, "dj": 0, "di": 1, "steepness": 2.0,
                       "gases": np.zeros(bodies, dtype=bool),
                       "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 

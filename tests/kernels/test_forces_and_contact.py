@@ -95,8 +95,7 @@ def accelerated(pushed: np.ndarray = NOTHING, **fields) -> Cells:
     cells = Cells()
     cells.mass[...] = 1.0
     for name, value in fields.items():
-        getattr(cells, name)[3, 3] = value
-    cells.u0[0, 3:5, 3:5] = fields.get("hg_coefficient", 0.0) / 10.0 * np.array([[1, -1], [-1, 1]])
+        getattr(cells, name)[..., 3, 3] = value
     cells.call(vertex_forces.accelerate, dt=0.1, pushed=pushed)
     return cells
 
@@ -116,9 +115,34 @@ def test_shear_turns_a_cell():
 
 
 def test_the_filter_works_against_the_hourglass():
-    """u0 - u1 + u2 - u3 = 4 m/s, 10 kg/s: 40 N on 1 kg in 0.1 s."""
-    cells = accelerated(hg_coefficient=10.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-3, 3], [3, -3]]))
+    """40 N on 1 kg in 0.1 s, against u0 - u1 + u2 - u3 > 0."""
+    cells = accelerated(filter_r=40.0)
+    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-4, 4], [4, -4]]))
+    assert not cells.v.any()
+    assert accelerated(filter_z=40.0).v[0, 3:5, 3:5] == pytest.approx(np.array([[-4, 4], [4, -4]]))
+
+
+def pushes_of(mode) -> np.ndarray:
+    """What the filters of cells of 1 kg and 10 kg/s push with along r where mode[j, i] (m/s) is their hourglass mode."""
+    cells = Cells()
+    cells.hg_coefficient[...], cells.cell_mass[0] = 10.0, 1.0
+    cells.u0[0, 1:, 1:] = np.cumsum(np.cumsum(mode, axis=0), axis=1)[: cells.u0.shape[1] - 1, : cells.u0.shape[2] - 1]
+    for row in range(2, 6):
+        cells.call(vertex_forces.filter_row, as_python=True, j=row)
+    return cells.filter_r[0, 2:6, 2:6]
+
+
+def test_the_filter_acts_on_what_alternates_alone():
+    """A mode of one sign everywhere belongs to a smooth field; the shortest wave changes it from cell to cell."""
+    one = np.ones((8, 8))
+    checkers = one * (-1.0) ** np.add.outer(np.arange(8), np.arange(8))
+    assert pushes_of(4.0 * one) == pytest.approx(0.0, abs=1e-11)
+    assert np.abs(pushes_of(4.0 * checkers)) == pytest.approx(40.0)
+    both = pushes_of(3.0 * one + checkers)  # 4 and 2 m/s: (4 - 2)/2, and nothing where the excess has the other sign
+    assert both[both > 1.0] == pytest.approx(10.0)
+    assert np.count_nonzero(both > 1.0) == 8
+    assert both[both < 1.0] == pytest.approx(0.0, abs=1e-11)
+    assert np.unique(np.sign(pushes_of(checkers))).tolist() == [-1.0, 1.0]
 
 
 def test_the_push_of_sources_is_added():
@@ -388,7 +412,7 @@ def test_both_ways_of_summing_the_corner_forces_agree():
     cells.q[SRR, 0], cells.q[SZZ, 0], cells.q[SRZ, 0] = random.standard_normal((3, *cells.grid.shape))
     cells.sig_rr[...], cells.sig_zz[...], cells.sig_rz[...] = cells.q[[SRR, SZZ, SRZ], 0]
     cells.sig_tt[...] = -(cells.sig_rr + cells.sig_zz)
-    cells.hg_coefficient[...] = random.uniform(0.0, 1.0, cells.grid.shape)
+    cells.filter_r[0], cells.filter_z[0] = random.standard_normal((2, *cells.grid.shape))
     cells.u0[0], cells.v0[0] = random.standard_normal((2, *cells.grid.vertex_shape))
     cells.call(vertex_forces.accelerate, dt=0.1, pushed=NOTHING)
     inside = np.s_[0, 3:6, 3:6]

@@ -82,17 +82,17 @@ class Cell(Cells):
 
 
 def test_the_motion_of_a_cell():
-    """u = r at the beginning and 3 r at the end, a shear of v by r, and an hourglass in u."""
+    """u = r at the beginning and 3 r at the end, a shear of v by r; then an hourglass in u, against 10 N of the filter."""
     cell = Cell()
     cell.u0[0, 2:4, 2:4], cell.u[0, 2:4, 2:4] = [[0, 1], [0, 1]], [[0, 3], [0, 3]]
     cell.v0[0, 2:4, 2:4] = cell.v[0, 2:4, 2:4] = [[0, 2], [0, 2]]
-    cell.hg_coefficient[AT] = 10.0
+    cell.filter_r[0, *AT], cell.filter_z[0, *AT] = 10.0, 10.0
     cell.run(mixed.cell_motion, g=0)
     assert cell.motion[2, 0, [RR, TT, ZZ, RBZ, ZBR]].tolist() == [3, 0, 0, 0, 2]
     assert cell.motion[2, 0, [MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS]].tolist() == [2, 0, 0, 2, 0]
     cell.u0[0, 2:4, 2:4], cell.u[0, 2:4, 2:4] = [[1, -1], [-1, 1]], [[0.5, -0.5], [-0.5, 0.5]]
     cell.run(mixed.cell_motion, g=0)
-    assert cell.motion[2, 0, HOURGLASS] == 0.5 * 0.1 * 10.0 * 4.0 * (4.0 + 2.0)
+    assert cell.motion[2, 0, HOURGLASS] == 0.5 * 0.1 * 10.0 * (4.0 + 2.0)
 
 
 def test_shares_in_a_change_of_volume():

@@ -110,3 +110,30 @@ def test_a_straight_line_is_carried_at_the_middle_of_the_outflow(up, first, slop
     donor, difference = upwind(up, *(first + slope * x for x in (-1.5, -0.5, 0.5, 1.5)))
     middle = -0.5 * part if up else 0.5 * part
     assert donor + 0.5 * (1.0 - part) * difference == pytest.approx(first + slope * middle, abs=1e-12)
+
+
+# ------------------------------------------------------------------------------------------------- steepness of a front
+
+
+def steepness_at(up, *densities, steepness=STEEP):
+    return advection.steepness_at.py_func(up, *densities, steepness)
+
+
+@pytest.mark.parametrize(("change", "expected"), [(0.0, 2.0), (0.05, 2.0), (0.175, 1.5), (0.3, 1.0), (4.0, 1.0)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_slopes_fall_to_the_smaller_difference_where_a_front_is_not_resolved(change, expected, sign):
+    """By the larger of the two changes next to the donor, as a share of its density, wherever it lies."""
+    step = sign * 5.0 * change
+    for up, densities in ((True, (9e9, 5.0, 5.0 + step, 9e9)), (True, (5.0 + step, 5.0, 5.0, 9e9)),
+                          (False, (9e9, 5.0 + step, 5.0, 5.0)), (False, (9e9, 5.0, 5.0, 5.0 + step))):
+        known = [5.0 if each == 9e9 else each for each in densities]
+        assert steepness_at(up, *known) == pytest.approx(expected)
+    assert steepness_at(True, 5.0, 5.0, 5.0 + step, 0.0) == steepness_at(True, 5.0, 5.0, 5.0 + step, 9e9)
+
+
+def test_a_steepness_of_one_stays():
+    assert steepness_at(True, 1.0, 2.0, 2.0, 2.0, steepness=1.0) == steepness_at(True, 2.0, 2.0, 2.0, 2.0, steepness=1.0) == 1.0
+
+
+def test_nothing_has_a_steepness():
+    assert steepness_at(True, 0.0, 0.0, 0.0, 0.0) == 2.0

@@ -167,3 +167,44 @@ def test_radial_growth_that_balances_axial_shortening_keeps_the_volume(geometry,
     r, z = np.meshgrid(g.r, g.z)
     for j, i in CELLS:
         assert scalar_of(divergence, g, j, i, sideways * r, -z) == pytest.approx(0.0, abs=1e-14)
+
+
+alternating_mode = kinematics.alternating_mode.py_func
+
+
+def velocities(modes) -> np.ndarray:
+    """Velocities of vertices whose cells have these hourglass modes, m/s."""
+    rows, columns = np.shape(modes)
+    w = np.zeros((rows + 1, columns + 1))
+    w[1:, 1:] = np.cumsum(np.cumsum(modes, axis=0), axis=1)
+    return w
+
+
+def test_what_alternates_is_half_the_excess_over_the_neighbours():
+    modes, mass = np.zeros((3, 3)), np.ones((3, 3))
+    modes[1] = 2.0, 6.0, 4.0
+    modes[[0, 2], 1] = 1.0, -3.0
+    assert alternating_mode(1, 1, velocities(modes), mass) == 0.5 * (6.0 - 1.0)
+    modes[1, 1] = -6.0
+    assert alternating_mode(1, 1, velocities(modes), mass) == 0.5 * (-6.0 - 1.0)
+    modes[1, 1] = 0.5  # below its neighbours, but with their sign
+    assert alternating_mode(1, 1, velocities(modes), mass) == 0.0
+
+
+def test_what_alternates_is_never_more_than_the_mode():
+    modes = np.full((3, 3), -30.0)
+    modes[1, 1] = 6.0
+    assert alternating_mode(1, 1, velocities(modes), np.ones((3, 3))) == 6.0
+
+
+def test_a_neighbour_counts_by_its_mass_up_to_that_of_the_cell():
+    modes, mass = np.full((3, 3), 6.0), np.ones((3, 3))
+    modes[1, 2], mass[1, 2] = -18.0, 100.0
+    assert alternating_mode(1, 1, velocities(modes), mass) == 0.5 * (6.0 - 0.0)
+    mass[1, 2] = 0.5
+    assert alternating_mode(1, 1, velocities(modes), mass) == pytest.approx(0.5 * (6.0 - 9.0 / 3.5))
+    mass[1, 2] = 0.0
+    assert alternating_mode(1, 1, velocities(modes), mass) == 0.0
+    mass[...] = 0.0
+    mass[1, 1] = 1.0  # a cell by itself has the whole filter
+    assert alternating_mode(1, 1, velocities(modes), mass) == 6.0

@@ -22,7 +22,7 @@ NUMERICS = {
     "mixed_strength": ("volume", "solid", "zero", "max", "material"), "viscosity_linear": (0.0, 0.2, 1.0, 2.0),
     "viscosity_quadratic": (0.0, 0.7, 2.0, 4.0), "hourglass": (0.0, 0.02, 0.2, 1.0), "ke_bound": (1.0, 1.5, 10.0),
     "cutoff": (1e-12, 1e-5, 1e-3), "mass_floor": (1e-9, 1e-4, 1e-2), "active_region": (True, False),
-    "clip_limit": (0.001, 0.2), "viscosity_along": ("mesh", "compression"), "steepness": (1.0, 1.5),
+    "clip_limit": (0.001, 0.2), "steepness": (1.0, 1.5),
 }  # fmt: skip
 FAILURE = {
     "tensile": ("material", "none"), "damage": ("material", "none"), "tension": ("mean", "min"),

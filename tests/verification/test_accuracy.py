@@ -6,7 +6,6 @@ The bands contain the errors of `problems/verification/README.md`, in per cent. 
 import pytest
 
 import hydro2d
-from hydro2d.base.errors import UnphysicalState
 from problems.verification.accuracy import BY_NAME, FOLDER
 
 
@@ -31,17 +30,17 @@ def errors(tmp_path_factory):
 BANDS = [
     ("sedov", 100, "radius of the front", 0.0, 1.5),
     ("sedov", 100, "radius at the axis", 0.0, 2.0),
-    ("sedov", 100, "spread over seven rays", 1.0, 5.0),
+    ("sedov", 100, "spread over seven rays", 0.0, 0.6),
     ("sedov", 100, "pressure within R/4", -3.5, 0.0),
     ("sedov", 100, "energy discarded", -1e-10, 1e-10),
     ("sedov_plane", 50, "energy discarded", -1e-10, 1e-10),
     ("collapse", 50, "density within 0.1 m", 1.0, 5.0),
     ("collapse", 50, "pressure within 0.1 m", 3.0, 7.0),
     ("collapse", 50, "L1 error of velocity", 0.0, 3.0),
-    ("guderley", 100, "exponent, mean of the rays", -4.0, -1.0),
-    ("guderley", 100, "rays apart at 0.2 m", 7.0, 14.0),
+    ("guderley", 100, "exponent, mean of the rays", -3.0, 3.0),
+    ("guderley", 100, "rays apart at 0.2 m", 0.0, 5.0),
     ("blake", 10, "displacement at 1.5 radii", 1.0, 3.0),
-    ("blake", 10, "displacement at 3 radii", 2.0, 4.5),
+    ("blake", 10, "displacement at 3 radii", 2.0, 3.0),
     ("cavity_cylinder", 10, "displacement at 1.5 radii", 0.0, 2.0),
     ("elastic_piston", 100, "speed of the wave", -0.3, 0.3),
     ("elastic_piston", 100, "axial stress", -0.3, 0.3),
@@ -74,9 +73,6 @@ def test_errors_of_today(errors, name, cells, quantity, low, high):
 
 #: problem, cells, quantity, the desired error, and why it is not reached
 WISHES = [
-    ("sedov", 100, "spread over seven rays", 1.0, "a blast is not round on a square mesh"),
-    ("guderley", 100, "rays apart at 0.2 m", 7.0, "the smeared front is not on all rays alike; a cell is 7 %"),
-    ("blake", 10, "displacement at 3 radii", 3.0, "the cells of the wall follow a sphere in steps"),
     ("breathing_sphere", 20, "amplitude after seven periods", 3.5, "elastic waves lose energy at the cut surface"),
     ("collapse", 50, "pressure within 0.1 m", 1.0, "the density is of first order in the time step"),
 ]
@@ -90,16 +86,19 @@ def test_wishes(errors, name, cells, quantity, limit):
 
 
 @pytest.mark.thorough
-def test_a_blast_that_keeps_momentum_alone_loses_half_its_energy(errors):
-    """Finer cells do not help: the front is 11 % behind on 50 cells, and further on 100."""
+def test_a_blast_that_keeps_momentum_alone_loses_a_quarter_of_its_energy(errors):
+    """Finer cells do not help: the front is 5 % behind on 50 cells, and further on 100."""
     coarse, fine = (errors("sedov", cells, "momentum") for cells in (50, 100))
-    assert 40.0 < coarse["energy discarded"] < fine["energy discarded"] < 65.0
-    assert fine["radius of the front"] < coarse["radius of the front"] < -9.0
+    assert 20.0 < coarse["energy discarded"] < fine["energy discarded"] < 35.0
+    assert fine["radius of the front"] < coarse["radius of the front"] < -4.0
 
 
-def test_a_blast_is_refused_by_the_bound_of_ke(errors):
-    with pytest.raises(UnphysicalState, match="ke_bound"):
-        errors("sedov", 50, "ke")
+@pytest.mark.thorough
+def test_a_blast_that_keeps_kinetic_energy_alone_runs_ahead(errors):
+    """It gains momentum: the front is 4 % ahead on 50 cells, and further on 100. Nothing in the audit says so."""
+    coarse, fine = (errors("sedov", cells, "ke") for cells in (50, 100))
+    assert 3.0 < coarse["radius of the front"] < fine["radius of the front"] < 6.0
+    assert fine["energy discarded"] < 1.0
 
 
 def test_the_first_order_of_smooth_problems(errors):

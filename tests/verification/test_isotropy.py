@@ -18,7 +18,6 @@ from tests.verification.running import finish
 ANGLES = (0, 15, 30, 45, 60, 75, 90)
 SPEED, SIZE, CELLS, BALL = 1000.0, 1.2, 100, 3
 ENERGY = {"cylindrical": 0.8510718546 / (4 / 3 * np.pi), "planar": 0.984 / np.pi}  # per volume of a ball or disc of 1 m
-ROUND = 'numerics.viscosity_along="compression"', "numerics.steepness=1.0"
 
 
 def blast(geometry: str) -> str:
@@ -76,28 +75,15 @@ def half_of_the_peak(radii: np.ndarray, values: np.ndarray) -> float:
     return float(radii[np.nonzero(values > 0.5 * values.max())[0][-1]])
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
-def test_the_shock_is_round(geometry):
-    """The spread of the rays is within 1 %, half of a cell in either geometry, and their mean as well."""
-    radii = rays(geometry, *ROUND)
-    assert np.ptp(radii) < 0.01
-    assert radii.mean() == pytest.approx(1.0, abs=0.01)
+@pytest.mark.parametrize(("geometry", "spread"), [("cylindrical", 0.006), ("planar", 0.002)])
+def test_the_shock_is_round(geometry, spread):
+    """The rays differ by 0.5 % in r-z, a quarter of a cell, and by 0.1 % in the plane; with `steepness = 1` by 0.4 and 0.1 %.
 
-
-@pytest.mark.parametrize(("geometry", "least", "most"), [("cylindrical", 0.03, 0.045), ("planar", 0.018, 0.03)])
-def test_by_direction_of_the_mesh_it_is_an_octagon(geometry, least, most):
-    """The default: flat faces at 45 degrees, which lag, and fronts along r and z that lead."""
+    With viscosity along r and z separately, and slopes of twice the smaller difference everywhere, they differ by 3.9 and 2.5 %.
+    """
     radii = rays(geometry)
-    assert least < np.ptp(radii) < most
-    assert np.argmin(radii) == ANGLES.index(45)
-
-
-@pytest.mark.thorough
-def test_either_choice_alone_is_half_of_the_cure():
-    """The viscosity leaves the traces of the ball of three cells on the axis, and the slopes leave the octagon."""
-    whole, spread = np.ptp(rays("cylindrical")), [np.ptp(rays("cylindrical", choice)) for choice in ROUND]
-    assert all(0.015 < half < 0.9 * whole for half in spread)
+    assert np.ptp(radii) < spread
+    assert radii.mean() == pytest.approx(1.0, abs=0.005)
 
 
 def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
@@ -146,13 +132,8 @@ def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
     return at_marks
 
 
-@pytest.mark.slow
-def test_a_converging_shock_is_round():
-    """On 200 cells the rays differ by at most 0.63 cells; by direction of the mesh by 1.8."""
-    for front in fronts(200, *ROUND).values():
-        assert np.ptp(front) < 1.0
-
-
-@pytest.mark.xfail(strict=True, reason="the default viscosity resists r and z separately (explanation/lagrangian-step)")
-def test_wish_default():
-    assert np.ptp(rays("cylindrical")) < 0.01
+@pytest.mark.parametrize("cells", [100, pytest.param(200, marks=pytest.mark.slow)])
+def test_a_converging_shock_is_round(cells):
+    """The rays differ by at most 0.73 cells; with viscosity by direction of the mesh by 1.5 to 2."""
+    for front in fronts(cells).values():
+        assert np.ptp(front) < 0.8

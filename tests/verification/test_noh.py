@@ -45,8 +45,8 @@ def test_planar():
 
 
 def test_planar_does_not_converge_without_conservation():
-    """At an infinite shock `momentum` discards 5.5 % of the energy, the bound of `ke` 1.6 %; they are 5 and 7 % too dense."""
-    for choice, energy, dense in (("momentum", (0.05, 0.06), (0.05, 0.06)), ("ke", (0.014, 0.018), (0.065, 0.08))):
+    """At an infinite shock `momentum` discards 5.1 % of the energy, the bound of `ke` 1.2 %; they are 5 and 7 % too dense."""
+    for choice, energy, dense in (("momentum", (0.05, 0.06), (0.05, 0.06)), ("ke", (0.011, 0.014), (0.065, 0.08))):
         profile = line("noh_planar", choice, 200)
         audit = profile.simulation.audit
         sink = sum(audit.sinks[name].energy for name in ("advection", "ke_bound")) / audit.start.energy
@@ -94,11 +94,13 @@ def sphere(choice: str, cells: int, wedge: str) -> Wedge:
     return Wedge(simulation, *WEDGES[wedge])
 
 
-@pytest.mark.parametrize("wedge", WEDGES)
-def test_spherical_converges(wedge):
+@pytest.mark.parametrize(("wedge", "order", "least"), [("axis", 0.4, -0.06), ("middle", 0.7, -0.09), ("equator", 0.7, -0.12)])
+def test_spherical_converges(wedge, order, least):
+    """The plateau is 5, 8 and 11 % low on 100 cells and 4, 4 and 6 % on 200; the front is about a cell ahead on either."""
     coarse, fine = (sphere("both", n, wedge) for n in (100, 200))
-    assert np.log2(coarse.plateau() / fine.plateau()) > 0.7
-    assert 0 < fine.front() * fine.dx < coarse.front() * coarse.dx < 0.03
+    assert least < coarse.plateau() < fine.plateau() < 0.0
+    assert np.log2(coarse.plateau() / fine.plateau()) > order
+    assert 0 < fine.front() * fine.dx < coarse.front() * coarse.dx < 0.015
 
 
 @pytest.mark.thorough
@@ -111,10 +113,9 @@ def test_spherical_does_not_converge_without_conservation(choice):
 
 
 def test_spherical_front_is_a_sphere():
-    """The shock is at one distance from the origin to 1.1 cells, from the axis to the equator; the ends are alike."""
-    fronts = {wedge: sphere("both", 100, wedge).front() for wedge in WEDGES}
-    assert max(fronts.values()) - min(fronts.values()) < 1.2
-    assert abs(fronts["axis"] - fronts["equator"]) < 0.2
+    """The shock is at one distance from the origin to half a cell, from the axis to the equator."""
+    fronts = [sphere("both", 100, wedge).front() for wedge in WEDGES]
+    assert max(fronts) - min(fronts) < 0.5
 
 
 def test_spherical_conserves():
@@ -124,29 +125,7 @@ def test_spherical_conserves():
         assert abs(simulation.conservation()["total_energy"]) < 1e-12
 
 
-def along_compression(wedge: str) -> Wedge:
-    return Wedge(run("noh_spherical", "mesh.r=[{to=1.0, cells=100}]", "mesh.z=[{to=1.0, cells=100}]", advection("both"),
-                     'numerics.viscosity_along="compression"'), *WEDGES[wedge])  # fmt: skip
-
-
-@pytest.mark.parametrize("wedge", WEDGES)
-def test_spherical_along_the_strongest_compression(wedge):
-    """Converging material is not heated along the hoop: half of the deficit comes back, and the front is in its place."""
-    ours = along_compression(wedge)
-    assert 0.6 * sphere("both", 100, wedge).plateau() < ours.plateau() < 0.0
-    assert ours.plateau() > -0.125
-    assert 0.5 < ours.front() < 1.5
-
-
-def test_spherical_front_along_the_strongest_compression_is_a_sphere():
-    fronts = [along_compression(wedge).front() for wedge in WEDGES]
-    assert max(fronts) - min(fronts) < 0.5
-
-
 REASON = "first-order heating in the smeared shock; needs about {} cells to the metre (problems/verification/README.md)"
-AHEAD = "the smeared shock is two cells ahead on any mesh"
-
-
 @pytest.mark.xfail(strict=True, reason=REASON.format("600"))
 def test_wish_cylindrical():
     assert abs(plateau(line("noh_cylindrical", "both", 100), 2)) < 0.02
@@ -157,8 +136,3 @@ def test_wish_cylindrical():
 def test_wish_spherical(wedge):
     assert abs(sphere("both", 100, wedge).plateau()) < 0.05
 
-
-@pytest.mark.xfail(strict=True, reason=AHEAD)
-@pytest.mark.parametrize("wedge", ["axis", "equator"])
-def test_wish_spherical_front(wedge):
-    assert abs(sphere("both", 100, wedge).front()) < 1.5

@@ -38,7 +38,7 @@ SLIP = 'sliding.method="slip-layer"', 'sliding.hard=["rod"]', "sliding.yield_fac
 CASES = {
     "ke": (),
     "both": ('numerics.advection="both"',),
-    "compression": ('numerics.viscosity_along="compression"', "numerics.steepness=1.0"),
+    "steepness": ("numerics.steepness=1.0",),
     "material": ('numerics.mixed_strength="material"',),
     "solid": ('numerics.mixed_strength="solid"', 'numerics.mixed_cell="uniform"'),
     "slip-layer": SLIP,

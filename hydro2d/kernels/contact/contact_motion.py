@@ -21,7 +21,6 @@ from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
 from hydro2d.physics.contact_faces import meeting, volume_rate
 from hydro2d.physics.corner import corner, corner_force
-from hydro2d.physics.kinematics import hourglass_mode
 from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import strained_pressure
 from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
@@ -135,10 +134,10 @@ def group_force(g, j, i, at_j, at_i, w):
     across, hoop, c_z, along = corner(at_i, outer, upper, w.metrics, w.dz[at_j])
     force_r, force_z = corner_force(rr, zz, tt, rz, across, hoop, c_z, along)
     own, other = w.cell_mass[g, at_j, at_i], w.cell_mass[1 - g, at_j, at_i]
-    filter_share = w.hg_coefficient[at_j, at_i] * own / (own + other)
+    filter_share = own / (own + other)
     sign = filter_share if outer == upper else -filter_share
-    force_r -= sign * hourglass_mode(at_i, w.u0[g, at_j], w.u0[g, at_j + 1])
-    force_z -= sign * hourglass_mode(at_i, w.v0[g, at_j], w.v0[g, at_j + 1])
+    force_r -= sign * w.filter_r[g, at_j, at_i]
+    force_z -= sign * w.filter_z[g, at_j, at_i]
     return force_r, force_z
 
 
@@ -149,7 +148,7 @@ def contact_node_forces(j, w):
     The pressure of a cell acts on each group by the apertures of the cell's faces; the deviators of a group act on it alone
     (explanation/sliding, contact).
 
-    Reads    ph, qr, solid, hg_coefficient [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0 [b, j, i];
+    Reads    ph, qr, solid [j, i]; skin [3, j, i]; vof, q; cell_mass, mass, u0, v0, filter_r, filter_z [b, j, i];
              pushed [c, b, j, i], m/s, or empty
     Writes   u, v [b, j, i], without the part that walls and the axis take; transfer[4, j], axial momentum given to walls
     """
