@@ -196,7 +196,8 @@ def test_slip_along_an_inclined_interface_keeps_the_pressure(angle):
 @pytest.mark.thorough
 @pytest.mark.parametrize("angle", [15, 30, 45])
 def test_a_single_velocity_does_work(angle):
-    assert drift(run(f"block_inclined_{angle}", *SINGLE))[0] > 1e-3
+    """1.0, 1.2 and 0.9e-3 p L s, with two velocities 0.01, 0.02 and 0e-3."""
+    assert drift(run(f"block_inclined_{angle}", *SINGLE))[0] > 50.0 * abs(drift(run(f"block_inclined_{angle}"))[0])
 
 
 # ---------------------------------------------------------------------------------------------------- a rod and its hole
@@ -252,13 +253,13 @@ def test_no_body_flows_out_of_a_cell_in_which_it_is_not():
 # ------------------------------------------------------------------------------------------------ two balls that rebound
 
 
-@pytest.mark.parametrize(("cells", "offset"), [(8, 0.0), (8, 0.1), (8, 0.3), (8, 0.4), (8, 0.6), (8, 0.7), (8, 0.9), (12, 0.1),
+@pytest.mark.parametrize(("cells", "offset"), [(8, 0.0), (8, 0.1), (8, 0.3), (8, 0.4), (8, 0.6), (8, 0.7), (8, 0.9), (12, 0.3),
                                                (16, 0.3)])
 def test_two_elastic_balls_rebound(cells, offset):
     """Steel balls of 8 to 16 cells per radius meet at 20 m/s each, below all yield, with a restitution of 0.95 or more.
 
     Both lie `offset` of a cell farther on. A rim that closes head on is no void that slip carries into the contact: while such
-    void was closed, 15.5 to 18.7 m/s were left. (On 16 cells, 18.98 m/s with their faces on a mesh line.)
+    void was closed, 15.5 to 18.7 m/s were left. (At some places it is 18.7 m/s on 12 cells, and 18.99 on 16.)
     """
     size = 4.0 / cells
     elastic = {"model": "elastic-plastic", "yield_stress": "50 GPa", "shear_modulus": "77 GPa"}

@@ -171,8 +171,7 @@ def test_a_hemisphere_under_pressure_keeps_its_shape():
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize("sliver", [1e-3, 1e-1, pytest.param(1e-2, marks=pytest.mark.xfail(
-    reason="the step falls to 0.046 of the largest near the end, by chance: in one of eleven runs with other first steps"))])
+@pytest.mark.parametrize("sliver", [1e-3, 1e-2, 1e-1])
 def test_a_sliver_neither_heats_nor_holds_up(sliver):
     """Slip of 150 cells at 1 km/s next to a sliver of aluminium: the time step stays, and next to the block nothing melts.
 
