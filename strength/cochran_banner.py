@@ -6,7 +6,7 @@ import numpy as np
 
 from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
-from strength.layout import DAMAGE_ROW
+from strength.layout import CRACKS, DAMAGE_ROW
 
 NAME = "cochran-banner"
 ID = 3
@@ -44,6 +44,11 @@ def tension_left(damage, par):
 def full_opening(par):
     """Volume of cracks per crack area at which they bear no tension, m."""
     return par[OPENING]
+
+
+def criterion(par) -> int:
+    """What material that it has broken failed by: CRACKS."""
+    return CRACKS
 
 
 def row(values) -> np.ndarray:

@@ -74,6 +74,10 @@ damage_increment = by_id(
     DAMAGE_MODULES, "damage_increment", registry.DAMAGE_FUNCTIONS["damage_increment"][0],
     "Increment of damage of a damage model: see ``johnson_cook_damage.damage_increment``.")
 
+size_factor = by_id(
+    DAMAGE_MODULES, "size_factor", registry.DAMAGE_FUNCTIONS["size_factor"][0],
+    "Factor on the increment of damage of a damage model in a cell of this area, m^2: 1 if the cell does not matter.", "1.0")
+
 tension_left = by_id(
     DAMAGE_MODULES, "tension_left", registry.DAMAGE_FUNCTIONS["tension_left"][0],
     "Share of the fracture pressure that material bears at a damage below 1, of a damage model that opens cracks.")

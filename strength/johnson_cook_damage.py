@@ -8,8 +8,8 @@ import numpy as np
 
 from hydro2d.base.parameters import ANY, POSITIVE, REQUIRED, Parameter, collect
 from hydro2d.jit import point
-from strength import thermal
-from strength.layout import DAMAGE_ROW
+from strength import cell_size, thermal
+from strength.layout import DAMAGE_ROW, JOHNSON_COOK, PLASTIC_STRAIN
 
 NAME = "johnson-cook"
 ID = 1
@@ -17,7 +17,8 @@ THERMAL = True
 EQUATION = """\
 dD = dep/ef,  ef = [D1 + D2 exp(D3 p*)] [1 + D4 ln max(1, rate/rate0)] [1 + D5 T*],  not below ef_min
 or with [1 + rate/rate0]^n in the place of the logarithm
-p* = mean stress (tension positive) / von Mises stress,  T* = (T - Tr)/(Tm - Tr) in [0, 1];  fractured at D = 1"""
+p* = mean stress (tension positive) / von Mises stress,  T* = (T - Tr)/(Tm - Tr) in [0, 1];  fractured at D = 1
+ef times (h/h0)^-m in a cell of the size h = sqrt(dr dz)"""
 SOURCE = "Johnson & Cook, Engng Fract. Mech. 21 (1985) 31; power of the rate: Clausen & others, Mater. Sci. Eng. A364 (2004)"
 VALIDITY = "ductile metals; the fit's range of p* is about -1 to 1.5; without Tm the temperature does not matter"
 PARAMETERS = (
@@ -30,10 +31,11 @@ PARAMETERS = (
     Parameter("reference_rate", "1/s", 1.0, "strain rate below which the rate does not matter", "rate0", POSITIVE),
     Parameter("minimum_fracture_strain", "", 1e-6, "lower bound of the fracture strain", "ef_min", POSITIVE),
     *thermal.PARAMETERS,
+    *cell_size.PARAMETERS,
 )
 
 #: slots of the row
-D1, D2, D3, D4, D5, INVERSE_RATE0, LEAST, REFERENCE_T, INVERSE_RANGE, RATE_EXPONENT = range(10)
+D1, D2, D3, D4, D5, INVERSE_RATE0, LEAST, REFERENCE_T, INVERSE_RANGE, RATE_EXPONENT, INVERSE_AREA, HALF_EXPONENT = range(12)
 
 #: largest exponent, at which exp() is still finite; least von Mises stress in the triaxiality, Pa
 _STEEPEST, _UNSTRESSED = 700.0, 1.0
@@ -67,6 +69,17 @@ def damage_increment(dep, rate, T, p, seq, par):
     return dep / fracture_strain(rate, T, p, seq, par)
 
 
+@point
+def size_factor(area, par):
+    """Factor on the increment of damage in a cell of this ``area``, m^2: explanation/fracture, (7a)."""
+    return cell_size.faster(area, par[INVERSE_AREA], par[HALF_EXPONENT])
+
+
+def criterion(par) -> int:
+    """What material that it has broken failed by: PLASTIC_STRAIN if nothing but D1 is given, else JOHNSON_COOK."""
+    return JOHNSON_COOK if any(par[[D2, D4, D5, RATE_EXPONENT]]) else PLASTIC_STRAIN
+
+
 def row(values) -> np.ndarray:
     """Packs the parameters, by name; float64[DAMAGE_ROW]. Raises ValueError for a missing or impossible value."""
     given = collect(NAME, PARAMETERS, values)
@@ -78,4 +91,5 @@ def row(values) -> np.ndarray:
     par[INVERSE_RATE0], par[LEAST] = 1.0 / given["reference_rate"], given["minimum_fracture_strain"]
     par[RATE_EXPONENT] = given["rate_exponent"]
     par[REFERENCE_T], par[INVERSE_RANGE] = given["reference_temperature"], thermal.inverse_range(NAME, given)
+    par[INVERSE_AREA], par[HALF_EXPONENT] = cell_size.packed(NAME, given)
     return par

@@ -32,6 +32,7 @@ STRENGTH_REQUIRED = ("shear_modulus", "flow_stress")
 #: those of a damage model
 DAMAGE_FUNCTIONS = {
     "damage_increment": ("dep, rate, T, p, seq, par", 1),
+    "size_factor": ("area, par", 1),
     "tension_left": ("damage, par", 1),
     "full_opening": ("par", 1),
 }

@@ -77,7 +77,7 @@ class Simulation:
             names=(ROD, PLATE), internal=((), ()),
             eos_model=np.array([eos.MODELS[material.eos.name].ID for material in rows]),
             eos_par=np.stack([eos.MODELS[material.eos.name].row(material.eos.values) for material in rows]),
-            memory=np.full(2, len(BODY)),
+            memory=np.full(2, len(BODY)), records=False,
         )
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         places = np.array([[0.0, 0.0], [1e-3, 5e-3]])

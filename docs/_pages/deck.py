@@ -121,7 +121,7 @@ def _default(value) -> str:
 
 @functools.cache
 def library_values(part: str) -> dict[str, float | str]:
-    """A number for every parameter of a table, of the first material of the library that has it, else its default."""
+    """A number for every parameter of a table: of the first material of the library that has it, its example or its default."""
     import eos
     import strength
     from hydro2d.materials import library
@@ -129,7 +129,8 @@ def library_values(part: str) -> dict[str, float | str]:
 
     models = {"eos": eos.MODELS, "strength": strength.STRENGTH_MODELS, "damage": strength.DAMAGE_MODELS,
               "melting": {melting.NAME: melting}}[part]
-    found = {entry.name: entry.default for model in models.values() for entry in model.PARAMETERS if not entry.required}
+    found = {entry.name: entry.default if entry.example is None else entry.example
+             for model in models.values() for entry in model.PARAMETERS if not entry.required}
     for name in reversed(library.names()):
         for variant in (*library.load(name).variants, None):
             material = library.load(name, variant)

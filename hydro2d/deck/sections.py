@@ -66,8 +66,8 @@ class Numerics(Section):
     )
     steepness: Annotated[float, within(1.0, 2.0, "a steeper slope makes new extrema, a flatter one is first-order")] = (
         Field(2.0, description="largest slope of what the remap carries, in units of the smaller difference to a neighbour: 2 "
-              "keeps waves sharp, and falls to 1 where density changes by 5 to 30 % from cell to cell, which keeps strong shocks "
-              "round", examples=[1.0])
+              "keeps waves sharp, and falls to 1 where density changes by 5 to 30 % from cell to cell, which keeps strong "
+              "shocks round", examples=[1.0])
     )
     mixed_cell: Literal["tipton", "uniform"] = Field(
         "tipton", description="how the materials of a mixed cell share its volume change"
@@ -183,6 +183,10 @@ class Failure(Section):
         0.94, lt=1, examples=[0.9],
         description="low-density strength cutoff: fraction of the reference density below which a material carries no shear; "
         "0: never",
+    )
+    record: bool = Field(
+        False, description="keep and write what has ended the strength of each body in each cell, as the fields failed_by and "
+        "body_failed_by"
     )
 
 

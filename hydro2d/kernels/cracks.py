@@ -4,8 +4,8 @@ from eos.cracked import CRACKS as WIDTH
 from eos.cracked import GROWTH, opened, solid_share
 from hydro2d.jit import cell_rows, point
 from hydro2d.kernels.column_ranges import columns
-from hydro2d.materials.rows import CRACKS, DAMAGE, DAMAGE_AT, EOS_AT, MEMORY, TENSILE
-from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, RHO, E
+from hydro2d.materials.rows import CRACKS, DAMAGE, DAMAGE_AT, EOS_AT, MEMORY, RECORD, TENSILE
+from hydro2d.mesh.fields import BY_DAMAGE, CRUSHED, DMG, FAILED, RHO, E
 from hydro2d.physics.fracture import crack_opening, open_void
 from hydro2d.physics.stress import release
 from strength.dispatch import OPENS_CRACKS, full_opening, tension_left
@@ -36,7 +36,8 @@ def open_cracks(j, w):
 
     Where they open, the deviator becomes zero. explanation/fracture, (9)
 
-    Updates  vof [m, j, i]; q (crack volume and growth, deviators; where material has failed density, damage) [k, m, j, i]
+    Updates  vof [m, j, i]; q (crack volume and growth, deviators; where material has failed density, damage and failure record)
+             [k, m, j, i]
     """
     for m in range(w.vof.shape[0]):
         model, row = w.models[m, DAMAGE], w.models[m, MEMORY]
@@ -59,6 +60,8 @@ def open_cracks(j, w):
                     release(m, j, i, w.q)
                 if damage >= 1.0 or wide * rho >= JOINED:
                     w.q[DMG, m, j, i] = max(damage, FAILED)
+                    if w.models[m, RECORD] > 0:
+                        w.q[w.models[m, RECORD], m, j, i] = BY_DAMAGE
                     part_cell(m, j, i, w)
 
 

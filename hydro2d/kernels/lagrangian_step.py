@@ -47,6 +47,7 @@ close_cells = Phase(
     cut_cells.find_surfaces,
     WAIT,
     mixed.close_cells,
+    when("slip_layer", sliding.cut_viscosity),
     WAIT,
     when("contact",
          contact_geometry.find_contact_nodes,

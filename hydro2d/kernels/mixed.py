@@ -42,8 +42,8 @@ from hydro2d.kernels.mixed_strength import (
     work_of_deviators,
 )
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
-from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, TENSILE
-from hydro2d.mesh.fields import DMG, RHO, E
+from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, RECORD, TENSILE
+from hydro2d.mesh.fields import BY_TENSION, DMG, RHO, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
 from hydro2d.physics.corner import filter_power
@@ -65,7 +65,7 @@ def insert_void_mixed_row(j, w):
     Two groups do not stick together, and separate without this (`traction_of_change`).
 
     Reads    mixed [j, k], skin [3, j, i]
-    Updates  vof, pm [m, j, i]; q (rho, deviators); p, solid, bulk [j, i]; opened [j]
+    Updates  vof, pm [m, j, i]; q (rho, deviators, failure record); p, solid, bulk [j, i]; opened [j]
     """
     for k in range(w.mixed_count[j]):
         i = w.mixed[j, k]
@@ -95,6 +95,8 @@ def insert_void_mixed_row(j, w):
                 w.opened[j] += f * (1.0 - share) * w.metrics[VOL_R, i] * w.dz[j]
                 open_void(m, j, i, share, w.vof, w.q)
                 w.pm[m, j, i] = evaluate(model, rho / share, e, internal, par)[0]
+                if w.models[m, RECORD] > 0 and w.q[DMG, m, j, i] < 1.0:
+                    w.q[w.models[m, RECORD], m, j, i] = BY_TENSION
             release(m, j, i, w.q)
             total += w.vof[m, j, i]
             pressure += w.vof[m, j, i] * w.pm[m, j, i]
@@ -148,7 +150,8 @@ def cell_motion(j, i, g, w):
     w.motion[j, g, MEAN_ZZ] = 0.5 * (a_zz + zz)
     w.motion[j, g, MEAN_RZ] = 0.5 * ((a_rbz + rbz) + (a_zbr + zbr))
     w.motion[j, g, HOURGLASS] = 0.5 * w.dt * filter_power(
-        i, w.filter_r[g, j, i], w.filter_z[g, j, i], w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1])
+        i, w.filter_r[g, j, i], w.filter_z[g, j, i],
+        w.u0[g, j], w.u0[g, j + 1], w.v0[g, j], w.v0[g, j + 1], w.u[g, j], w.u[g, j + 1], w.v[g, j], w.v[g, j + 1])
 
 
 @point
@@ -279,9 +282,10 @@ def deform_mixed(j, w):
 
     Fluids that fill a cell together share its change of volume by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m. Their
     pressures then relax, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar. Pressure work is shared by w_m, viscous
-    and hourglass work by volume fraction (the latter by mass in a cut cell and beside a gas, to the group's own bodies); deviatoric work goes to the body whose stress did it. In a cell with a gas, work is
-    shared as in `work_beside_gas` (explanation/mixed-cells). All bodies are treated so with `uniform`, and in the hard zone of
-    a slip layer. Cut cells follow from the traction: `strain_bodies_across`, `fill_cut_cell`.
+    and hourglass work by volume fraction (in a cut cell and beside a gas `heat_of_filter`); deviatoric work goes to the body
+    whose stress did it. In a cell with a gas, work is shared as in `work_beside_gas` (explanation/mixed-cells). All bodies are
+    treated so with `uniform`, and in the hard zone of a slip layer. Cut cells follow from the traction:
+    `strain_bodies_across`, `fill_cut_cell`.
     Strength is by strength_mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the common change of volume, and each body has its own strength where two groups meet.
 

@@ -67,7 +67,7 @@ BLOCKS = (
 #: bodies and their materials
 BODIES = (
     Work("group", "m", "body group", int),
-    Work("models", "m 6", "indices of the models of each body's material", int),
+    Work("models", "m 5", "indices of the models of each body's material", int),
     Work("materials", "m k", "constants of the models"),
     Work("rules", "m k 4", "rules by which the rows of q are remapped"),
     Work("carried", "m k", "rows of q that the remap carries: their number, then their indices", int),

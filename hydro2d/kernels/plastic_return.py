@@ -1,12 +1,12 @@
 """Return of one body's deviator to its yield surface in one cell, with the resulting plastic strain and damage."""
 
 from hydro2d.jit import point
-from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
-from hydro2d.mesh.fields import DMG, EP, RHO
+from hydro2d.materials.rows import DAMAGE, DAMAGE_AT, FACTOR, RECORD, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.mesh.fields import BY_DAMAGE, DMG, EP, RHO
 from hydro2d.physics.fracture import crushed, damaged
 from hydro2d.physics.plasticity import from_centre, keep_internal, returned, take_internal
 from hydro2d.physics.stress import von_mises
-from strength.dispatch import WEAKENS, damage_increment, flow_stress, kinematic_modulus, weakened
+from strength.dispatch import WEAKENS, damage_increment, flow_stress, kinematic_modulus, size_factor, weakened
 from strength.radial_return import plastic_increment
 
 
@@ -14,15 +14,19 @@ from strength.radial_return import plastic_increment
 def flow(m, j, i, dep, final, w):
     """Adds the plastic strain ``dep`` of the step to body m in cell (j, i), at the flow stress ``final`` (Pa), and its damage.
 
-    Updates  q (plastic strain, damage) [k, m, j, i]
+    Updates  q (plastic strain, damage, failure record) [k, m, j, i]
     """
     w.q[EP, m, j, i] += dep
     increment = damage_increment(w.models[m, DAMAGE], dep, dep / w.dt, w.tm[m, j, i], w.pm[m, j, i], final,
                                  w.materials[m, DAMAGE_AT:TENSILE])
+    increment *= size_factor(w.models[m, DAMAGE], w.dr[i] * w.dz[j], w.materials[m, DAMAGE_AT:TENSILE])
+    before = w.q[DMG, m, j, i]
     if w.models[m, STRENGTH] in WEAKENS:
         w.q[DMG, m, j, i] = crushed(w.q[DMG, m, j, i], increment)
     else:
         w.q[DMG, m, j, i] = damaged(w.q[DMG, m, j, i], increment)
+    if w.models[m, RECORD] > 0 and before < 1.0 <= w.q[DMG, m, j, i]:
+        w.q[w.models[m, RECORD], m, j, i] = BY_DAMAGE
 
 
 @point

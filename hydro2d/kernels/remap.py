@@ -26,9 +26,9 @@ def flux_row(dj, j, m, slot, b, w):
     """Fluxes through the faces of row j of the fields that body m carries.
 
     Second order and monotone in cells whose neighbours are full of the same body. The slope fades out towards cells filled by
-    less than FILLED; in and next to these the donor's own value is taken. No slope is larger than the steepness times the smaller
-    difference to a neighbour (`steepness_at`). Specific quantities use the mass coordinate, deviators the volume coordinate (explanation/remap,
-    equation 4), both of the body alone: no cell loses more of the body than it has.
+    less than FILLED; in and next to these the donor's own value is taken. No slope is larger than the steepness times the
+    smaller difference to a neighbour (`steepness_at`). Specific quantities use the mass coordinate, deviators the volume
+    coordinate (explanation/remap, equation 4), both of the body alone: no cell loses more of the body than it has.
 
     Reads    carried [m, n], how many rows of q the body carries in addition to its density, and which;
              pre_sweep_volume [j, i]; flux_volume, vof [m, j, i]; q [k, m, j, i]

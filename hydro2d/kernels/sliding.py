@@ -121,6 +121,22 @@ def slip_zones(w):
 
 
 @cell_rows
+def cut_viscosity(j, w):
+    """Makes the artificial viscosity isotropic in the slip layer, so that it transmits no shear there.
+
+    Reads    zone [j, i]
+    Updates  qr, qz, qt, qrz [j, i]
+    """
+    for i in range(w.occupied[0, j, 0], w.occupied[0, j, 1]):
+        if w.zone[j, i] == SLIP_LAYER:
+            q = w.qr[j, i] + w.qz[j, i]
+            w.qr[j, i] = q
+            w.qz[j, i] = q
+            w.qt[j, i] = q
+            w.qrz[j, i] = 0.0
+
+
+@cell_rows
 def cut_shear(j, w):
     """Removes shear from soft material in the slip layer: all of the deviator, or the shear on the surface beyond friction.
 

@@ -24,11 +24,12 @@ from hydro2d.materials.rows import (
     MELTING_AT,
     MEMORY,
     MOST_STRESS,
+    RECORD,
     STRENGTH,
     STRENGTH_AT,
     TENSILE,
 )
-from hydro2d.mesh.fields import DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.fields import BY_TENSION, DMG, EP, FAILED, RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import divergence
@@ -55,7 +56,7 @@ def insert_void_row(m, j, w):
     Void opens until p(rho*, e) = 0, at most max_opening of the cell in a cycle; the deviator is set to zero (explanation/
     fracture).
 
-    Updates  vof [m, j, i], q (rho and deviators) [k, m, j, i]
+    Updates  vof [m, j, i], q (rho, deviators and failure record) [k, m, j, i]
     """
     model, par, memory = w.models[m, EOS], w.materials[m, EOS_AT:], w.models[m, MEMORY]
     tensile, fades = w.materials[m, TENSILE], w.materials[m, FADES]
@@ -71,6 +72,8 @@ def insert_void_row(m, j, w):
             opened += (1.0 - share) * w.metrics[VOL_R, i] * w.dz[j]
             open_void(m, j, i, share, w.vof, w.q)
             release(m, j, i, w.q)
+            if w.models[m, RECORD] > 0 and w.q[DMG, m, j, i] < 1.0:
+                w.q[w.models[m, RECORD], m, j, i] = BY_TENSION
     return opened
 
 
@@ -80,7 +83,7 @@ def fail_row(m, j, w):
 
     Failed material never has a deviator or carries tension again (explanation/fracture).
 
-    Reads    vof, pm [m, j, i];  updates  q (damage, deviators) [k, m, j, i]
+    Reads    vof, pm [m, j, i];  updates  q (damage, deviators, failure record) [k, m, j, i]
     """
     most_stress = w.materials[m, MOST_STRESS]
     first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
@@ -92,6 +95,8 @@ def fail_row(m, j, w):
         if stress > most_stress:
             w.q[DMG, m, j, i] = FAILED
             release(m, j, i, w.q)
+            if w.models[m, RECORD] > 0:
+                w.q[w.models[m, RECORD], m, j, i] = BY_TENSION
 
 
 @not_inlined
@@ -156,7 +161,7 @@ def pressures_row(j, b, w):
     A pure cell below its fracture pressure is given void (`insert_void_row`); one above its fracture stress fails.
 
     Reads    q (rho, e, damage) [k, m, j, i], body_range [m, j, 2]
-    Updates  vof [m, j, i], q (rho, deviators and damage where a cell fractures)
+    Updates  vof [m, j, i], q (rho, deviators, damage and failure record where a cell fractures)
     Writes   pm, km, tm [m, j, i] (tm of bodies whose models use temperature); p, bulk, rhobar, solid, cl [j, i]; opened [j]
              volume of new void; bad [j, :3] count of cells that are not finite, the column and body of the first
     Scratch  scratch [s, b, i]

@@ -27,6 +27,7 @@ from hydro2d.materials.contract_eos import (
     temperature,
 )
 from hydro2d.materials.contract_strength import (
+    cell_size,
     constant_yield,
     cracks,
     damage,
@@ -89,7 +90,7 @@ CHECKS: dict[str, tuple[Callable[[Case], str | None], ...]] = {
     "eos": (*_ALL, eos_is_chosen, derivatives, sound_speed, rest, finite, pressure_rises, temperature, memory),
     "strength": (*_ALL, strength_is_chosen, moduli, virgin, monotone, melt, yield_floor, weakening, constant_yield,
                  internal_variables),
-    "damage": (*_ALL, damage, cracks),
+    "damage": (*_ALL, damage, cell_size, cracks),
 }
 
 

@@ -197,6 +197,22 @@ def damage(case: Case) -> None:
     require(math.isnan(dispatch.damage_increment(NOBODY, 0.01, 0.0, 298.0, 0.0, 1.0, par)), "an ID of no model gives numbers")
 
 
+def cell_size(case: Case) -> str | None:
+    """the factor by the size of the cell is positive and never falls as cells grow; compiled with the others, it is the same"""
+    if not hasattr(case.module, "size_factor"):
+        return "the model has no size_factor"
+    from strength import dispatch
+
+    areas = np.geomspace(1e-12, 1e-4, 9)
+    factors = np.array([case.module.size_factor(area, case.row) for area in areas.tolist()])
+    require(bool(((factors > 0.0) & (factors < math.inf)).all()), f"a factor is not positive and finite: {factors.tolist()}")
+    in_order(np.diff(factors), areas, "the area (m^2)", "factor falls")
+    for area, factor in zip(areas.tolist(), factors, strict=True):
+        through = dispatch.size_factor(case.module.ID, area, case.row)
+        require(factor == through, f"in a cell of {area:g} m^2 the factor is {factor:g}, and {through:g} by its ID")
+    return None
+
+
 def cracks(case: Case) -> str | None:
     """where damage opens cracks, undamaged material bears all of its tension, failed material none; the opening is positive"""
     if not hasattr(case.module, "tension_left"):

@@ -1,7 +1,7 @@
 """The materials of a run as two blocks that kernels read.
 
-``models[m, k]``, int64: the ids of the models of body m, in the columns EOS, STRENGTH and DAMAGE, and in MEMORY the row of
-State.q in which the internal variables of its equation of state begin.
+``models[m, k]``, int64: the ids of the models of body m, in the columns EOS, STRENGTH and DAMAGE, in MEMORY the row of
+State.q in which the internal variables of its equation of state begin, and in RECORD that of its `FAILURE_RECORD`, 0 for none.
 ``materials[m, k]``, float64: the parameter rows of the strength and the damage model, from STRENGTH_AT and DAMAGE_AT on, then
 
     TENSILE         the tension at which the body fractures, Pa, positive; inf if it never does
@@ -24,7 +24,7 @@ from strength.layout import DAMAGE_ROW
 from strength.layout import ROW as STRENGTH_ROW
 from strength.melting import ROW as LINE
 
-EOS, STRENGTH, DAMAGE, MEMORY = range(4)
+EOS, STRENGTH, DAMAGE, MEMORY, RECORD = range(5)
 
 STRENGTH_AT, DAMAGE_AT = 0, STRENGTH_ROW
 TENSILE = DAMAGE_AT + DAMAGE_ROW
@@ -34,7 +34,7 @@ EOS_AT = MELTING_AT + LINE
 
 def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
     """(models, materials) of a MaterialTable; cutoff_density (kg/m^3) and factor are float64[m]."""
-    models = np.stack([table.eos_model, table.strength_model, table.damage_model, table.memory], axis=1)
+    models = np.stack([table.eos_model, table.strength_model, table.damage_model, table.memory, table.record], axis=1)
     from strength.dispatch import WEAKENS
 
     fades = np.isin(table.strength_model, WEAKENS).astype(float)

@@ -10,7 +10,7 @@ import numpy as np
 from hydro2d.base.errors import DeckError
 from hydro2d.materials.cracking import cracking_pressure, opens_cracks, over, require_that_it_fails
 from hydro2d.materials.material import Material, Model, solid_model
-from hydro2d.mesh.fields import INTERNAL, Field
+from hydro2d.mesh.fields import FAILURE_RECORD, INTERNAL, Field
 
 #: a body is a gas compared with the stiffest one if its bulk modulus at rest is below this share of that one's
 GAS_MODULUS = 0.01
@@ -22,8 +22,10 @@ class MaterialTable:
 
     ``eos_par`` is float64[m, k] as long as the longest row of the run, at least eos.ROW, ``strength_par`` float64[m,
     strength.ROW], ``damage_par`` float64[m, strength.DAMAGE_ROW]; the model ids are int64[m]; ``internal`` has the internal
-    variables of every strength model and then those of its equation of state, ``initial`` their values in virgin material,
-    ``memory`` the row of State.q in which those of the equation of state begin, int64[m]; ``fracture_pressure`` is a positive
+    variables of every strength model, a failure record if the deck asks for one and the body can fail, and then those of its
+    equation of state, ``initial`` their values in virgin material, ``memory`` the row of State.q in which those of the equation
+    of state begin, ``record`` that of the failure record, 0 for none, and ``criterion`` what its damage model breaks it by
+    (strength/layout.py), int64[m]; ``records`` says whether the deck asks for it; ``fracture_pressure`` is a positive
     tension, inf for none, ``fracture_stress`` a largest principal stress, inf for none, and ``cracking`` the tension at which
     cracks open, if the damage model opens them, else 0; ``melting`` contains the melting lines that the deck uses,
     float64[m, strength.melting.ROW], NONE for none.
@@ -40,6 +42,9 @@ class MaterialTable:
     internal: tuple[tuple[Field, ...], ...]
     initial: tuple[np.ndarray, ...]
     memory: np.ndarray
+    record: np.ndarray
+    records: bool
+    criterion: np.ndarray
     damage_model: np.ndarray
     damage_par: np.ndarray
     fracture_pressure: np.ndarray
@@ -129,15 +134,26 @@ def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
         raise DeckError(f"material {material.name}: {problem}") from None
 
 
-def _variables(eos_modules, eos_par, strength_modules, strength_par) -> dict:
-    """Entries of a table on internal variables: those of every body's strength model, then of its equation of state."""
-    internal, initial = [], []
-    for parts in zip(zip(strength_modules, strength_par, strict=True), zip(eos_modules, eos_par, strict=True), strict=True):
-        own = [(field, row) for module, row in parts for field in getattr(module, "INTERNAL", ())]
+def _own(module: ModuleType) -> tuple[Field, ...]:
+    return getattr(module, "INTERNAL", ())
+
+
+def _variables(eos_modules, eos_par, strength_modules, strength_par, recorded) -> dict:
+    """Entries of a table on internal variables: of every body's strength model, its failure record, its equation of state.
+
+    recorded : bool for every body
+    """
+    internal, initial, memory, record = [], [], [], []
+    for eos, eos_row, strength, strength_row, noted in zip(
+            eos_modules, eos_par, strength_modules, strength_par, recorded, strict=True):
+        before = [(field, strength_row) for field in _own(strength)] + [(FAILURE_RECORD, strength_row)] * noted
+        own = [*before, *((field, eos_row) for field in _own(eos))]
         internal.append(tuple(field for field, _ in own))
         initial.append(np.array([field.at_rest(row) for field, row in own]))
-    first = [INTERNAL + len(getattr(module, "INTERNAL", ())) for module in strength_modules]
-    return {"internal": tuple(internal), "initial": tuple(initial), "memory": np.array(first, dtype=np.int64)}
+        memory.append(INTERNAL + len(before))
+        record.append(INTERNAL + len(before) - 1 if noted else 0)
+    return {"internal": tuple(internal), "initial": tuple(initial), "memory": np.array(memory, dtype=np.int64),
+            "record": np.array(record, dtype=np.int64)}
 
 
 def resolve(deck) -> MaterialTable:
@@ -146,6 +162,7 @@ def resolve(deck) -> MaterialTable:
     Raises DeckError for values that a model refuses, and for a model from outside that the kernels were loaded without.
     """
     import eos
+    from strength.layout import OTHER
 
     slots = [body for body in deck.body if body.join is None]
     chosen = [deck.materials[body.material] for body in slots]
@@ -172,6 +189,8 @@ def resolve(deck) -> MaterialTable:
         row[: own.size] = own
     strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
     damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
+    fails = [bool(tension < np.inf or stress < np.inf or module.ID) for tension, stress, module in
+             zip(tensile, most_stress, damage_modules, strict=True)]
     table = MaterialTable(
         names=tuple(body.name for body in slots),
         materials=tuple(chosen),
@@ -181,7 +200,10 @@ def resolve(deck) -> MaterialTable:
         eos_par=eos_par,
         strength_model=np.array([m.ID for m in strength_modules], dtype=np.int64),
         strength_par=strength_par,
-        **_variables(eos_modules, eos_par, strength_modules, strength_par),
+        **_variables(eos_modules, eos_par, strength_modules, strength_par, [deck.failure.record and each for each in fails]),
+        records=deck.failure.record,
+        criterion=np.array([module.criterion(row) if hasattr(module, "criterion") else OTHER for module, row in
+                            zip(damage_modules, damage_par, strict=True)], dtype=np.int64),
         damage_model=np.array([m.ID for m in damage_modules], dtype=np.int64),
         damage_par=damage_par,
         fracture_pressure=np.array(tensile),

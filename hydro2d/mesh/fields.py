@@ -22,6 +22,9 @@ FAILED = 2.0
 #: damage of crushed material, which keeps a strength under pressure: just below that of failed material
 CRUSHED = 1.0 - 1e-9
 
+#: values of `FAILURE_RECORD` where tension and where its damage model has broken all of a body
+BY_TENSION, BY_DAMAGE = 1.0, -1.0
+
 #: number of cells whose return to the yield surface is solved together, and of numbers for each (strength/lanes.py)
 LANES, LANE_ROWS = 32, 17
 
@@ -102,6 +105,10 @@ BODY = tuple(field for field in FIELDS if field.centring == "body" and field.rem
 
 #: the row of State.q in which the internal variables of a body begin: of its strength model, then of its equation of state
 INTERNAL = len(BODY)
+
+#: a row of State.q between these, of bodies that can fail, if the deck writes `failed_by`; `hydro2d.materials.rows.RECORD`
+FAILURE_RECORD = Field("failure_record", "", "body", "1", 1, "mass", False,
+                       "share of the body's mass that tension has broken, minus that which damage has", BY_DAMAGE, BY_TENSION)
 
 #: columns of `remap_rules`: 1 for fields carried per mass, 0 per volume; the bounds; the sign in a mirror
 PER_MASS, LEAST, MOST, PARITY = range(4)

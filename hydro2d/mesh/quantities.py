@@ -21,7 +21,8 @@ class FieldError(Error):
 @dataclass(frozen=True)
 class Quantity:
     """A row of the table. `title` contains {body} if the quantity is one of every body; one of `contact` is written only
-    if there are two body groups, an `internal` one only for bodies whose model has the variable."""
+    if there are two body groups, an `internal` one only for bodies whose model has the variable, and a `recorded` one only
+    if the deck's `failure.record` asks for it."""
 
     key: str
     title: str
@@ -29,6 +30,7 @@ class Quantity:
     meaning: str
     contact: bool = False
     internal: bool = False
+    recorded: bool = False
 
     @property
     def per_body(self) -> bool:
@@ -69,6 +71,10 @@ def unit(field: Field) -> str:
 INTERNAL = {field.name: _internal(field) for module in (*STRENGTH_MODULES, *MODULES, *BESIDE)
             for field in getattr(module, "INTERNAL", ()) if field.written}
 
+#: the values of `failed_by`
+FAILED_BY = ("0 nothing, 1 tension, 2 plastic strain (Johnson-Cook damage with D1 alone), 3 Johnson-Cook damage, 4 cracks "
+             "(Cochran-Banner), 5 another damage model")
+
 TABLE: tuple[Quantity, ...] = (
     Quantity("pressure", "Pressure", "Pa", "sum of volume fraction times pressure; positive in compression"),
     Quantity("density", "Density", "kg/m3", "mass of all bodies per volume of the cell"),
@@ -87,6 +93,8 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("stress_rz", "Stress rz", "Pa", "shear stress"),
     Quantity("plastic_strain", "Plastic Strain", "", "equivalent plastic strain, mean by mass over the bodies"),
     Quantity("damage", "Damage", "", "0 intact, 1 failed; mean by mass over the bodies"),
+    Quantity("failed_by", "Cause of Failure", "",
+             f"what has ended the strength of the body that fills most of the cell; {FAILED_BY}", recorded=True),
     Quantity("material", "Material", "", "number of the body, from 1, that fills most of the cell; 0: void"),
     Quantity("velocity_hard", "Velocity of Hard Bodies", "m/s",
              "that of the hard bodies in a contact, as the vector (r, z, 0)", contact=True),
@@ -107,6 +115,8 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("body_temperature", "Temperature of {body}", "K", "temperature of the body"),
     Quantity("body_plastic_strain", "Plastic Strain of {body}", "", "equivalent plastic strain of the body"),
     Quantity("body_damage", "Damage of {body}", "", "0 intact, 1 failed"),
+    Quantity("body_failed_by", "Cause of Failure of {body}", "", f"what has ended the strength of the body; {FAILED_BY}",
+             recorded=True),
     *INTERNAL.values(),
 )  # fmt: skip
 
@@ -128,7 +138,8 @@ WHOLE_STRESS = ("stress_rr", "stress_zz", "stress_tt", "stress_rz")
 GROUPS = {
     "all": tuple(BY_KEY),
     "standard": tuple(key for key in BY_KEY
-                      if key not in ("body_pressure", "body_energy", "body_damage", *WHOLE_STRESS, *INTERNAL)),
+                      if key not in ("body_pressure", "body_energy", "body_damage", "body_failed_by",
+                                     *WHOLE_STRESS, *INTERNAL)),
 }
 
 

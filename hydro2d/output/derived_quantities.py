@@ -13,6 +13,7 @@ import numpy as np
 
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.mesh.quantities import BY_KEY, expand
+from strength.layout import INTACT, TENSION
 
 TINY = 1e-300
 
@@ -129,6 +130,27 @@ class Cells:
         """Normal pressure at the contact interface in the cells that contain it, and zero elsewhere; Pa."""
         return self._sim.grid.interior(self._sim.state.contact_pressure).copy()
 
+    @functools.cached_property
+    def failed_by(self) -> np.ndarray:
+        """What has ended the strength of each body (strength/layout.py), shape (m, nz, nr); 0 where it has strength.
+
+        Of material that has failed the larger part counts: that which tension has broken, or that which damage has. Material
+        that has not failed counts as broken by tension where half of its mass has parted.
+        """
+        table, inner = self._sim.table, self._sim.grid.interior
+        causes = np.zeros(self.vof.shape, dtype=np.int32)
+        for m, row in enumerate(table.record):
+            if row:
+                record, failed = inner(self._sim.state.q[row, m]), self.dmg[m] >= 1.0
+                by_tension = np.where(failed, record > 0.0, record >= 0.5)
+                causes[m] = np.where(by_tension, TENSION, np.where(failed, table.criterion[m], INTACT))
+        return np.where(self._there, causes, INTACT)
+
+    def failed_by_most(self) -> np.ndarray:
+        """`failed_by` of the body that fills most of the cell; 0 where the void does. Shape (nz, nr)."""
+        number = self.material()
+        return np.where(number > 0, np.take_along_axis(self.failed_by, np.maximum(number - 1, 0)[None], axis=0)[0], INTACT)
+
     def material(self) -> np.ndarray:
         """1 + index of the body with the largest volume fraction; 0 where the void has the largest."""
         largest = 1 - np.sum(self.vof, axis=0)
@@ -157,6 +179,7 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "stress_rz": lambda c: c.by_volume(c.srz),
     "plastic_strain": lambda c: c.by_mass(c.ep),
     "damage": lambda c: c.by_mass(np.minimum(c.dmg, 1.0)),
+    "failed_by": Cells.failed_by_most,
     "material": Cells.material,
     "velocity_hard": lambda c: c.group_velocity(1),
     "velocity_soft": lambda c: c.group_velocity(0),
@@ -171,17 +194,19 @@ EVALUATE: dict[str, Callable[[Cells], np.ndarray]] = {
     "body_temperature": lambda c: c.t,
     "body_plastic_strain": lambda c: c.ep,
     "body_damage": lambda c: np.minimum(c.dmg, 1.0),
+    "body_failed_by": lambda c: c.failed_by,
 }
 
 
 def evaluated(sim, keys=("all",)) -> Iterator[tuple[str, np.ndarray]]:
     """Yields the name in the file and the values of each quantity in `keys`, and of those that are always written.
 
-    Shapes are (nz, nr) or (nz, nr, 3). Contact quantities are omitted if there is no contact. Raises FieldError.
+    Shapes are (nz, nr) or (nz, nr, 3). Contact quantities are omitted if there is no contact, and those of failure if the deck
+    does not record it. Raises FieldError.
     """
     cells = Cells(sim)
     for quantity in (BY_KEY[key] for key in expand(keys)):
-        if quantity.contact and sim.state.groups == 1:
+        if (quantity.contact and sim.state.groups == 1) or (quantity.recorded and not sim.table.records):
             continue
         values = cells.internal(quantity.key) if quantity.internal else EVALUATE[quantity.key](cells)
         if quantity.per_body:

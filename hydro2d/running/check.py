@@ -90,7 +90,7 @@ class Check:
         keys = [quantities.BY_KEY[key] for key in quantities.expand(self.deck.output.fields)]
         contact = self.deck.sliding.method == "contact"
         values = sum((len(self.table) if each.per_body else 1) * (3 if each.unit == "m/s" else 1) for each in keys
-                     if not each.internal and (contact or not each.contact))
+                     if not each.internal and (contact or not each.contact) and (self.table.records or not each.recorded))
         return 4 * values * self.dumps * self.grid.cells + 2 * self.memory
 
     def wall(self, threads: int) -> float:

@@ -121,8 +121,9 @@ CONSTANT_YIELD = {
 
 DAMAGE_CASES = {
     "none": {},
-    "johnson-cook": {"D1": 0.14, "D2": 0.14, "D3": -1.5, "D4": 0.018, "D5": 0.5, "melt_temperature": 877.0},
-    "johnson-holmquist": {"D1": 0.005, "D2": 1.0, "T": 0.2e9, "P_HEL": 1.46e9},
+    "johnson-cook": {"D1": 0.14, "D2": 0.14, "D3": -1.5, "D4": 0.018, "D5": 0.5, "melt_temperature": 877.0,
+                     "reference_cell": 1e-4, "cell_exponent": 0.5},
+    "johnson-holmquist": {"D1": 0.005, "D2": 1.0, "T": 0.2e9, "P_HEL": 1.46e9, "reference_cell": 1e-4, "cell_exponent": 0.5},
     "cochran-banner": {"opening": 17e-6},
 }
 
@@ -250,6 +251,9 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda *state: 0.1), "without plastic strain"),
         (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda dep, *state: -dep), "with a plastic strain"),
         (contract.damage, spoilt("damage", "johnson-cook", damage_increment=lambda dep, *state: 3.0 * dep), "by its ID"),
+        (contract.cell_size, spoilt("damage", "johnson-cook", size_factor=lambda area, par: -1.0), "is not positive"),
+        (contract.cell_size, spoilt("damage", "johnson-cook", size_factor=lambda area, par: 1.0 / area), "factor falls from"),
+        (contract.cell_size, spoilt("damage", "johnson-cook", size_factor=lambda area, par: 1.0 + area), "by its ID"),
         (contract.cracks, spoilt("damage", "cochran-banner", tension_left=lambda damage, par: 1.0), "at damage 1 the share"),
         (contract.cracks, spoilt("damage", "cochran-banner", tension_left=lambda damage, par: 0.9 - damage), "at damage 0"),
         (contract.cracks, spoilt("damage", "cochran-banner", tension_left=lambda damage, par: float(damage < 1.0)), "not fall"),

@@ -169,3 +169,19 @@ def test_a_restart_keeps_the_bits():
         first.step()
         second.step()
     np.testing.assert_array_equal(first.grid.interior(first.state.q), second.grid.interior(second.state.q))
+
+
+def test_a_failure_record_lies_between_the_variables_of_the_models():
+    """And changes none of them: a porous body beside one whose strength model has variables of its own."""
+    can_fail = [f"materials.{name}.fracture_pressure='0.5 GPa'" for name in ("metal", "hardening")]
+    can_fail.append("failure.tensile='material'")
+    noted, plain = (simulation(TWO, *can_fail, f"failure.record={word}") for word in ("true", "false"))
+    for each in (noted, plain):
+        for _ in range(20):
+            each.step()
+    assert noted.table.record.tolist() == [INTERNAL, INTERNAL + 3]
+    assert noted.table.memory.tolist() == [INTERNAL + 1, INTERNAL + 4]
+    assert plain.table.record.tolist() == [0, 0]
+    for m, names in enumerate(noted.table.internal):
+        kept = [k for k in range(INTERNAL + len(names)) if k != noted.table.record[m]]
+        np.testing.assert_array_equal(noted.state.q[kept, m], plain.state.q[:len(kept), m])

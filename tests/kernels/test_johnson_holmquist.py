@@ -39,7 +39,7 @@ class Element:
         B, M, D1, D2 = CASES[case]
         eos, strength, damage = MODELS[NAME], STRENGTH_MODELS[NAME], DAMAGE_MODELS[NAME]
         self.eos, self.eos_row = eos, eos.row({"reference_density": RHO0, "K1": K, "bulking": beta, "specific_heat": 775.0})
-        self.models = np.array([[eos.ID, strength.ID, damage.ID, INTERNAL]])
+        self.models = np.array([[eos.ID, strength.ID, damage.ID, INTERNAL, 0]])
         self.materials = np.zeros((1, EOS_AT + self.eos_row.size))
         self.materials[0, STRENGTH_AT:DAMAGE_AT] = strength.row({
             "shear_modulus": G, "A": A, "B": B, "M": M, "N": N, "T": T, "HEL": P_HEL + S / 1.5, "P_HEL": P_HEL})
@@ -55,7 +55,7 @@ class Element:
         before = np.zeros((3, 1, 1, 1))
         before[eos_memory.DAMAGED] = damage0
         return handle(dt=dt, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm, q=self.q, before=before,
-                      internal=self.internal[None])
+                      internal=self.internal[None], dr=np.ones(1), dz=np.ones(1))
 
     def step(self, length):
         """Brings the cube to a length, of 1 at rest: strain, return, density, memory, pressure, as a Lagrangian step does."""

@@ -49,7 +49,7 @@ class Cell(Cells):
 
     def __init__(self, strong: bool = False, group=(0, 0)):
         super().__init__(nr=1, nz=1, bodies=2, group=list(group))
-        models, materials = np.zeros((2, 4), dtype=np.int64), np.zeros((2, EOS_AT + ROW))
+        models, materials = np.zeros((2, 5), dtype=np.int64), np.zeros((2, EOS_AT + ROW))
         for m, (gamma, flow) in enumerate(((1.4, 3.0), (3.0, 6.0))):
             models[m, EOS] = ideal_gas.ID
             materials[m, EOS_AT:] = ideal_gas.row({"adiabatic_index": gamma, "reference_density": 1.0})

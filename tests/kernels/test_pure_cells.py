@@ -20,7 +20,7 @@ VISCOSITY = {"viscosity_linear": 0.5, "viscosity_quadratic": 2.0}
 def gas(**given) -> Cells:
     """A gas of 2 kg/m^3 with 10 J/kg in one cell of void: p = 10 Pa, K = 15 Pa, c^2 = 7.5 m^2/s^2."""
     cells = Cells()
-    models, materials = np.zeros((1, 4), dtype=np.int64), np.zeros((1, EOS_AT + ROW))
+    models, materials = np.zeros((1, 5), dtype=np.int64), np.zeros((1, EOS_AT + ROW))
     models[0, EOS], materials[0, TENSILE] = ideal_gas.ID, np.inf
     materials[0, EOS_AT:] = ideal_gas.row({"adiabatic_index": GAMMA, "reference_density": 1.0})
     cells.vof[0, *AT], cells.q[RHO, 0, *AT], cells.q[E, 0, *AT], cells.skin[KIND] = 1.0, 2.0, 10.0, WHOLE

@@ -53,6 +53,16 @@ def test_soft_material_of_the_slip_layer_loses_its_shear(treatment, rz, after):
         assert cells.q[[SRR, SZZ, SRZ], 0, 3, column].tolist() == [-20, 5, rz]
 
 
+def test_the_viscosity_of_the_slip_layer_transmits_no_shear():
+    """A q of 8 Pa along (1, 1)/sqrt 2 acts in all directions there, and nowhere else."""
+    cells = zoned()
+    cells.qr[...], cells.qz[...], cells.qrz[...] = 4.0, 4.0, 4.0
+    cells.call(sliding.cut_viscosity)
+    assert [a[3, 5] for a in (cells.qr, cells.qz, cells.qt, cells.qrz)] == [8.0, 8.0, 8.0, 0.0]
+    for column in (3, 4, 6):
+        assert [a[3, column] for a in (cells.qr, cells.qz, cells.qt, cells.qrz)] == [4.0, 4.0, 0.0, 4.0]
+
+
 # --------------------------------------------------------------------------------------------------------- the step
 
 

@@ -16,6 +16,7 @@ from tests.kernels.cells import handle
 
 FIRST, BESIDE = 2, 3
 FACTORED, DT, T, P, DENSITY = 1.5625, 1e-8, 400.0, 1e9, 2750.0
+CELL = 2.5e-5
 DEVIATOR = (SRR, SZZ, SRZ)
 
 
@@ -28,7 +29,7 @@ class Row:
         damage = DAMAGE_MODELS["johnson-cook"]
         self.damage, self.damage_par = damage, damage.row(DAMAGE_CASES["johnson-cook"])
         self.columns = columns
-        self.models, self.materials = np.zeros((1, 3), dtype=np.int64), np.zeros((1, GAS + 1))
+        self.models, self.materials = np.zeros((1, 5), dtype=np.int64), np.zeros((1, GAS + 1))
         self.models[0, STRENGTH], self.models[0, DAMAGE] = self.module.ID, damage.ID
         self.materials[0, STRENGTH_AT:STRENGTH_AT + self.par.size] = self.par
         self.materials[0, DAMAGE_AT:DAMAGE_AT + self.damage_par.size] = self.damage_par
@@ -48,6 +49,7 @@ class Row:
         q = self.q.copy()
         yield_row(0, 0, 0, handle(dt=DT, models=self.models, materials=self.materials, pm=self.pm, tm=self.tm,
                   scratch=self.scratch, q=q, lanes=np.zeros((1, LANE_ROWS * LANES)),
+                  dr=np.full(q.shape[-1], CELL), dz=np.full(1, CELL),
                   body_range=np.array([[[FIRST, FIRST + self.columns]]])))
         return q[:, 0, 0]
 
@@ -61,7 +63,8 @@ class Row:
             if dep > 0.0:
                 q[DEVIATOR, i] *= stress / size
                 q[EP, i] += dep
-                damage = q[DMG, i] + self.damage.damage_increment(dep, dep / DT, t, p, stress, self.damage_par)
+                faster = self.damage.size_factor(CELL * CELL, self.damage_par)
+                damage = q[DMG, i] + faster * self.damage.damage_increment(dep, dep / DT, t, p, stress, self.damage_par)
                 q[DMG, i] = damage if damage < 1.0 else FAILED
         return q
 

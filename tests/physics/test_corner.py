@@ -5,7 +5,7 @@ import pytest
 
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics import corner as corners
-from hydro2d.physics.kinematics import hourglass_mode, velocity_gradient
+from hydro2d.physics.kinematics import velocity_gradient
 
 R, Z = [0.0, 0.3, 0.5, 0.9, 1.0], [-0.2, 0.1, 0.5, 0.6]
 #: corners of a cell by (outer, upper), in the order of the vertices 0 to 3

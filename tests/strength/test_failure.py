@@ -5,8 +5,11 @@ import math
 import pytest
 
 from strength import johnson_cook_damage as damage
+from strength import johnson_holmquist_damage as crushing
 from strength import tensile_pressure
+from strength.layout import JOHNSON_COOK, PLASTIC_STRAIN
 
+GLASS = {"D1": 0.053, "D2": 0.85, "T": 0.15e9, "P_HEL": 2.92e9}
 STEEL_4340 = {"D1": 0.05, "D2": 3.44, "D3": -2.12, "D4": 0.002, "D5": 0.61, "melt_temperature": 1793.0}
 
 
@@ -64,3 +67,39 @@ def test_tensile_pressure():
     assert not tensile_pressure.fails(-4.5e8, 4.5e8)
     assert not tensile_pressure.fails(1e12, 4.5e8)
     assert not tensile_pressure.fails(-1e300, math.inf)
+
+
+@pytest.mark.parametrize(("size", "exponent", "longer"), [(0.25e-3, 0.5, 1.0), (0.125e-3, 0.5, 2.0**0.5), (1e-3, 1.0, 0.25)])
+def test_the_fracture_strain_depends_on_the_cell(size, exponent, longer):
+    """ef ~ (h/h0)^-m, h0 = 0.25 mm; the cell's own increment is the common one times the factor."""
+    row = damage.row({"D1": 1.5, "reference_cell": 0.25e-3, "cell_exponent": exponent})
+    assert damage.size_factor(size**2, row) == pytest.approx(1.0 / longer, rel=1e-14)
+    assert crushing.size_factor(size**2, crushing.row({**GLASS, "reference_cell": 0.25e-3, "cell_exponent": exponent})) \
+        == damage.size_factor(size**2, row)
+
+
+@pytest.mark.parametrize("given", [{}, {"reference_cell": 1e-3}, {"cell_exponent": 0.0}])
+def test_without_an_exponent_the_cell_does_not_matter(given):
+    """To the last bit: the factor is one."""
+    for size in (1e-6, 1e-4, 1.0):
+        assert damage.size_factor(size**2, damage.row({"D1": 1.5, **given})) == 1.0
+
+
+@pytest.mark.parametrize(("given", "said"), [
+    ({"cell_exponent": 0.5}, 'cell_exponent needs reference_cell.*such as reference_cell = "0.25 mm"'),
+    ({"reference_cell": 1e-3, "cell_exponent": 1.5}, "cell_exponent = 1.5: must be at most 1"),
+    ({"reference_cell": 1e-3, "cell_exponent": -0.5}, "cell_exponent = -0.5: must be non-negative"),
+    ({"reference_cell": 0.0, "cell_exponent": 0.5}, "reference_cell = 0: must be positive"),
+])  # fmt: skip
+def test_sizes_of_cells_that_make_no_sense_are_refused(given, said):
+    for model, values in ((damage, {"D1": 1.5}), (crushing, GLASS)):
+        with pytest.raises(ValueError, match=said):
+            model.row({**values, **given})
+
+
+@pytest.mark.parametrize(("given", "cause"), [
+    ({"D1": 1.5, "reference_rate": 5.0}, PLASTIC_STRAIN), ({"D1": 1.5, "D2": 0.1, "D3": -1.0}, JOHNSON_COOK),
+    ({"D1": 1.5, "rate_exponent": 0.02}, JOHNSON_COOK), ({"D1": 1.5, "D5": 0.3, "melt_temperature": 1800.0}, JOHNSON_COOK),
+])  # fmt: skip
+def test_a_constant_fracture_strain_is_a_criterion_of_its_own(given, cause):
+    assert damage.criterion(damage.row(given)) == cause

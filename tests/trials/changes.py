@@ -27,6 +27,7 @@ NUMERICS = {
 FAILURE = {
     "tensile": ("material", "none"), "damage": ("material", "none"), "tension": ("mean", "min"),
     "max_opening": (0.01, 0.5, 1.0), "strength_cutoff": (0.0, 0.5, 0.99),
+    "record": (True, False),
 }  # fmt: skip
 
 

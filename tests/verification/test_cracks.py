@@ -16,7 +16,8 @@ END = {"flyer": "5.5 mm", "pulse": "5.6 mm"}
 @functools.cache
 def shot(name: str, cells: int, damage: str = "material"):
     """The velocity of the tracer under the surface over time, and the simulation at its end."""
-    own = [f"mesh.z=[{{to='{END[name]}', cells={CELLS[name, cells]}}}]", f'failure.damage="{damage}"']
+    own = [f"mesh.z=[{{to='{END[name]}', cells={CELLS[name, cells]}}}]", f'failure.damage="{damage}"',
+           "failure.record=true"]
     simulation = Simulation(decks.load(f"problems/spall/{name}.toml", own))
     place, last, velocity = 3.94e-3, 0.0, []
     while simulation.time < simulation.deck.stop.time:
@@ -52,3 +53,6 @@ def test_a_layer_parts():
     assert gap.any()
     damage = grid.interior(state.dmg)[1, inside[-1] - 12:inside[-1], 0]
     assert damage.max() < 1.0
+    causes, failed = simulation.field("body_failed_by", "target"), grid.interior(state.dmg)[1] >= 1.0
+    assert failed.any()
+    assert (causes == np.where(failed & (grid.interior(state.vof)[1] > 0.0), 4, 0)).all()

@@ -141,7 +141,7 @@ def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
 
 @pytest.mark.parametrize(("choice", "energy"), [
     *((choice, 5e6) for choice in ADVECTION), *((choice, 2e7) for choice in ADVECTION if choice != "ke"), pytest.param(
-        "ke", 2e7, marks=pytest.mark.xfail(strict=True, raises=UnphysicalState, reason="its bound takes 2.2 % of 2 % allowed"))])
+        "ke", 2e7, marks=pytest.mark.xfail(strict=True, raises=UnphysicalState, reason="ke_bound takes 2.2 % of 2 %"))])
 def test_hot_debris_that_leaves_takes_nothing_unnamed_along(choice, energy):
     """A ball of aluminium with several times the energy of evaporation bursts and flies out through three open edges."""
     ball = body("ball", "Al6061_T6", "sphere", centre=0.0, radius="5 mm", energy=energy)

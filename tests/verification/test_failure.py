@@ -5,7 +5,8 @@ import pytest
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
-from hydro2d.mesh.fields import FAILED, SRR, SRZ
+from hydro2d.mesh.fields import BY_DAMAGE, BY_TENSION, FAILED, SRR, SRZ
+from hydro2d.mesh.quantities import FieldError
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, plate, rod, stop, table, walls
 from tests.verification.running import finish, to_the_end
@@ -210,3 +211,128 @@ def test_tensile_none_switches_a_fracture_stress_off_and_a_resolved_deck_keeps_i
     again = deck.loads(loaded.to_toml())
     assert again.materials["ring"].fracture_stress.value == 0.2e9
     assert np.isinf(Simulation(deck.loads(loaded.to_toml(), ['failure.tensile="none"'])).table.fracture_stress).all()
+
+
+# ------------------------------------------------------------------------------------------------ the size of the cell
+
+#: the ring fails by strain
+BY_STRAIN = ["failure.tensile='none'", "failure.damage='material'", "materials.ring.damage.model='johnson-cook'"]
+
+
+def strain_of_a_broken_ring(cell: str, exponent: float, reference: str = "0.5 mm") -> float:
+    """Plastic strain of the ring, mean by mass, when half of it has failed; its fracture strain is 0.04 in a reference cell."""
+    given = ["D1=0.04", f"reference_cell='{reference}'", f"cell_exponent={exponent}"]
+    ring = Simulation(deck.loads(RING.replace('"0.5 mm"', f'"{cell}"'), [*BY_STRAIN, *(f"materials.ring.damage.{each}"
+                                                                                      for each in given)]))
+    while share_failed(ring) < 0.5:
+        assert ring.time < ring.deck.stop.time
+        ring.step()
+    s, grid = ring.state, ring.grid
+    mass = grid.interior(s.vof[0] * s.rho[0] * grid.volume)
+    return float((mass * grid.interior(s.ep[0])).sum() / mass.sum())
+
+
+@pytest.mark.parametrize(("cell", "exponent"), [("0.5 mm", 0.0), ("0.25 mm", 0.0), ("0.25 mm", 0.5), ("1 mm", 0.5)])
+def test_the_strain_at_fracture_is_that_of_the_cell(cell, exponent):
+    """Of a ring in which the strain does not localise: ef (h/h0)^-m."""
+    expected = 0.04 * (float(cell.split()[0]) / 0.5) ** -exponent
+    assert strain_of_a_broken_ring(cell, exponent) == pytest.approx(expected, rel=0.03)
+
+
+def test_without_an_exponent_a_reference_cell_changes_no_bit():
+    rings = [Simulation(deck.loads(RING, [*BY_STRAIN, "materials.ring.damage.D1=0.005", *more])) for more in
+             ([], ["materials.ring.damage.reference_cell='1 mm'", "materials.ring.damage.cell_exponent=0.0"])]
+    for ring in rings:
+        for _ in range(120):
+            ring.step()
+    assert share_failed(rings[0]) > 0.1
+    np.testing.assert_array_equal(rings[0].state.q, rings[1].state.q)
+
+
+# ------------------------------------------------------------------------------------------------ what a cell has failed by
+
+RECORD = "failure.record=true"
+
+
+@pytest.mark.parametrize(("overrides", "cause"), [
+    (['materials.ring.fracture_stress="0.2 GPa"'], 1),
+    ([*BY_STRAIN, "materials.ring.damage.D1=0.02"], 2),
+    ([*BY_STRAIN, "materials.ring.damage.D1=0.01", "materials.ring.damage.D2=0.02", "materials.ring.damage.D3=-1.0"], 3),
+], ids=["stress", "strain", "johnson-cook"])  # fmt: skip
+def test_each_failed_cell_knows_its_criterion(overrides, cause):
+    """And is otherwise the same, to the last bit, as without the record."""
+    ring, plain = (Simulation(deck.loads(RING, [*overrides, *more])) for more in ([RECORD], []))
+    for simulation in (ring, plain):
+        while simulation.time < 18e-6:
+            simulation.step()
+    assert share_failed(ring) > 0.9
+    broken = ring.grid.interior(ring.state.dmg[0]) >= 1.0
+    causes = ring.field("body_failed_by", "ring")
+    assert (causes[broken & (ring.grid.interior(ring.state.vof[0]) > 0.0)] == cause).all()
+    assert (causes[~broken] == 0).all()
+    assert set(np.unique(ring.field("failed_by"))) == {0, cause}
+    rows = plain.state.q.shape[0]
+    assert ring.state.q.shape[0] == rows + 1
+    np.testing.assert_array_equal(ring.state.q[:rows], plain.state.q)
+
+
+def test_only_a_deck_that_asks_keeps_what_cells_have_failed_by():
+    ring = Simulation(deck.loads(RING, ['materials.ring.fracture_stress="0.2 GPa"']))
+    with pytest.raises(FieldError, match="failed_by: the simulation has none"):
+        ring.field("failed_by")
+    never = Simulation(deck.loads(RING, [RECORD]))  # nothing there can fail
+    assert never.state.q.shape == ring.state.q.shape
+    assert not never.field("failed_by").any()
+
+
+def test_a_layer_opened_by_tension_is_marked_where_it_parts():
+    """The fracture pressure ends no strength for good, but what it has opened is marked."""
+    simulation = Simulation(deck.loads(BAR, ["failure.damage='none'", RECORD, "materials.rod_fails.fracture_pressure='1 GPa'",
+                                             "materials.rod_fails.damage.model='none'"]))
+    to_the_end(simulation)
+    assert not failed(simulation).any()
+    rows = np.flatnonzero((simulation.field("body_failed_by", "low") == 1).any(axis=1))
+    assert rows.size > 0
+    middle = 0.5 * (simulation.grid.z_edges[1:] + simulation.grid.z_edges[:-1])[rows]
+    assert np.abs(middle).max() < 5e-3
+
+
+@pytest.mark.parametrize("cells", [4, 8])
+def test_what_cells_have_failed_by_moves_with_them(cells):
+    """Two layers of a rod, broken by tension and by damage, across 24 cells: no third cause arises where they mix."""
+    simulation = Simulation(deck.loads(FLIGHT, ["stop.time=12 us", RECORD, "materials.rod_fails.fracture_stress='50 GPa'"]))
+    grid, s = simulation.grid, simulation.state
+    rod = list(simulation.table.names).index("rod")
+    record = grid.interior(s.q[simulation.table.record[rod], rod])
+    middle = int(np.median(np.nonzero(grid.interior(s.vof)[rod].sum(axis=1))[0]))
+    below, above = slice(middle - cells, middle), slice(middle, middle + cells)
+    grid.interior(s.dmg)[rod, middle - cells:middle + cells] = FAILED
+    record[below], record[above] = BY_TENSION, BY_DAMAGE
+
+    def shares():
+        mass, causes = grid.interior(s.vof * s.rho * grid.volume)[rod], simulation.field("body_failed_by", "rod")
+        assert set(np.unique(causes)) <= {0, 1, 2}
+        return np.array([mass[causes == cause].sum() for cause in (1, 2)])
+
+    before = shares()
+    to_the_end(simulation)
+    np.testing.assert_allclose(shares(), before, rtol=0.25)
+    causes = simulation.field("body_failed_by", "rod")
+    of = [np.nonzero((causes == cause).any(axis=1))[0] for cause in (1, 2)]
+    assert of[0].max() <= of[1].min() + 1
+
+
+# ------------------------------------------------------------------------------------------------ a plug
+
+
+@pytest.mark.slow
+def test_the_exponent_makes_a_plug_take_the_same_on_two_meshes():
+    """Residual velocities of explanation/fracture: 142, 171 and 143 m/s."""
+    def residual(cells: int, exponent: float) -> float:
+        own = [f"mesh.cells_across={cells}", f"materials.plate_steel.damage.cell_exponent={exponent}"]
+        shot = to_the_end(Simulation(deck.load("problems/perforation/plug.toml", own)))
+        return shot.diagnostics()["rod_residual_velocity_m_s"]
+
+    coarse = residual(20, 0.75)
+    assert residual(40, 0.75) == pytest.approx(coarse, rel=0.05)
+    assert residual(40, 0.0) > 1.1 * coarse

@@ -79,7 +79,7 @@ def half_of_the_peak(radii: np.ndarray, values: np.ndarray) -> float:
 def test_the_shock_is_round(geometry, spread):
     """The rays differ by 0.5 % in r-z, a quarter of a cell, and by 0.1 % in the plane; with `steepness = 1` by 0.4 and 0.1 %.
 
-    With viscosity along r and z separately, and slopes of twice the smaller difference everywhere, they differ by 3.9 and 2.5 %.
+    With viscosity along r and z separately and slopes of twice the smaller difference they differ by 3.9 and 2.5 %.
     """
     radii = rays(geometry)
     assert np.ptp(radii) < spread

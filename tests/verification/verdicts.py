@@ -619,6 +619,7 @@ def gas_leaves(choice: str) -> Row:
 
 #: why a verdict is not as it should be
 MESH = "the error is that of the mesh and falls with its cells, which no bound on an energy shows"
+DISCARDS = "`momentum` has discarded 2.1 % of the energy, of which 2 % are allowed, and is 2.9 % wrong of 4"
 GAINS = "`ke` gains momentum where the shock is: along r without a total of it, along z booked but not judged"
 THIN = ("what the speed limit takes of the first, thin cells of a front is 0.4 % of the energy, but it dams up what follows; "
         "a share of the energy that rests says nothing of the motion")
@@ -634,11 +635,11 @@ def wrong(row: Row, missed: str = "") -> Row:
 
 
 ROWS = [
-    sedov(1, "ke"), sedov(1, "both"), wrong(sedov(2, "ke"), GAINS), sedov(2, "both"), wrong(sedov(3, "ke"), GAINS),
+    sedov(1, "ke"), sedov(1, "both"), sedov(2, "ke"), sedov(2, "both"), sedov(3, "ke"),
     sedov(3, "both"), *(wrong(blast_energy(j)) for j in (1, 2, 3)),
-    wrong(noh(1, "ke")), wrong(noh(1, "momentum")), noh(1, "both"), wrong(noh(2, "ke"), MESH), wrong(noh(2, "momentum")),
-    wrong(noh(2, "both"), MESH), *(wrong(streams(frame, "momentum")) for frame in (0.0, 3.0)),
-    *(streams(frame, "both") for frame in (0.0, 3.0)), wrong(streams(0.0, "ke")), wrong(streams(3.0, "ke"), GAINS),
+    wrong(noh(1, "ke"), GAINS), wrong(noh(1, "momentum")), noh(1, "both"), wrong(noh(2, "ke")), wrong(noh(2, "momentum")),
+    wrong(noh(2, "both"), MESH), wrong(streams(0.0, "momentum")), streams(3.0, "momentum")._replace(missed=DISCARDS),
+    *(streams(frame, "both") for frame in (0.0, 3.0)), wrong(streams(0.0, "ke"), GAINS), streams(3.0, "ke"),
     *(shock_tube(name, choice) for name, choice in itertools.product(("Sod's tube", "two rarefactions"), ADVECTION)),
     wrong(shock_tube("a strong shock", "ke"), GAINS), shock_tube("a strong shock", "momentum"),
     shock_tube("a strong shock", "both"), middle("ke"), middle("momentum"), wrong(middle("both"), HOT),
