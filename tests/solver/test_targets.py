@@ -19,7 +19,7 @@ from tests.decks import body, contact, mesh, plate, stop, table
 from tests.restarts import restarted
 
 TEXT = (
-    mesh(("12 mm", 12), ("-13 mm", "31 mm", 46))
+    mesh(("12 mm", 12), ("-13 mm", "31 mm", 44))
     + body("ball", "steel_4340", "sphere", centre="-6 mm", radius="5 mm", velocity="1500 m/s")
     + plate("4 mm", name="rear", material="Al6061_T6", z_front="12 mm")
     + plate("3 mm", name="front", material="Al6061_T6")
