@@ -137,8 +137,6 @@ def test_the_corner_of_a_transmitting_edge_is_counted_once(lower, geometry):
     assert abs(balance["axial_momentum"]) < 1e-12
 
 
-
-
 @pytest.mark.parametrize(("choice", "energy"), [
     *((choice, 5e6) for choice in ADVECTION), *((choice, 2e7) for choice in ADVECTION if choice != "ke"), pytest.param(
         "ke", 2e7, marks=pytest.mark.xfail(strict=True, raises=UnphysicalState, reason="ke_bound takes 2.2 % of 2 %"))])

@@ -52,9 +52,9 @@ def blast(geometry: str) -> str:
 
 
 @functools.cache
-def rays(geometry: str, *options: str) -> np.ndarray:
+def rays(geometry: str) -> np.ndarray:
     """Outermost radius at half of the largest pressure of every ray, m."""
-    simulation = finish(decks.loads(blast(geometry), list(options)))
+    simulation = finish(decks.loads(blast(geometry)))
     assert abs(simulation.conservation()["total_energy"]) < 1e-12
     pressure = simulation.grid.interior(simulation.state.pm[0])
     quarter = np.pad(pressure, ((1, 0), (1, 0)), mode="symmetric")  # mirrored in the axis and in the equator
@@ -86,7 +86,7 @@ def test_the_shock_is_round(geometry, spread):
     assert radii.mean() == pytest.approx(1.0, abs=0.005)
 
 
-def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
+def fronts(cells: int) -> dict[int, np.ndarray]:
     """Guderley's converging shock on the rays, in cells, when their mean is less than 40, 20 and 10 cells from the origin.
 
     Gas at 2.5 J/kg beyond R = 1 m around gas at 1e-6 J/kg, 1 kg/m^3, gamma = 1.4; at a thousand times the speed.
@@ -116,7 +116,7 @@ def fronts(cells: int, *options: str) -> dict[int, np.ndarray]:
     z = [0.0, 1.4]
     density = 1.0
     energy = {2.5 * SPEED**2}
-    """, list(options)))
+    """))
     at_marks: dict[int, np.ndarray] = {}
     dx = 1.4 / cells
     radii = np.linspace(dx / 2, 0.9, 6001)
