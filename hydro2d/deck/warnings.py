@@ -109,7 +109,7 @@ def _gases(deck: Deck) -> Iterator[str]:
     materials = {entry.name: deck.materials[entry.material] for entry in deck.body}
     densest = max((material.reference_density for material in materials.values()), default=0.0)
     ideal = [name for name, material in materials.items() if material.eos.name == "ideal-gas"]
-    consequence = ("a gas beside bodies in contact may explode" if deck.sliding.method == "contact" else
+    consequence = ("a gas that is trapped between bodies in contact gets too hot" if deck.sliding.method == "contact" else
                    "a gas beside a solid gets too hot where it is crushed, which ends the run as unphysical")
     for name, material in materials.items():
         if material.reference_density < GAS * densest or (name in ideal and len(ideal) < len(materials)):

@@ -11,6 +11,15 @@ from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, H
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics.closure import NO_VOID
+from hydro2d.physics.contents import (
+    fullest,
+    is_beside_gas,
+    joins_solids,
+    normal_deviator,
+    pull_of,
+    side_of_joint,
+    surface_weight,
+)
 from hydro2d.physics.interfaces import youngs_gradient
 from hydro2d.physics.stress import stress_scale
 from hydro2d.physics.traction import (
@@ -23,24 +32,18 @@ from hydro2d.physics.traction import (
     NORMAL_Z,
     STEEP,
     WHOLE,
-    along_normal,
+    film_heat,
+    gas_growth,
+    gas_work,
     half_pressure,
-    pull_left,
     smoothstep,
     strain_across,
 )
 
+#: modulus of a gas over its pressure from which it is that of the least sound speed, and the pressure counts for nothing
+STIFFEST = 10.0
 #: share of the velocity difference across the surface that a step removes from a body's mass at a vertex in the gas
 MOST_TIED = 0.5
-
-
-@point
-def is_beside_gas(j, i, gases, vof):
-    """Whether a cell contains a gas."""
-    has_gas = False
-    for m in range(vof.shape[0]):
-        has_gas = has_gas or (vof[m, j, i] > 0.0 and gases[m])
-    return has_gas
 
 
 @point
@@ -50,45 +53,6 @@ def firm_share(j, i, w):
     for m in range(w.vof.shape[0]):
         gas += w.vof[m, j, i] if w.vof[m, j, i] > 0.0 and w.gases[m] else 0.0
     return total - gas if gas < total else total
-
-
-@point
-def joins_solids(j, i, strong, vof):
-    """Whether a cell contains several bodies of which one has strength, so that more than pressure acts between them."""
-    number, solid = 0, False
-    for m in range(vof.shape[0]):
-        number += 1 if vof[m, j, i] > 0.0 else 0
-        solid = solid or (vof[m, j, i] > 0.0 and strong[m])
-    return solid and number > 1
-
-
-@point
-def most_of(j, i, vof):
-    """The body that fills most of a cell."""
-    first = 0
-    for m in range(1, vof.shape[0]):
-        first = m if vof[m, j, i] > vof[first, j, i] else first
-    return first
-
-
-@point
-def side_of_joint(m, j, i, first, gas, gases, vof):
-    """Side of the surface, 1 or -1, on which body m is in cell (j, i), filled by bodies of one group; 0 for neither.
-
-    If the cell contains a gas, gases are on one side and all other bodies on the other; else the body that fills most of it,
-    `first`, is on one side and the rest on the other.
-    """
-    if gas:
-        return -1.0 if gases[m] else 1.0
-    if vof[m, j, i] == 0.0:
-        return 0.0
-    return 1.0 if m == first else -1.0
-
-
-@point
-def normal_deviator(m, j, i, skin, q):
-    """n . s . n of body m in cell (j, i), times the weight of its surface."""
-    return along_normal(skin[NORMAL_R, j, i], skin[NORMAL_Z, j, i], q[SRR, m, j, i], q[SZZ, m, j, i], q[SRZ, m, j, i])
 
 
 @cell_rows
@@ -121,7 +85,7 @@ def find_surfaces(j, w):
         meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
         if own + other == 0.0 or (full and not meet and (zone or not w.tipton or not joins_solids(j, i, w.strong, w.vof))):
             continue
-        joint, first, gas = full and not meet, most_of(j, i, w.vof), is_beside_gas(j, i, w.gases, w.vof)
+        joint, first, gas = full and not meet, fullest(j, i, w.vof), is_beside_gas(j, i, w.gases, w.vof)
         w.skin[KIND, j, i] = INTERFACE if meet else FREE_SURFACE
         if joint:
             w.skin[KIND, j, i] = BESIDE_GAS if gas else JOINT
@@ -176,15 +140,6 @@ def ties(j, i, w):
 
 
 @point
-def contains_group(g, j, i, group, vof):
-    """Whether a cell contains a body of group g."""
-    contains = False
-    for m in range(vof.shape[0]):
-        contains = contains or (group[m] == g and vof[m, j, i] > 0.0)
-    return contains
-
-
-@point
 def pull_of_ties(g, j, i, row, column, by_r, by_z, w):
     """(radial, axial) momentum that vertex (j, i) of group g gains from the ties of cell (row, column) in a step."""
     u, v = w.u0[g, j, i], w.v0[g, j, i]
@@ -235,24 +190,22 @@ def bodies_stress(g, j, i, w):
 
 
 @point
-def surface_weight(j, i, skin):
-    """Weight of the surface in a cell, 0 to 1."""
-    return min(skin[NORMAL_R, j, i] * skin[NORMAL_R, j, i] + skin[NORMAL_Z, j, i] * skin[NORMAL_Z, j, i], 1.0)
-
-
-@point
-def pull_of(j, i, void, skin):
-    """Share of a tension that a cut cell carries: none where two groups meet, all where bodies of one fill it (`pull_left`)."""
-    if skin[KIND, j, i] == JOINT or skin[KIND, j, i] == BESIDE_GAS:
-        return 1.0
-    return 0.0 if skin[KIND, j, i] == INTERFACE else pull_left(void, surface_weight(j, i, skin))
-
-
-@point
 def cut_pressure(j, i, rate, w):
     """p_c of a cut cell at half the step, for the cell's relative rate of volume (1/s)."""
     void = max(1.0 - w.solid[j, i], 0.0)
     return half_pressure(w.p[j, i], w.bulk[j, i], 0.5 * w.dt * rate, void, pull_of(j, i, void, w.skin))
+
+
+@point
+def is_free_gas(m, j, i, w):
+    """Whether body m of a cut cell is a gas under pressure that nothing else resists: its volume is no straight line."""
+    return w.gases[m] and w.mix[j, MODULUS, m] == 0.0 and w.pm[m, j, i] < w.km[m, j, i] < STIFFEST * w.pm[m, j, i]
+
+
+@point
+def gas_exponent(m, j, i, w):
+    """Exponent n of p v^n of a gas in a cut cell: K/p along its isentrope, and 1 in a film at constant temperature."""
+    return 1.0 + film_heat(w.vof[m, j, i]) * (w.km[m, j, i] / w.pm[m, j, i] - 1.0)
 
 
 @point
@@ -267,9 +220,13 @@ def growth_at(j, i, target, w):
     for m in range(w.vof.shape[0]):
         if w.vof[m, j, i] == 0.0:
             continue
-        w.mix[j, ACROSS, m], w.mix[j, GROWTH, m], body_compliance = strain_across(
-            w.pm[m, j, i], target, w.km[m, j, i], w.mix[j, MODULUS, m], w.mix[j, FLOW, m], w.mix[j, SIZE, m],
-            w.mix[j, ALONG, m], w.mix[j, BESIDE, m], weight)
+        if is_free_gas(m, j, i, w):
+            w.mix[j, GROWTH, m], body_compliance = gas_growth(w.pm[m, j, i], target, gas_exponent(m, j, i, w))
+            w.mix[j, ACROSS, m] = w.mix[j, GROWTH, m]
+        else:
+            w.mix[j, ACROSS, m], w.mix[j, GROWTH, m], body_compliance = strain_across(
+                w.pm[m, j, i], target, w.km[m, j, i], w.mix[j, MODULUS, m], w.mix[j, FLOW, m], w.mix[j, SIZE, m],
+                w.mix[j, ALONG, m], w.mix[j, BESIDE, m], weight)
         total += w.vof[m, j, i] * w.mix[j, GROWTH, m]
         compliance += w.vof[m, j, i] * body_compliance
     return total, compliance
@@ -291,6 +248,27 @@ def pressure_for_growth(j, i, room, start, w):
 
 
 @not_inlined
+def pressure_with_gas(j, i, room, start, w):
+    """`pressure_for_growth` where the growth is no straight line: within bounds that close in, for a room that p_c = 0 exceeds.
+
+    Writes   as `growth_at`
+    """
+    low, high, target = 0.0, 1e300, max(start, 1e-3 * w.p[j, i])
+    for _ in range(60):
+        total, compliance = growth_at(j, i, target, w)
+        if abs(total - room) < 1e-14:
+            break
+        if total > room:
+            low = target
+        else:
+            high = target
+        target += (total - room) / compliance
+        if not low < target < high:
+            target = 0.5 * (low + high)
+    return target
+
+
+@not_inlined
 def traction_of_change(j, i, change, w):
     """p_c of a cut cell (Pa) at the end of a step in which its volume changes by `change`, a share of the cell.
 
@@ -302,7 +280,10 @@ def traction_of_change(j, i, change, w):
     void = max(1.0 - w.solid[j, i], 0.0)
     total, _ = growth_at(j, i, 0.0, w)
     if total > change + void:
-        return pressure_for_growth(j, i, change + void, max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0), w)
+        start = max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0)
+        if is_beside_gas(j, i, w.gases, w.vof):
+            return pressure_with_gas(j, i, change + void, start, w)
+        return pressure_for_growth(j, i, change + void, start, w)
     pull = pull_of(j, i, void, w.skin)
     if pull == 0.0 or total >= change:
         return 0.0
@@ -316,8 +297,9 @@ def traction_of_change(j, i, change, w):
 def fill_cut_cell(j, i, change, volume, target, work, w):
     """Volumes, densities and energies of the bodies of a cut cell after the step.
 
-    Each body takes the work of its own normal stress, the mean over the step, on the growth of its volume. The rest of the
-    cell's work (pressure and viscosity, J per radian) is shared by mass.
+    Each body takes the work of its own normal stress, the mean over the step, on the growth of its volume; a gas that along
+    its isentrope, and in a film less (`film_heat`). The rest of the cell's work (pressure and viscosity, J per radian) is
+    shared by mass.
 
     Reads    mix [j, GROWTH, m]; mix [j, NORMAL, m], its normal deviator before the step; mix [j, HEAT, m], the work of its
              deviators, of ties and of the hourglass filter
@@ -330,10 +312,13 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         f = w.vof[m, j, i]
         if f == 0.0:
             continue
-        grown = max(w.mix[j, GROWTH, m], -0.5) * f * volume
+        gas = is_free_gas(m, j, i, w)
+        grown = (w.mix[j, GROWTH, m] if gas else max(w.mix[j, GROWTH, m], -0.5)) * f * volume
         filled += f * volume + grown
         mass += w.q[RHO, m, j, i] * f * volume
         done = 0.5 * (w.pm[m, j, i] - w.mix[j, NORMAL, m] + target) * grown
+        if gas:
+            done = gas_work(w.pm[m, j, i], w.mix[j, GROWTH, m], gas_exponent(m, j, i, w)) * f * volume * film_heat(f)
         w.mix[j, HEAT, m] -= done
         left += done
     # Step 2: the volumes fill the cell; under tension the gap stays void
@@ -343,7 +328,8 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         if f == 0.0:
             continue
         own = w.q[RHO, m, j, i] * f * volume
-        space = squeeze * (1.0 + max(w.mix[j, GROWTH, m], -0.5)) * f * volume
+        grown = w.mix[j, GROWTH, m] if is_free_gas(m, j, i, w) else max(w.mix[j, GROWTH, m], -0.5)
+        space = squeeze * (1.0 + grown) * f * volume
         w.q[E, m, j, i] += w.mix[j, HEAT, m] / own + left / mass
         w.q[RHO, m, j, i] = own / space
         w.vof[m, j, i] = space / after

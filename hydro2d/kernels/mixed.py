@@ -12,8 +12,6 @@ from hydro2d.kernels.cut_cells import (
     common_traction,
     fill_cut_cell,
     firm_density,
-    is_beside_gas,
-    normal_deviator,
     tied_work,
     ties,
 )
@@ -46,6 +44,7 @@ from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, RECORD, TENSILE
 from hydro2d.mesh.fields import BY_TENSION, DMG, RHO, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
+from hydro2d.physics.contents import is_beside_gas, normal_deviator
 from hydro2d.physics.corner import filter_power
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import velocity_gradient

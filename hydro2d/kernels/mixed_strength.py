@@ -1,7 +1,7 @@
 """Strength in mixed cells: elastic trial of every body, the strain across a surface, and the return to the yield surface."""
 
 from hydro2d.jit import point
-from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, firm_share, surface_weight, traction_of_change
+from hydro2d.kernels.cut_cells import NORMAL_R, NORMAL_Z, firm_share, traction_of_change
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
     ALONG,
@@ -29,6 +29,7 @@ from hydro2d.kernels.plastic_return import return_to_surface
 from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS_AT, FACTOR, MELTING_AT, STRENGTH, STRENGTH_AT
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ
 from hydro2d.mesh.grid import VOL_R
+from hydro2d.physics.contents import surface_weight
 from hydro2d.physics.plasticity import (
     carries_no_stress,
     deviator_power,

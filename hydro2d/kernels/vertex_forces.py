@@ -5,10 +5,11 @@ from math import sqrt
 from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
 from hydro2d.kernels.boundaries import velocity_at_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, union
-from hydro2d.kernels.cut_cells import KIND, WHOLE, bodies_stress, contains_group, cut_pressure, pull_of_ties, ties
+from hydro2d.kernels.cut_cells import KIND, WHOLE, bodies_stress, cut_pressure, pull_of_ties, ties
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
+from hydro2d.physics.contents import contains_group
 from hydro2d.physics.corner import axial_force, hourglass_force, radial_force
 from hydro2d.physics.kinematics import alternating_mode, divergence
 from hydro2d.physics.momentum import corner_sum

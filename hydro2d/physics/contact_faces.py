@@ -4,7 +4,7 @@ from math import sqrt
 
 from hydro2d.jit import point
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R
-from hydro2d.physics.traction import smoothstep
+from hydro2d.physics.traction import FILM, smoothstep
 
 #: share of void in a cell of both groups up to which they touch
 GAP = 0.01
@@ -51,20 +51,32 @@ def dual_share(g, j, i, mesh_box, volume, metrics, hard, soft):
 
 
 @point
-def weight_beside(j, i, row, column, hard, soft):
-    """Weight of the aperture in cell (j, i) for the face shared with (row, column), which may be full of one group.
-
-    The face of a full cell next to a gap belongs to the full cell alone: void cannot press on it.
-    """
-    gap = smoothstep((1.0 - hard[j, i] - soft[j, i]) / GAP - 0.5)
-    full = smoothstep(1.0 - (1.0 - hard[row, column] - soft[row, column]) / GAP)
-    return 1.0 - gap * full
+def gas_share(j, i, hard, soft, firm):
+    """Share of cell (j, i) that gases fill; firm : shares that the other bodies of either group fill [b, j, i]."""
+    return (hard[j, i] - firm[1, j, i]) + (soft[j, i] - firm[0, j, i])
 
 
 @point
-def weights_beside(j, i, row, column, hard, soft):
+def weight_beside(j, i, row, column, hard, soft, firm):
+    """Weight of the aperture in cell (j, i) for the face shared with (row, column), which may be full of one group.
+
+    The face of a full cell next to a gap belongs to the full cell alone: void cannot press on it. Gas in (j, i) is as good as
+    void, and where there is more of it than a FILM, a cell with as much void or gas counts as full: the least share of what
+    presses there would throw the gas, which weighs nothing.
+
+    firm : shares that the bodies of the soft and of the hard group other than gases fill [b, j, i]
+    """
+    gap = smoothstep((1.0 - firm[1, j, i] - firm[0, j, i]) / GAP - 0.5)
+    void, gas = 1.0 - hard[row, column] - soft[row, column], gas_share(row, column, hard, soft, firm)
+    full = smoothstep(1.0 - (void + max(gas - FILM, 0.0)) / GAP)
+    beside = smoothstep(gas_share(j, i, hard, soft, firm) / FILM)
+    return 1.0 - gap * ((1.0 - beside) * full + beside * smoothstep(1.0 - max(void + gas - FILM, 0.0) / GAP))
+
+
+@point
+def weights_beside(j, i, row, column, hard, soft, firm):
     """`weight_beside` of cell (j, i) and of its neighbour (row, column) for the face between them."""
-    return weight_beside(j, i, row, column, hard, soft), weight_beside(row, column, j, i, hard, soft)
+    return weight_beside(j, i, row, column, hard, soft, firm), weight_beside(row, column, j, i, hard, soft, firm)
 
 
 @point

@@ -6,7 +6,7 @@ sig_.. : stress of the cells at half the step, Pa;  skin : kind of a cell and no
 from math import sqrt
 
 from hydro2d.jit import point
-from hydro2d.physics.contact_faces import GAP
+from hydro2d.physics.contact_faces import GAP, gas_share
 from hydro2d.physics.stress import least_pressure
 from hydro2d.physics.traction import INTERFACE, KIND, smoothstep
 
@@ -57,10 +57,16 @@ def along_surface(j, i, row, column, hard, soft):
 
 
 @point
-def stands_out(j, i, mesh_box, constrained, skin, hard, soft, solid, ph, qr):
+def closed(j, i, hard, soft, firm, solid):
+    """How far a cell counts as free of void and gas: 1 without either, 0 from GAP on."""
+    return smoothstep(1.0 - (1.0 - solid[j, i] + gas_share(j, i, hard, soft, firm)) / GAP)
+
+
+@point
+def stands_out(j, i, mesh_box, constrained, skin, hard, soft, firm, solid, ph, qr):
     """By how much p_c + q of a cell of the surface exceeds the mean of its neighbours along the surface, Pa.
 
-    0 where there are no two neighbours. A cell counts as long as it has no void, up to GAP; the axis and
+    0 where there are no two neighbours. A cell counts as long as it has no void and no gas, up to GAP; the axis and
     walls are mirrors.
     """
     here = ph[j, i] + qr[j, i]
@@ -71,12 +77,12 @@ def stands_out(j, i, mesh_box, constrained, skin, hard, soft, solid, ph, qr):
                 number += 1.0
                 total += here
         elif skin[KIND, row, column] == INTERFACE:
-            part = smoothstep(1.0 - (1.0 - solid[row, column]) / GAP) * along_surface(j, i, row, column, hard, soft)
+            part = closed(row, column, hard, soft, firm, solid) * along_surface(j, i, row, column, hard, soft)
             number += part
             total += part * (ph[row, column] + qr[row, column])
     if number <= 1.0:
         return 0.0
-    return (here - total / number) * min(number - 1.0, 1.0) * smoothstep(1.0 - (1.0 - solid[j, i]) / GAP)
+    return (here - total / number) * min(number - 1.0, 1.0) * closed(j, i, hard, soft, firm, solid)
 
 
 @point

@@ -5,7 +5,7 @@ next to void (explanation/mixed-cells, equations 9 to 12). The strain across the
 integrated.
 """
 
-from math import sqrt
+from math import log, sqrt
 
 from hydro2d.jit import point
 
@@ -20,6 +20,10 @@ SURE = 1e-3
 STEEP = 0.1
 #: largest relative change of a body's volume in a step by the traction on it
 MOST_GROWTH = 0.1
+#: share of its volume that a step leaves of a gas however it is compressed
+LEAST_LEFT = 1e-4
+#: share of a cell up to which a gas is a film, which the solids beside it keep at its temperature
+FILM = 0.015
 #: share of void from which it closes only in part within half a step; twice as much does not close at all
 WIDE = 0.05
 
@@ -90,3 +94,31 @@ def strain_across(p, target, modulus, shear, flow, size, along, beside, weight):
     e = min(max(e, -MOST_GROWTH - beside), MOST_GROWTH - beside)
     grown = weight * (beside + e) + (1.0 - weight) * min(max(free, -MOST_GROWTH), MOST_GROWTH)
     return e, grown, weight / stiffness + (1.0 - weight) / modulus
+
+
+@point
+def film_heat(share):
+    """Part of the heat of its compression that a gas keeps, by its share of the cell: none in a FILM, which solids cool."""
+    return smoothstep(share / FILM - 1.0)
+
+
+@point
+def gas_growth(p, target, exponent):
+    """(growth of the volume of a gas from the pressure p to target, decrease of that with target), p v^exponent constant.
+
+    A step may close a film of gas altogether. Along a straight line with its modulus K at the start, it would take part in that
+    no further than to p + K, and meet the pressure at which solids give way with nearly all of its volume.
+    """
+    if target <= p * (1.0 + MOST_GROWTH) ** -exponent:
+        return MOST_GROWTH, 1.0 / (exponent * p)
+    size = max((p / target) ** (1.0 / exponent), LEAST_LEFT)
+    return size - 1.0, size / (exponent * target)
+
+
+@point
+def gas_work(p, growth, exponent):
+    """Work of a gas from the pressure p on its own growth along `gas_growth`, Pa: over its volume before."""
+    less = exponent - 1.0
+    if less < 1e-6:
+        return p * log(1.0 + growth)
+    return p * (1.0 - (1.0 + growth) ** -less) / less

@@ -75,13 +75,14 @@ LONGEST = 0.5
 def most_squares(table, courant: float) -> float:
     """Largest sum of the squares of an extension's weights that the time step allows (explanation/sliding, equation 7).
 
-    A cell with the modulus K of the stiffest body that pushes a slave whose masters have the density rho of the lightest
-    swings with omega^2 = (K/rho) sum N^2/h^2; omega dt <= 2 with dt = courant h/c of the fastest. No less than at the Courant
-    number LONGEST: nodes whose gradients are reduced further are less stable, not more.
+    A cell with the modulus K of the stiffest body that pushes a slave whose masters have the density rho of the lightest but
+    for gases swings with omega^2 = (K/rho) sum N^2/h^2; omega dt <= 2 with dt = courant h/c of the fastest. No less than at the
+    Courant number LONGEST: nodes whose gradients are reduced further are less stable, not more.
     """
     courant = min(courant, LONGEST)
     speeds = table.sound_speeds()
-    return float(max(4.0 * table.rho0.min() * speeds.max() ** 2 / ((table.rho0 * speeds**2).max() * courant**2), 1.0))
+    lightest = table.rho0[~table.gases()].min()
+    return float(max(4.0 * lightest * speeds.max() ** 2 / ((table.rho0 * speeds**2).max() * courant**2), 1.0))
 
 
 class NoContact:

@@ -433,7 +433,7 @@ def test_mistakes_of_every_kind_are_reported_at_once():
 def test_gas_next_to_solids_gives_a_warning(density):
     """With contact and without; a gas without solids gives no warning."""
     options = [f'materials.air.eos.reference_density="{density}"']
-    warned = 'body "air": a gas beside bodies in contact may explode; leave the space empty'
+    warned = 'body "air": a gas that is trapped between bodies in contact gets too hot; leave the space empty'
     assert warned in deck.warnings(deck.load("problems/sliding/rod_in_air.toml", options))
     warned = 'body "air": a gas beside a solid gets too hot where it is crushed, which ends the run as unphysical; '
     tied = deck.load("problems/sliding/rod_in_air.toml", [*options, 'sliding.method="none"', "sliding.hard=[]"])

@@ -154,15 +154,6 @@ def test_a_cell_comes_in_by_degrees():
     assert lost[4] == pytest.approx(lost[3], rel=1e-9)
 
 
-def test_the_least_of_four_numbers_is_of_those_that_count():
-    least_of = kernels.least_of.py_func
-    assert least_of(3.0, 2.0, 4.0, 5.0, 1.0, 1.0, 1.0, 1.0) == 2.0
-    assert least_of(3.0, 2.0, 4.0, 5.0, 1.0, 0.0, 1.0, 1.0) == 3.0
-    assert least_of(3.0, 2.0, 4.0, 5.0, 0.0, 0.0, 0.0, 1.0) == 5.0
-    assert least_of(3.0, 0.0, 4.0, 5.0, 1.0, 1e-9, 1.0, 1.0) == 3.0
-    assert least_of(3.0, 0.0, 4.0, 5.0, 1.0, 0.5, 1.0, 1.0) == 2.5
-
-
 def test_the_soft_body_and_cells_that_are_not_full_are_left_alone():
     block = Block()
     block.vof[1, 5, 5], block.vof[0, 5, 5] = 0.999, 0.001

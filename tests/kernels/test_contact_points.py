@@ -10,6 +10,7 @@ from hydro2d.kernels.contact.contact_velocities import heat_contact_nodes, resol
 from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
 from hydro2d.mesh.grid import Grid
 from hydro2d.physics.momentum import SLIGHT
+from hydro2d.physics.traction import FILM
 from hydro2d.solver import contact_ties
 from tests.kernels.cells import handle
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
@@ -291,10 +292,10 @@ def test_pressure_on_a_flat_surface_is_force_over_its_area():
                    sig_rr=nothing, sig_zz=-zz, sig_rz=nothing)) == 0.0
 
 
-def one_cell(line, hard: float, soft: float, inside: bool = True):
-    """The cell (0, 0), among the contact-interface cells or not."""
-    return handle(line=line, hard=np.full((1, 1), hard), soft=np.full((1, 1), soft),
-                  contact_columns=np.array([[0, int(inside)]]))
+def one_cell(line, hard: float, soft: float, inside: bool = True, gas: float = 0.0):
+    """The cell (0, 0), among the contact-interface cells or not, with some gas of the soft group."""
+    return handle(line=line, hard=np.full((1, 1), hard), soft=np.full((1, 1), soft + gas),
+                  firm=np.array([soft, hard]).reshape(2, 1, 1), contact_columns=np.array([[0, int(inside)]]))
 
 
 def test_the_line_of_a_cell_wets_its_edges():
@@ -322,14 +323,16 @@ def test_an_edge_of_a_void_cell_has_no_weight():
         assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.0, 0.0, inside)) == (0.0, 0.0, 0.0)
 
 
-def sliver(share: float, n_r: float) -> tuple[float, float, float]:
-    """Apertures of the left edge of a full cell, at which this share is hard (n_r = 1), or from which it is (n_r = -1)."""
+def sliver(share: float, n_r: float, gas: bool = False) -> tuple[float, float, float]:
+    """Apertures of the left edge of a full cell, at which this share is hard (n_r = 1), or from which it is (n_r = -1). The
+    rest is a solid or a gas."""
     line = np.zeros((10, 1, 1))
     line[contact_geometry.SHARE] = share
     if 0.0 < share < 1.0:
         line[contact_geometry.LINE_R] = n_r
         line[contact_geometry.CONSTANT] = share if n_r > 0.0 else share - 1.0
-    return face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, one_cell(line, share, 1.0 - share))
+    solid, rest = (0.0, 1.0 - share) if gas else (1.0 - share, 0.0)
+    return face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, one_cell(line, share, solid, gas=rest))
 
 
 @pytest.mark.parametrize("n_r", [1.0, -1.0])
@@ -345,6 +348,14 @@ def test_half_a_sliver_counts_by_half_and_more_than_a_sliver_in_full():
     assert sliver(1.0 - 0.5 * SLIVER, -1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
     assert sliver(1.001 * SLIVER, 1.0) == (1.0, 1.0, 1.0)
     assert sliver(1.0 - 1.001 * SLIVER, -1.0) == (1.0, 0.0, 0.0)
+
+
+def test_a_film_of_gas_moves_no_face():
+    """It comes in beyond FILM, as a solid does beyond nothing."""
+    assert sliver(1.0 - FILM, -1.0, gas=True) == (1.0, 1.0, 1.0)
+    assert sliver(1.0 - FILM - 0.5 * SLIVER, -1.0, gas=True) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
+    assert sliver(1.0 - FILM - 1.001 * SLIVER, -1.0, gas=True) == (1.0, 0.0, 0.0)
+    changes_in_proportion(lambda x: sliver(x, -1.0, True), 1.0 - FILM, 2.0 / SLIVER)
 
 
 # ------------------------------------------------------------------------------ slopes beside vertices without mass

@@ -6,6 +6,7 @@ import pytest
 from hydro2d.kernels.contact import extension
 from hydro2d.kernels.contact.contact_geometry import REACH
 from hydro2d.kernels.contact.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
+from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.grid import Grid
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -23,20 +24,25 @@ STEEPNESS = 2e4
 
 
 class Extensions:
-    """Slaves among all vertices of both groups, where hard fills cells [j, i] and soft the rest of them.
+    """Slaves among all vertices of both groups, where hard fills cells [j, i], a gas of the soft group some share, and its
+    other body the rest of them.
 
-    Rows and columns are those of the mesh without ghosts. The normal, from hard to soft, is everywhere the same.
+    Rows and columns are those of the mesh without ghosts. The normal, from hard to soft, is everywhere the same. A gas has a
+    thousandth of the density of the others.
     """
 
-    def __init__(self, hard, normal, soft=None, damage=0.0, most_squares=1e6, edges=LEVEL, constrained=(-1, -1, -1, -1)):
+    def __init__(self, hard, normal, soft=None, damage=0.0, most_squares=1e6, edges=LEVEL, constrained=(-1, -1, -1, -1),
+                 gas=0.0):
         self.grid = g = Grid(edges, edges, "planar")
         inside, mesh = g.inside, np.s_[g.g:g.g + N + 1, g.g:g.g + N + 1]
-        vof = np.zeros((2, *g.shape))
+        vof, q = np.zeros((3, *g.shape)), np.ones((1, 3, *g.shape))
+        vof[2][inside], q[RHO, 2] = gas, 1e-3
         vof[1][inside] = hard
-        vof[0][inside] = 1.0 - np.asarray(hard) if soft is None else soft
+        vof[0][inside] = 1.0 - np.asarray(hard) - vof[2][inside] if soft is None else soft
+        firm, both_bodies = vof[:2], np.stack([vof[0] + vof[2], vof[1]])
         mass = np.zeros((2, *g.vertex_shape))
         for dj, di in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            mass[:, dj:dj + g.shape[0], di:di + g.shape[1]] += 0.25 * vof
+            mass[:, dj:dj + g.shape[0], di:di + g.shape[1]] += 0.25 * both_bodies
         both = (mass > 0.0).all(axis=0)
         count, nodes, first = both.sum(axis=1), np.zeros(both.shape, dtype=np.int64), np.zeros(len(both) + 1, dtype=np.int64)
         for j in range(len(both)):
@@ -49,14 +55,16 @@ class Extensions:
         mesh_box = np.array([g.g, g.g + N, g.g, g.g + N])
         rows, dmg = mesh_box[:2], np.zeros_like(vof)
         dmg[1] = damage
-        filled = np.full((2, *g.vertex_shape), np.nan)
+        filled, firmly = np.full((2, 2, *g.vertex_shape), np.nan)
         find_filled(0, handle(parts=rows, mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, contact_node_count=count,
-                    contact_nodes=nodes, hard=vof[1], soft=vof[0], mass=mass, filled=filled))
+                    contact_nodes=nodes, hard=both_bodies[1], soft=both_bodies[0], firm=firm, mass=mass, filled=filled,
+                    firmly=firmly))
         find_extensions(0, handle(parts=rows, mesh_box=mesh_box, constrained=np.array(constrained),
                         most_squares=most_squares, r=g.r, z=g.z,
                         contact_node_count=count, contact_nodes=nodes, first_slot=first, contact_normal=directions,
-                        hard=vof[1], soft=vof[0], filled=filled, inward=np.full((len(both), 4, 36), np.nan),
-                        group=np.array([0, 1]), vof=vof, dmg=dmg, strength=strength,
+                        hard=both_bodies[1], soft=both_bodies[0], firm=firm, filled=filled, firmly=firmly,
+                        inward=np.full((len(both), 4, 36), np.nan), group=np.array([0, 1, 0]), vof=vof, dmg=dmg, q=q,
+                        gases=np.array([False, False, True]), volume=g.volume, metrics=g.metrics, strength=strength,
                         masters=number, where=where, weights=weights))
         self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
         self.count, self.nodes, self.hard = count, nodes, vof[1]
@@ -112,8 +120,7 @@ def test_a_share_of_a_dual_cell_is_none_without_mass_or_beyond_the_mesh():
     hard, soft, mass = np.zeros(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
 
     def share(j, i):
-        return filled_share(1, j, i, handle(mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, hard=hard, soft=soft,
-                            mass=mass))
+        return filled_share(1, j, i, hard, soft, handle(mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, mass=mass))
 
     hard[3, 3:5], hard[4, 4] = 1.0, 0.4
     assert share(4, 4) == pytest.approx(0.6)
@@ -149,11 +156,48 @@ def test_debris_is_failed_material_of_the_other_group_that_fills_half_of_a_cell(
 def test_a_cell_counts_by_its_distance_and_direction(row, column, expected):
     """From a vertex at its lower left, along r; nothing behind it and nothing beyond the mesh."""
     g = Grid(LEVEL, LEVEL, "planar")
-    hard, soft, filled = np.ones(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
+    share, filled = np.ones(g.shape), np.ones(g.vertex_shape)
     for size in (9, 8, 6):
         mesh_box = np.array([0, size, 0, size])
-        weight = cell_weight(1, 5, 5, row, column, 1.0, 0.0, handle(mesh_box=mesh_box, hard=hard, soft=soft, filled=filled))
+        weight = cell_weight(5, 5, row, column, 1.0, 0.0, share, filled, handle(mesh_box=mesh_box))
         assert weight == pytest.approx(expected if row < size and column < size else 0.0)
+
+
+# ------------------------------------------------------------------------------------------------------ beside a gas
+
+
+def beside_gas(firm: float) -> Extensions:
+    """A hard block to the left; to the right of it gas in the lower half and a soft solid in the upper one, with a share of
+    that in the lowest of its cells, beside the block."""
+    hard, soft, gas = np.zeros((3, N, N))
+    hard[:, :4], hard[:, 4] = 1.0, 0.8
+    soft[6:, 5:], soft[6:, 4] = 1.0, 0.2
+    gas[:6, 5:], gas[:6, 4] = 1.0, 0.2
+    soft[5, 4], gas[5, 4] = 0.2 * firm, 0.2 * (1.0 - firm)
+    return Extensions(hard, (1.0, 0.0), soft, gas=gas)
+
+
+def test_a_solid_is_not_tied_to_the_gas_beside_it():
+    """The vertex at the end of the solid's edge has a master in the gas for as much of its mass as is gas."""
+    found = beside_gas(0.5)
+    assert found.strength[0, 6, 4] == 1.0
+    in_gas = sum(weight for (dj, _), weight in found.of(0, 6, 4).items() if dj < 0)
+    assert sum(found.of(0, 6, 4).values()) == pytest.approx(1.0, rel=1e-12)
+    assert abs(in_gas) < 2e-3
+    deep = found.of(0, 2, 4)  # in the gas
+    assert sum(deep.values()) == pytest.approx(1.0, rel=1e-12)
+    assert min(dj for dj, _ in deep) < 0 < max(dj for dj, _ in deep)
+
+
+def test_gas_alone_is_tied_as_a_solid_whose_gradients_are_reduced():
+    hard = half_plane(0.4)
+    gas, solid = Extensions(hard, (0.9, 0.4), np.zeros((N, N)), gas=1.0 - hard), Extensions(hard, (0.9, 0.4), most_squares=1.0)
+    np.testing.assert_allclose(gas.strength, solid.strength, rtol=1e-14)
+    np.testing.assert_allclose(gas.weights[0], solid.weights[0], atol=1e-14)
+
+
+def test_a_solid_comes_into_a_gas_without_a_jump():
+    assert largest_jump(lambda firm: beside_gas(firm).everything(0, 5, 4), 0.0, 1.0) < 1e-9
 
 
 # ------------------------------------------------------------------------------------------------- its own direction

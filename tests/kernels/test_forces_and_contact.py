@@ -217,6 +217,7 @@ def test_contact_nodes_are_where_both_groups_have_mass():
     assert cells.contact_nodes[2:7, :2].tolist() == 5 * [[4, 5]]
     assert cells.hard[3, 2:7].tolist() == [1, 1, 0.5, 0, 0]
     assert cells.soft[3, 2:7].tolist() == [0, 0, 0.5, 1, 1]
+    np.testing.assert_array_equal(cells.firm, [cells.soft, cells.hard])
     assert cells.heated_columns[4].tolist() == [2, 7]
     cells.call(contact_geometry.number_nodes)
     assert cells.first_slot[2:8].tolist() == [0, 2, 4, 6, 8, 10]
@@ -249,6 +250,7 @@ def test_apertures_are_what_the_line_leaves_of_a_face():
     assert cells.touch[3, 4:6].tolist() == [1, 1]
     cells.soft[ROWS, 4] = 0.45  # a twentieth of void between them
     cells.soft[ROWS, 3] = cells.hard[ROWS, 5] = 0.0
+    cells.firm[...] = cells.soft, cells.hard
     cells.call(contact_geometry.face_apertures)
     assert not cells.touch[3, 4:6].any()
 
@@ -260,6 +262,7 @@ def void_and_void(left: float, right: float) -> Cells:
     for column, share, void in ((4, 0.5, left), (5, 0.2, right)):
         cells.hard[ROWS, column], cells.soft[ROWS, column] = share * (1.0 - void), (1.0 - share) * (1.0 - void)
         cells.line[[LINE_R, LINE_Z], :, column], cells.line[SHARE, :, column] = 0.0, share
+    cells.firm[...] = cells.soft, cells.hard
     cells.call(contact_geometry.face_apertures)
     return cells
 
@@ -268,7 +271,7 @@ def void_and_void(left: float, right: float) -> Cells:
 def test_the_aperture_of_a_face_is_a_mean_whatever_the_weights_add_up_to(left, right):
     """Two cells with some void each: no part of the face is lost."""
     cells = void_and_void(left * GAP, right * GAP)
-    on_left, on_right = weights_beside(3, 4, 3, 5, cells.hard, cells.soft)
+    on_left, on_right = weights_beside(3, 4, 3, 5, cells.hard, cells.soft, cells.firm)
     assert 0.8 < on_left * on_right < 1.0
     mean = (0.5 * on_left + 0.2 * on_right) / (on_left + on_right)
     assert cells.aperture_r[:, 3, 5] == pytest.approx([mean, mean], rel=1e-14)

@@ -127,43 +127,6 @@ def test_the_rise_of_the_pressure_of_a_cell():
     assert cell.run(mixed.pressure_rise) == 13.0
 
 
-def test_a_gas_counts_where_it_is():
-    cell = Cell()
-    assert not cell.run(cut_cells.is_beside_gas)
-    cell.known["gases"][1] = True
-    assert cell.run(cut_cells.is_beside_gas)
-    cell.vof[1, *AT] = 0.0
-    assert not cell.run(cut_cells.is_beside_gas)
-
-
-def test_the_contents_of_a_cell():
-    """Its groups, whether several bodies are in it one of which has strength, and which fills most of it."""
-    cell = Cell(strong=True, group=(0, 1))
-    assert cell.run(cut_cells.contains_group, g=0)
-    assert cell.run(cut_cells.contains_group, g=1)
-    assert cell.run(cut_cells.joins_solids)
-    cell.known["strong"][0] = False
-    assert cell.run(cut_cells.joins_solids)
-    cell.vof[:, *AT] = 0.0, 1.0
-    assert not cell.run(cut_cells.joins_solids)  # only one body
-    cell.vof[:, *AT] = 1.0, 0.0
-    assert not cell.run(cut_cells.contains_group, g=1)
-    assert not cell.run(cut_cells.joins_solids)
-    assert cell.run(cut_cells.most_of) == 0
-    cell.vof[:, *AT] = 0.4, 0.6
-    assert cell.run(cut_cells.most_of) == 1
-
-
-def test_sides_of_a_joint():
-    """Gases are on one side; without one, the body that fills most of the cell is; a body not in the cell is on neither."""
-    cell = Cell()
-    cell.known["gases"][1] = True
-    assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=True) for m in (0, 1)] == [1.0, -1.0]
-    assert [cell.run(cut_cells.side_of_joint, m=m, first=1, gas=False) for m in (0, 1)] == [-1.0, 1.0]
-    cell.vof[0, *AT] = 0.0
-    assert cell.run(cut_cells.side_of_joint, m=0, first=1, gas=False) == 0.0
-
-
 def test_motion_lost_to_ties_heats_the_body_next_to_the_gas():
     """Half of 1 kg of the body is tied: 0.125 kg by (4 m/s)^2 for the pair below, at the start and at the end alike."""
     cell = Cell()

@@ -55,6 +55,7 @@ class Surface(Cells):
         """(volumes through faces along r and along z, growth of the cells, heat of both bodies of every cell in J)."""
         self.even_r[...], self.even_z[...] = np.nan, np.nan
         self.soft[...], self.hard[...] = self.vof
+        self.firm[...] = self.vof
         self.call(even_out, dt=0.1, volume=self.volumes)
         r, z = self.even_r[MESH, EDGES], self.even_z[EDGES, MESH]
         self.q[E] = 0.0

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from hydro2d.physics import contact_faces
 from hydro2d.physics.contact_faces import GAP
+from hydro2d.physics.traction import FILM
 from tests.physics.cells import COLUMNS, GEOMETRIES, ROWS, polygon_volume, rate_of_volume, small
 from tests.physics.continuity import changes_in_proportion
 
@@ -15,6 +16,7 @@ known = contact_faces.known.py_func
 dual_share = contact_faces.dual_share.py_func
 weight_beside = contact_faces.weight_beside.py_func
 weights_beside = contact_faces.weights_beside.py_func
+gas_share = contact_faces.gas_share.py_func
 own_inward = contact_faces.own_inward.py_func
 meeting = contact_faces.meeting.py_func
 blend = contact_faces.blend.py_func
@@ -143,13 +145,19 @@ def test_parts_of_cells_count_by_their_share():
 # ------------------------------------------------------------------------------- weights of the cells beside a face
 
 
-def beside(void_here: float, void_there: float) -> tuple[float, float]:
-    """`weights_beside` of two cells with these shares of void, and those of `weight_beside` alike."""
+def beside(void_here: float, void_there: float, gas_here: float = 0.0, gas_there: float = 0.0) -> tuple[float, float]:
+    """`weights_beside` of two cells with these shares of void and of gas, and those of `weight_beside` alike."""
     hard, soft = np.full((2, 3, 3), np.nan)
-    hard[1, 1], soft[1, 1] = 0.3 * (1.0 - void_here), 0.7 * (1.0 - void_here)
-    hard[1, 2], soft[1, 2] = 0.6 * (1.0 - void_there), 0.4 * (1.0 - void_there)
-    found = weights_beside(1, 1, 1, 2, hard, soft)
-    assert found == (weight_beside(1, 1, 1, 2, hard, soft), weight_beside(1, 2, 1, 1, hard, soft))
+    left, right = 1.0 - void_here - gas_here, 1.0 - void_there - gas_there
+    hard[1, 1], soft[1, 1] = 0.3 * left, 0.7 * left
+    hard[1, 2], soft[1, 2] = 0.6 * right, 0.4 * right
+    firm = np.stack([soft, hard])
+    soft[1, 1] += gas_here
+    hard[1, 2] += gas_there
+    assert gas_share(1, 1, hard, soft, firm) == pytest.approx(gas_here, abs=1e-15)
+    assert gas_share(1, 2, hard, soft, firm) == pytest.approx(gas_there, abs=1e-15)
+    found = weights_beside(1, 1, 1, 2, hard, soft, firm)
+    assert found == (weight_beside(1, 1, 1, 2, hard, soft, firm), weight_beside(1, 2, 1, 1, hard, soft, firm))
     return found
 
 
@@ -157,6 +165,21 @@ def test_the_face_of_a_full_cell_beside_a_gap_is_its_own():
     assert beside(0.0, 0.0) == (1.0, 1.0)
     assert beside(0.0, 1.5 * GAP) == pytest.approx((1.0, 0.0), abs=1e-12)
     assert beside(0.3, 0.0) == (0.0, 1.0)
+
+
+def test_the_face_of_a_full_cell_beside_a_gas_is_its_own():
+    assert beside(0.0, 0.0, gas_there=FILM) == pytest.approx((1.0, 0.0), abs=1e-12)
+    assert beside(0.0, 0.0, gas_here=0.3) == (0.0, 1.0)
+    assert beside(0.2, 0.0, gas_here=0.3) == (0.0, 1.0)
+
+
+def test_beside_a_gas_a_cell_with_a_film_of_it_or_as_much_void_is_full():
+    assert beside(0.0, 0.0, gas_here=0.3, gas_there=FILM) == pytest.approx((0.0, 1.0))
+    assert beside(0.0, FILM, gas_here=0.3)[0] == pytest.approx(0.0, abs=1e-12)
+    assert beside(0.0, 0.0, gas_here=0.3, gas_there=FILM + GAP) == pytest.approx((1.0, 1.0))
+    for gas in (0.0, 0.5 * FILM, FILM):
+        changes_in_proportion(lambda x: beside(0.3, 0.5 * GAP, gas_here=x), gas, 4.0 / GAP, sides=(1.0,))
+        changes_in_proportion(lambda x: beside(0.0, 0.0, gas_here=0.3, gas_there=x), gas, 4.0 / GAP, sides=(1.0,))
 
 
 def test_of_two_cells_with_gaps_both_have_the_face():
@@ -175,8 +198,9 @@ def test_a_full_cell_has_the_face_to_a_gap_for_itself(other, void):
     """The weight of a cell with void on its face to a cell of the other group is nil, and becomes so without a jump."""
     def weight(void: float, other: float) -> float:
         hard, soft = np.array([[1.0 - void, 0.0]]), np.array([[0.0, other]])
-        assert weight_beside(0, 1, 0, 0, hard, soft) == 1.0 or other < 1.0 - 0.5 * GAP
-        return weight_beside(0, 0, 0, 1, hard, soft)
+        firm = np.stack([soft, hard])
+        assert weight_beside(0, 1, 0, 0, hard, soft, firm) == 1.0 or other < 1.0 - 0.5 * GAP
+        return weight_beside(0, 0, 0, 1, hard, soft, firm)
 
     changes_in_proportion(lambda x: weight(x, other), void, 2.0 / GAP)
     changes_in_proportion(lambda x: weight(void, x), other, 2.0 / GAP)
@@ -188,6 +212,7 @@ def test_a_full_cell_has_the_face_to_a_gap_for_itself(other, void):
 def test_a_cell_full_of_both_groups_has_the_face_to_a_gap_for_itself(hard):
     """As one full of either group."""
     w = np.array([[0.2, hard]]), np.array([[0.3, 1.0 - hard]])
+    w = (*w, np.stack(w[::-1]))
     assert weight_beside(0, 0, 0, 1, *w) == 0.0
     assert weight_beside(0, 1, 0, 0, *w) == 1.0
 

@@ -13,6 +13,7 @@ counts_for = contact_pushes.counts_for.py_func
 pressed_by = contact_pushes.pressed_by.py_func
 stands_out = contact_pushes.stands_out.py_func
 slip_at = contact_pushes.slip_at.py_func
+closed = contact_pushes.closed.py_func
 along_surface = contact_pushes.along_surface.py_func
 
 #: cells of the mesh along either side, and the first of them after the ghosts
@@ -36,6 +37,7 @@ class Surface:
         self.ph[MESH, MESH], self.qr[MESH, MESH], self.skin[KIND, MESH, MESH] = pressure, viscosity, kind
         self.solid[MESH, MESH], self.bulk[MESH, MESH] = 1.0, 5.0
         self.hard[MESH, MESH] = self.soft[MESH, MESH] = 0.5
+        self.gas = np.zeros(self.ph.shape)  # of what is soft
 
     def fill(self, group: int, j, i) -> None:
         """Fills whole cells with one group."""
@@ -63,7 +65,8 @@ class Surface:
 
     def out(self, j: int, i: int) -> float:
         """`stands_out` of a cell."""
-        return stands_out(FIRST + j, FIRST + i, MESH_BOX, self.constrained, self.skin, self.hard, self.soft, self.solid,
+        firm = np.stack([self.soft - self.gas, self.hard])
+        return stands_out(FIRST + j, FIRST + i, MESH_BOX, self.constrained, self.skin, self.hard, self.soft, firm, self.solid,
                           self.ph, self.qr)
 
 
@@ -107,6 +110,18 @@ def test_the_end_of_a_surface_does_not_stand_out():
     cells.open(2, 3, 0.5 * GAP)  # and the one neighbour of (3, 3) counts by half
     assert cells.out(3, 3) == 0.0
     assert cells.out(0, 3) == cells.out(5, 3) == 0.0  # at edges of the mesh that are no walls
+
+
+def test_a_cell_with_gas_counts_as_one_with_void():
+    cells, other = (along_z(np.arange(N) ** 2) for _ in range(2))
+    cells.gas[FIRST + 2, FIRST + 3] = 0.3 * GAP
+    other.open(2, 3, 0.3 * GAP)
+    assert [cells.out(j, 3) for j in (1, 2, 3)] == pytest.approx([other.out(j, 3) for j in (1, 2, 3)])
+    firm = np.stack([cells.soft - cells.gas, cells.hard])
+    found = [closed(FIRST + 2, FIRST + i, cells.hard, cells.soft, firm, cells.solid) for i in (2, 3)]
+    assert (found[0], 0.5 < found[1] < 1.0) == (1.0, True)
+    cells.gas[FIRST + 2, FIRST + 3] = GAP
+    assert cells.out(2, 3) == 0.0
 
 
 @pytest.mark.parametrize(("edge", "j", "i"), [(0, 3, 0), (1, 3, N - 1), (2, 0, 3), (3, N - 1, 3)])

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hydro2d.physics import traction
-from hydro2d.physics.traction import MOST_GROWTH, SURE, WIDE
+from hydro2d.physics.traction import FILM, LEAST_LEFT, MOST_GROWTH, SURE, WIDE
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
 smoothstep = traction.smoothstep.py_func
@@ -17,6 +17,9 @@ pull_left = traction.pull_left.py_func
 strained_pressure = traction.strained_pressure.py_func
 half_pressure = traction.half_pressure.py_func
 strain_across = traction.strain_across.py_func
+film_heat = traction.film_heat.py_func
+gas_growth = traction.gas_growth.py_func
+gas_work = traction.gas_work.py_func
 
 # ------------------------------------------------------------------------------------------------------ small pieces
 
@@ -219,3 +222,28 @@ def test_growth_does_not_jump_with_the_weight():
     for weight in (0.0, 1e-12, 0.5):
         changes_in_proportion(lambda weight: strain_across(0.02, 0.0, 1.0, 0.5, 0.05, 0.06, -0.1, 0.01, weight)[:2], weight,
                               1.0, sides=(1.0,))
+
+
+# ---------------------------------------------------------------------------------------------------------------- a gas
+
+
+def test_a_gas_keeps_the_heat_of_its_compression_and_a_film_none():
+    assert film_heat(0.0) == film_heat(FILM) == 0.0
+    assert (film_heat(1.5 * FILM), film_heat(2.0 * FILM), film_heat(1.0)) == (pytest.approx(0.5), 1.0, 1.0)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.4, 3.0])
+def test_a_gas_follows_its_isentrope_and_does_the_work_under_it(exponent):
+    for size in (0.05, 0.5, 1.0, 1.05):
+        growth, slope = gas_growth(2e5, 2e5 * size**-exponent, exponent)
+        assert growth == pytest.approx(size - 1.0, abs=1e-14)
+        step = 1e-3
+        less, _ = gas_growth(2e5, 2e5 * size**-exponent + step, exponent)
+        assert slope == pytest.approx((growth - less) / step, rel=1e-4)
+        v = np.linspace(1.0, size, 100001)
+        assert gas_work(2e5, growth, exponent) == pytest.approx(np.trapezoid(2e5 * v**-exponent, v), rel=1e-7, abs=1e-8)
+
+
+def test_a_step_leaves_some_of_a_gas_and_lets_it_grow_by_no_more_than_a_solid():
+    assert gas_growth(1e5, 0.0, 1.4)[0] == gas_growth(1e5, -1e9, 1.4)[0] == MOST_GROWTH
+    assert gas_growth(1e-10, 1e9, 1.4)[0] == LEAST_LEFT - 1.0

@@ -12,7 +12,7 @@ CYCLES = 60
 #: round-off on other processors and libraries, after so few cycles
 SAME = 1e-9
 #: time in s, internal energy in J and length of the rod in m after these cycles, with this version
-OF = "2026-11-29.2"
+OF = "2026-11-29.3"
 NUMBERS = {
     "contact": ([], 9.738946566485498e-07, 35.08843092467121, 0.09768019375663717),
     "welded, both": (["sliding.method=none", "numerics.advection=both"],

@@ -623,6 +623,7 @@ DISCARDS = "`momentum` has discarded 2.1 % of the energy, of which 2 % are allow
 GAINS = "`ke` gains momentum where the shock is: along r without a total of it, along z booked but not judged"
 THIN = ("what the speed limit takes of the first, thin cells of a front is 0.4 % of the energy, but it dams up what follows; "
         "a share of the energy that rests says nothing of the motion")
+LOST = "the course of a gas that weighs next to nothing is off by more than a tenth of a cell, while its energy is right"
 WEAK = "what `momentum` discards, 1.4 % of an energy that is chemical for the most part, is missing in the front alone"
 HOT = "overheating where two rarefactions begin, of the method: no more heat than the deck can reach"
 TOUCHES = ("an elastic energy of 44 v^2/2 passes through the cell that touches first, and what the viscosity keeps of it, 4 K, "
@@ -655,8 +656,8 @@ ROWS = [
     *(precursor(choice) for choice in ADVECTION), rebound(20.0), rebound(200.0), wrong(rebound(20.0, cells=60), MESH),
     ball(20.0)._replace(missed=TOUCHES), wrong(ball(100.0)),
     wrong(film(1000.0, 1.0, "0.45 us"), MESH), film(1000.0, 3.0, "2 us"), film(1000.0, 2.0, "1.3 us"),
-    wrong(film(300.0, 1.0, "2.5 us")), *(wrong(film(1000.0, 1.0, "1.2 us", frame)) for frame in (0.0, 1000.0, 3000.0)),
-    wrong(film(1000.0, 1.0, "1.2 us", 3000.0, "cylindrical")),
+    *(film(1000.0, 1.0, "1.2 us", frame)._replace(missed=LOST) for frame in (0.0, 1000.0, 3000.0)),
+    *(each._replace(missed=LOST) for each in (film(300.0, 1.0, "3.6 us"), film(1000.0, 1.0, "1.2 us", 3000.0, "cylindrical"))),
     detonation("ke"), wrong(detonation("momentum"), WEAK), detonation("both"),
     plate_push(4.0, 4.0), plate_push(4.0, 1.0), wrong(plate_push(0.4, 1.0)), plate_push(4.0, 4.0, "momentum"),
     leaves("Al5083"), leaves("W_alloy"), gas_leaves("both"), gas_leaves("momentum"),

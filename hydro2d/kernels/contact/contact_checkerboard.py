@@ -8,10 +8,19 @@ equation 10).
 from hydro2d.jit import cell_rows, point, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.mesh.fields import SRR, SRZ, SZZ, E
+from hydro2d.physics.checkerboard import (
+    COUNTS,
+    OF_P,
+    OF_RR,
+    OF_RZ,
+    OF_ZZ,
+    cell_excess,
+    checkerboard_of,
+    left_face,
+    lower_face,
+)
 from hydro2d.physics.traction import smoothstep
 
-#: rows of `checkerboard`: weight of a vertex, and the checkerboards of the pressure and the deviators around it, Pa
-COUNTS, OF_P, OF_RR, OF_ZZ, OF_RZ = range(5)
 #: largest share of a checkerboard that fades in a step
 MOST_DAMPED = 0.5
 #: least fraction of a body in the eight neighbours of a full cell from which the cell counts as inside the body
@@ -22,12 +31,6 @@ INSIDE = 0.02
 def damping_share(j, i, w):
     """Share of a checkerboard in cell (j, i) that fades in a step: the rate of the hourglass filter times dt."""
     return 16.0 * w.hg_coefficient[j, i] * w.dt / w.cell_mass[1, j, i]
-
-
-@point
-def checkerboard_of(j, i, a):
-    """(a00 - a01 + a11 - a10)/4 of the four cells around vertex (j, i): the size of a checkerboard."""
-    return 0.25 * ((a[j - 1, i - 1] + a[j, i]) - (a[j - 1, i] + a[j, i - 1]))
 
 
 @cell_rows
@@ -77,34 +80,6 @@ def find_checkerboards(j, w):
                 w.checkerboard[OF_RZ, j, i] = checkerboard_of(j, i, w.q[SRZ, m])
 
 
-@point
-def least_of(a, b, c, d, of_a, of_b, of_c, of_d):
-    """Least of four non-negative numbers, each counted by its weight; one without weight does not count."""
-    most = max(max(of_a * a, of_b * b), max(of_c * c, of_d * d))
-    a, b = of_a * a + (1.0 - of_a) * most, of_b * b + (1.0 - of_b) * most
-    c, d = of_c * c + (1.0 - of_c) * most, of_d * d + (1.0 - of_d) * most
-    return min(min(a, b), min(c, d))
-
-
-@point
-def cell_excess(of, j, i, checkerboard):
-    """Excess of a cell over the cells around it (Pa): the least of the checkerboards at its vertices.
-
-    0 where they are not of one sign, as in every field that the mesh resolves. Vertices count by their weights, and at least
-    two must count.
-    """
-    of_a, of_b = checkerboard[COUNTS, j, i], checkerboard[COUNTS, j, i + 1]
-    of_c, of_d = checkerboard[COUNTS, j + 1, i], checkerboard[COUNTS, j + 1, i + 1]
-    second = max(min(max(of_a, of_b), max(of_c, of_d)), max(min(of_a, of_b), min(of_c, of_d)))
-    if second == 0.0:
-        return 0.0
-    a, b = checkerboard[of, j, i], -checkerboard[of, j, i + 1]
-    c, d = -checkerboard[of, j + 1, i], checkerboard[of, j + 1, i + 1]
-    above = least_of(max(a, 0.0), max(b, 0.0), max(c, 0.0), max(d, 0.0), of_a, of_b, of_c, of_d)
-    below = least_of(max(-a, 0.0), max(-b, 0.0), max(-c, 0.0), max(-d, 0.0), of_a, of_b, of_c, of_d)
-    return second * (above - below)
-
-
 @cell_rows
 def damp_deviators(j, w):
     """Reduces each cell's deviators by the share of their excess that fades, and finds the volume that does so to its pressure.
@@ -126,18 +101,6 @@ def damp_deviators(j, w):
                 w.q[SRR, m, j, i] -= share * cell_excess(OF_RR, j, i, w.checkerboard)
                 w.q[SZZ, m, j, i] -= share * cell_excess(OF_ZZ, j, i, w.checkerboard)
                 w.q[SRZ, m, j, i] -= share * cell_excess(OF_RZ, j, i, w.checkerboard)
-
-
-@point
-def left_face(m, j, i, vof, room):
-    """Volume that the left face of cell (j, i) sweeps in addition, if both of its cells are full of body m."""
-    return 0.125 * (room[j, i - 1] - room[j, i]) if vof[m, j, i - 1] == 1.0 and vof[m, j, i] == 1.0 else 0.0
-
-
-@point
-def lower_face(m, j, i, vof, room):
-    """Volume that the lower face of cell (j, i) sweeps in addition, if both of its cells are full of body m."""
-    return 0.125 * (room[j - 1, i] - room[j, i]) if vof[m, j - 1, i] == 1.0 and vof[m, j, i] == 1.0 else 0.0
 
 
 @cell_rows

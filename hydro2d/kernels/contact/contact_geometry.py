@@ -14,7 +14,7 @@ from math import sqrt
 from hydro2d.jit import point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.physics.contact_faces import GAP, end_apertures, known, weights_beside
-from hydro2d.physics.traction import smoothstep
+from hydro2d.physics.traction import FILM, smoothstep
 
 #: rows of `line`: normal of the hard side in the unit square, its constant, hard share of the solids; slopes, down the hard
 #: bodies' fraction and up that of the soft ones; weights with which the fluxes of the soft and of the hard group come from
@@ -56,12 +56,16 @@ def find_contact_nodes(j, w):
         for i in range(lo, hi):
             w.hard[j, i] = 0.0
             w.soft[j, i] = 0.0
+            w.firm[0, j, i] = 0.0
+            w.firm[1, j, i] = 0.0
         for m in range(w.vof.shape[0]):
             for i in range(lo, hi):
                 if w.group[m] == 1:
                     w.hard[j, i] += w.vof[m, j, i]
                 else:
                     w.soft[j, i] += w.vof[m, j, i]
+                if not w.gases[m]:
+                    w.firm[w.group[m], j, i] += w.vof[m, j, i]
 
 
 @serial
@@ -82,7 +86,8 @@ def face_aperture(j, i, x0, y0, x1, y1, w):
     """(solid, apertures of the hard side at both ends) of the edge (x0, y0) to (x1, y1) of the unit square of cell (j, i).
 
     A group with less than SLIVER of the solids counts as if it were not there, ever more the less it is: the faces of a body
-    that ends on a mesh line are the body's, and so they are when a breath of the other group is beyond the line.
+    that ends on a mesh line are the body's, and so they are when a breath of the other group is beyond the line. Of a gas, a
+    FILM counts as if it were not there.
     """
     if not w.contact_columns[j, 0] <= i < w.contact_columns[j, 1]:
         total = w.hard[j, i] + w.soft[j, i]
@@ -95,7 +100,10 @@ def face_aperture(j, i, x0, y0, x1, y1, w):
     if n_r == 0.0 and n_z == 0.0:
         return 1.0, share, share
     first, last = end_apertures(constant - (n_r * x0 + n_z * y0), constant - (n_r * x1 + n_z * y1))
-    low, high = smoothstep(share / SLIVER), smoothstep((1.0 - share) / SLIVER)
+    total = w.hard[j, i] + w.soft[j, i]
+    of_hard = min(w.hard[j, i] - w.firm[1, j, i], FILM) / total
+    of_soft = min(w.soft[j, i] - w.firm[0, j, i], FILM) / total
+    low, high = smoothstep((share - of_hard) / SLIVER), smoothstep((1.0 - share - of_soft) / SLIVER)
     return 1.0, 1.0 - high * (1.0 - low * first), 1.0 - high * (1.0 - low * last)
 
 
@@ -122,7 +130,7 @@ def face_apertures(j, w):
             if i < w.mesh_box[3]:
                 solid_r, low_r, high_r = face_aperture(j, i, 0.0, 0.0, 0.0, 1.0, w)
             if solid_l > 0.0 and solid_r > 0.0:
-                solid_l, solid_r = weights_beside(j, i - 1, j, i, w.hard, w.soft)
+                solid_l, solid_r = weights_beside(j, i - 1, j, i, w.hard, w.soft, w.firm)
             number = max(solid_l + solid_r, 1.0)
             low = (solid_l * low_l + solid_r * low_r) / number
             high = (solid_l * high_l + solid_r * high_r) / number
@@ -137,7 +145,7 @@ def face_apertures(j, w):
         if j < w.mesh_box[1]:
             solid_t, in_t, out_t = face_aperture(j, i, 0.0, 0.0, 1.0, 0.0, w)
         if solid_b > 0.0 and solid_t > 0.0:
-            solid_b, solid_t = weights_beside(j - 1, i, j, i, w.hard, w.soft)
+            solid_b, solid_t = weights_beside(j - 1, i, j, i, w.hard, w.soft, w.firm)
         number = max(solid_b + solid_t, 1.0)
         w.aperture_z[0, j, i] = known((solid_b * in_b + solid_t * in_t) / number, w.mass[0, j, i], w.mass[1, j, i])
         w.aperture_z[1, j, i] = known((solid_b * out_b + solid_t * out_t) / number, w.mass[0, j, i + 1], w.mass[1, j, i + 1])

@@ -11,7 +11,6 @@ from hydro2d.kernels.cut_cells import (
     KIND,
     WHOLE,
     bodies_stress,
-    contains_group,
     cut_pressure,
     pull_of_ties,
     ties,
@@ -20,6 +19,7 @@ from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
 from hydro2d.physics.contact_faces import meeting, volume_rate
+from hydro2d.physics.contents import contains_group
 from hydro2d.physics.corner import corner, corner_force
 from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import strained_pressure

@@ -10,6 +10,8 @@ from math import sqrt
 from hydro2d.jit import kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact.contact_geometry import REACH
+from hydro2d.mesh.fields import RHO
+from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.contact_faces import dual_share, own_inward
 from hydro2d.physics.traction import smoothstep
 
@@ -21,6 +23,8 @@ ENOUGH = 1e-3
 SPAN = 2 * REACH + 1
 MASTERS = SPAN * SPAN
 TIED = MASTERS
+#: most_squares of a gas, too light for any larger one
+LEAST_SQUARES = 1.0
 #: rows of `inward`
 WEIGHT, SQUARES, OFF_R, OFF_Z = range(4)
 #: reduction of the tie of two nodes that are tied to each other and have no other masters
@@ -28,12 +32,31 @@ SLACK = 1e-3
 
 
 @point
-def filled_share(g, row, column, w):
-    """Share that group g fills of the dual cell of a vertex, 0 where it has no mass there or the mesh ends."""
+def filled_share(g, row, column, hard, soft, w):
+    """Share that group g fills of the dual cell of a vertex, 0 where it has no mass there or the mesh ends.
+
+    hard, soft : shares of the cells [j, i] that the groups fill, with their gases or without
+    """
     j0, j1, i0, i1 = w.mesh_box[0], w.mesh_box[1], w.mesh_box[2], w.mesh_box[3]
     if row < j0 or row > j1 or column < i0 or column > i1 or w.mass[g, row, column] == 0.0:
         return 0.0
-    return dual_share(g, row, column, w.mesh_box, w.volume, w.metrics, w.hard, w.soft)
+    return dual_share(g, row, column, w.mesh_box, w.volume, w.metrics, hard, soft)
+
+
+@point
+def share_of_firm_mass(g, j, i, w):
+    """Share of the mass of group g at vertex (j, i) that is not that of a gas."""
+    firm, gas = 0.0, 0.0
+    for m in range(w.group.shape[0]):
+        if w.group[m] == g:
+            for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
+                for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
+                    if w.vof[m, row, column] > 0.0:
+                        corner = w.volume[row, column] * (w.metrics[CM_OUT, column] if column < i else w.metrics[CM_IN, column])
+                        mass = corner * w.vof[m, row, column] * w.q[RHO, m, row, column]
+                        firm += 0.0 if w.gases[m] else mass
+                        gas += mass if w.gases[m] else 0.0
+    return firm / (firm + gas) if gas > 0.0 else 1.0
 
 
 @point
@@ -58,8 +81,8 @@ def in_debris(g, j, i, w):
 def find_filled(part, w):
     """filled_share of both groups at all vertices that can be masters of a contact node.
 
-    Reads    hard, soft [j, i]; mass [b, j, i]; the list of contact nodes
-    Writes   filled [b, j, i] within REACH of contact nodes, in the mesh
+    Reads    hard, soft [j, i]; firm, mass [b, j, i]; the list of contact nodes
+    Writes   filled, firmly [b, j, i] within REACH of contact nodes, in the mesh
     """
     j0, j1 = outer_rows(w.parts)
     first, last = first_row(part, w.parts, REACH), past_row(part, w.parts, REACH + 1)
@@ -71,30 +94,32 @@ def find_filled(part, w):
                 hi = max(hi, w.contact_nodes[row, w.contact_node_count[row] - 1])
         for i in range(max(lo - REACH, w.mesh_box[2]), min(hi + REACH, w.mesh_box[3]) + 1):
             for g in range(2):
-                w.filled[g, j, i] = filled_share(g, j, i, w)
+                w.filled[g, j, i] = filled_share(g, j, i, w.hard, w.soft, w)
+                w.firmly[g, j, i] = filled_share(g, j, i, w.firm[1], w.firm[0], w)
 
 
 @not_inlined
-def cell_weight(g, j, i, row, column, inward_r, inward_z, w):
-    """Weight of cell (row, column) of group g for the slave (j, i): (share cos/distance)^4 times its `sureness`.
+def cell_weight(j, i, row, column, inward_r, inward_z, share, filled, w):
+    """Weight of cell (row, column) of a group for the slave (j, i): (share cos/distance)^4 times its `sureness`.
 
     The cosine is that of the angle between the cell's direction and the inward normal.
+
+    share, filled : of the cells [j, i] and of the vertices' dual cells that the group fills, with its gases or without
     """
     if row < w.mesh_box[0] or row >= w.mesh_box[1] or column < w.mesh_box[2] or column >= w.mesh_box[3]:
         return 0.0
-    part = w.hard[row, column] if g == 1 else w.soft[row, column]
+    part = share[row, column]
     y, x = row - j + 0.5, column - i + 0.5
     along = part * (inward_r * x + inward_z * y) / (x * x + y * y)
     if part <= UNDERFILLED or along <= 0.0:
         return 0.0
-    least = min(min(w.filled[g, row, column], w.filled[g, row, column + 1]),
-                min(w.filled[g, row + 1, column], w.filled[g, row + 1, column + 1]))
+    least = min(min(filled[row, column], filled[row, column + 1]), min(filled[row + 1, column], filled[row + 1, column + 1]))
     least = min(least, 1.0)
     return sureness(part) * sureness(least) * (along * along) * (along * along)
 
 
 @not_inlined
-def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
+def weigh_cells(j, i, reach, inward_r, inward_z, share, filled, w):
     """Weights of the cells around the slave (j, i), its offsets from their middles, in cells, and the sums of the squares of
     their vertices' weights.
 
@@ -103,7 +128,7 @@ def weigh_cells(g, j, i, reach, inward_r, inward_z, w):
     n = 0
     for row in range(j - reach, j + reach):
         for column in range(i - reach, i + reach):
-            weight = cell_weight(g, j, i, row, column, inward_r, inward_z, w)
+            weight = cell_weight(j, i, row, column, inward_r, inward_z, share, filled, w)
             w.inward[j, WEIGHT, n] = weight
             if weight != 0.0:
                 a = (w.r[i] - 0.5 * (w.r[column] + w.r[column + 1])) / (w.r[column + 1] - w.r[column])
@@ -145,7 +170,7 @@ def extend_cells(x, g, j, reach, least_squares, most_squares, factor, w):
 
 
 @not_inlined
-def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
+def extend_vertices(x, g, j, i, reach, inward_r, inward_z, filled, factor, w):
     """Adds, with the total weight `factor`, the velocities of single vertices inward; returns the share of `factor` used.
 
     Updates  weights [x, g, n]
@@ -159,7 +184,7 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
                 if (dj == 0 and di == 0) or not (
                         w.mesh_box[0] <= row <= w.mesh_box[1] and w.mesh_box[2] <= column <= w.mesh_box[3]):
                     continue
-                share = w.filled[g, row, column]
+                share = filled[row, column]
                 along = share * (inward_r * di + inward_z * dj) / (di * di + dj * dj)
                 if share <= UNDERFILLED or along <= 0.0:
                     continue
@@ -169,6 +194,33 @@ def extend_vertices(x, g, j, i, reach, inward_r, inward_z, factor, w):
                 else:
                     w.weights[x, g, SPAN * (dj + REACH) + di + REACH] += scale * weight
     return smoothstep(whole / ENOUGH)
+
+
+@not_inlined
+def extend(x, g, j, i, share, filled, most_squares, factor, w):
+    """Adds, with the total weight `factor`, all masters of the slave of group g in slot x.
+
+    These are cells that most_squares allows; where there are none (or hardly any, ENOUGH), cells with a reduced gradient, then
+    vertices, and finally the other group's velocity at the node.
+
+    share, filled : of the cells [j, i] and of the vertices' dual cells that the group fills, with its gases or without
+
+    Updates  weights [x, g, n]
+    """
+    sign = 1.0 if g == 0 else -1.0
+    inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
+    own_r, own_z = own_inward(j, i, w.mesh_box, w.constrained, share)
+    if own_r != 0.0 or own_z != 0.0:
+        inward_r, inward_z = own_r, own_z
+    reach = REACH - 1 if in_debris(g, j, i, w) else REACH
+    weigh_cells(j, i, reach, inward_r, inward_z, share, filled, w)
+    left = factor * (1.0 - extend_cells(x, g, j, reach, 0.0, most_squares, factor, w))
+    if left > 0.0:
+        left *= 1.0 - extend_cells(x, g, j, reach, most_squares, 1e300, left, w)
+    if left > 0.0:
+        left *= 1.0 - extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, filled, left, w)
+    if left > 0.0:
+        w.weights[x, g, TIED] += left
 
 
 @point
@@ -182,13 +234,16 @@ def tied_weight(x, g, w):
 def find_extensions(j, w):
     """Slaves among the contact nodes, the strength of their ties, and their masters with weights.
 
-    A slave is tied to the mean of the linear fields of cells that most_squares allows; where there are none (or hardly any,
-    ENOUGH), of cells with a reduced gradient, then to vertices, and finally to the other group's velocity at the node. A crumb
-    within failed material of the other group looks two vertices away, others three. Ties of two nodes to each other are reduced
-    by SLACK, so that no master with hardly any weight holds both of them.
+    A slave is tied to the mean of the linear fields of cells inward of it (`extend`). A crumb within failed material of the
+    other group looks two vertices away, others three. Ties of two nodes to each other are reduced by SLACK, so that no master
+    with hardly any weight holds both of them.
+
+    A gas is as good as void to the other bodies of its group: the mass that they have at a vertex is tied to cells that they
+    fill themselves, and only the gas's own mass looks into the gas. A vertex with both is tied to either by its share of the
+    mass. A vertex in the gas that held the edge of a solid would be thrown off by it.
 
     Reads    first_slot [j], the slot of a row's first contact node; contact_normal [3, 2, j, i]; hard, soft [j, i];
-             filled [b, j, i]; vof, dmg [m, j, i]
+             firm, filled, firmly [b, j, i]; vof, dmg [m, j, i], q (rho)
     Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     Scratch  inward [j, 4, n]
@@ -197,25 +252,16 @@ def find_extensions(j, w):
         i, x = w.contact_nodes[j, k], w.first_slot[j] + k
         for g in range(2):
             w.masters[x, g] = 0
+            firm = share_of_firm_mass(g, j, i, w)
             w.strength[x, g] = 1.0 - sureness(w.filled[g, j, i])
             if w.strength[x, g] == 0.0:
                 continue
             for n in range(MASTERS + 1):
                 w.weights[x, g, n] = 0.0
-            sign = 1.0 if g == 0 else -1.0
-            inward_r, inward_z = sign * w.contact_normal[0, 0, j, i], sign * w.contact_normal[0, 1, j, i]
-            own_r, own_z = own_inward(j, i, w.mesh_box, w.constrained, w.hard if g == 1 else w.soft)
-            if own_r != 0.0 or own_z != 0.0:
-                inward_r, inward_z = own_r, own_z
-            reach = REACH - 1 if in_debris(g, j, i, w) else REACH
-            weigh_cells(g, j, i, reach, inward_r, inward_z, w)
-            left = 1.0 - extend_cells(x, g, j, reach, 0.0, w.most_squares, 1.0, w)
-            if left > 0.0:
-                left *= 1.0 - extend_cells(x, g, j, reach, w.most_squares, 1e300, left, w)
-            if left > 0.0:
-                left *= 1.0 - extend_vertices(x, g, j, i, reach - 1, inward_r, inward_z, left, w)
-            if left > 0.0:
-                w.weights[x, g, TIED] = left
+            if firm > 0.0:
+                extend(x, g, j, i, w.firm[g], w.firmly[g], w.most_squares, firm, w)
+            if firm < 1.0:
+                extend(x, g, j, i, w.hard if g == 1 else w.soft, w.filled[g], LEAST_SQUARES, 1.0 - firm, w)
             count = 0
             for n in range(MASTERS + 1):
                 weight = w.weights[x, g, n]

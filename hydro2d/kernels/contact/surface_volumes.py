@@ -30,8 +30,8 @@ def surface_volume(j, i, row, column, w):
     if here_meets and there_meets:
         compliance = min(w.volume[j, i] / w.bulk[j, i], w.volume[row, column] / w.bulk[row, column])
         moved = along_surface(j, i, row, column, w.hard, w.soft) * evened_volume(compliance, alternation(here - there,
-            stands_out(j, i, w.mesh_box, w.constrained, w.skin, w.hard, w.soft, w.solid, w.ph, w.qr),
-            stands_out(row, column, w.mesh_box, w.constrained, w.skin, w.hard, w.soft, w.solid, w.ph, w.qr)))
+            stands_out(j, i, w.mesh_box, w.constrained, w.skin, w.hard, w.soft, w.firm, w.solid, w.ph, w.qr),
+            stands_out(row, column, w.mesh_box, w.constrained, w.skin, w.hard, w.soft, w.firm, w.solid, w.ph, w.qr)))
     opened = (smoothstep((1.0 - w.solid[row, column]) / GAP) if there_meets else 0.0) - (
         smoothstep((1.0 - w.solid[j, i]) / GAP) if here_meets else 0.0)
     if opened == 0.0:
