@@ -150,16 +150,6 @@ def pull_of_ties(g, j, i, row, column, by_r, by_z, w):
 
 
 @point
-def tied_work(i, by_r, by_z, b0, t0, b1, t1):
-    """Work of the ties of cell i against one component of its vertices' velocities, J per radian: at the start, at the end."""
-    low, high = b0[i + 1] - b0[i], t0[i + 1] - t0[i]
-    left, right = t0[i] - b0[i], t0[i + 1] - b0[i + 1]
-    along_r = low * (low + (b1[i + 1] - b1[i])) + high * (high + (t1[i + 1] - t1[i]))
-    along_z = left * (left + (t1[i] - b1[i])) + right * (right + (t1[i + 1] - b1[i + 1]))
-    return 0.5 * (by_r * along_r + by_z * along_z)
-
-
-@point
 def common_traction(j, i, w):
     """(common p_c of the bodies of a cut cell without change of volume, their modulus): means by compressibility f/K, Pa."""
     compliance, pressure = 0.0, 0.0
@@ -193,7 +183,9 @@ def bodies_stress(g, j, i, w):
 def cut_pressure(j, i, rate, w):
     """p_c of a cut cell at half the step, for the cell's relative rate of volume (1/s)."""
     void = max(1.0 - w.solid[j, i], 0.0)
-    return half_pressure(w.p[j, i], w.bulk[j, i], 0.5 * w.dt * rate, void, pull_of(j, i, void, w.skin))
+    pressure = half_pressure(w.p[j, i], w.bulk[j, i], 0.5 * w.dt * rate, void, pull_of(j, i, void, w.skin))
+    borne = w.borne[j, i]
+    return max(pressure, w.solid[j, i] * borne) if borne > 0.0 else pressure
 
 
 @point
@@ -278,15 +270,16 @@ def traction_of_change(j, i, change, w):
     Writes   as `growth_at`
     """
     void = max(1.0 - w.solid[j, i], 0.0)
-    total, _ = growth_at(j, i, 0.0, w)
+    borne = w.borne[j, i]
+    total, _ = growth_at(j, i, borne, w)
     if total > change + void:
-        start = max(w.p[j, i] - w.bulk[j, i] * (change + void), 0.0)
+        start = max(w.p[j, i] - w.bulk[j, i] * (change + void), borne)
         if is_beside_gas(j, i, w.gases, w.vof):
             return pressure_with_gas(j, i, change + void, start, w)
         return pressure_for_growth(j, i, change + void, start, w)
     pull = pull_of(j, i, void, w.skin)
-    if pull == 0.0 or total >= change:
-        return 0.0
+    if pull == 0.0 or total >= change or borne > 0.0:
+        return borne
     target = pressure_for_growth(j, i, change, min(w.p[j, i] - w.bulk[j, i] * change, 0.0), w)
     target = min(target * pull, 0.0)
     growth_at(j, i, target, w)
@@ -322,7 +315,7 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         w.mix[j, HEAT, m] -= done
         left += done
     # Step 2: the volumes fill the cell; under tension the gap stays void
-    squeeze = after / filled if target > 0.0 else min(1.0, after / filled)
+    squeeze = after / filled if target > w.borne[j, i] else min(1.0, after / filled)
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
         if f == 0.0:

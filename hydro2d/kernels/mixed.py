@@ -12,7 +12,6 @@ from hydro2d.kernels.cut_cells import (
     common_traction,
     fill_cut_cell,
     firm_density,
-    tied_work,
     ties,
 )
 from hydro2d.kernels.mixed_scratch import (
@@ -39,6 +38,7 @@ from hydro2d.kernels.mixed_strength import (
     strain_deviators,
     work_of_deviators,
 )
+from hydro2d.kernels.outer_vertices import heat_of_holding
 from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, RECORD, TENSILE
 from hydro2d.mesh.fields import BY_TENSION, DMG, RHO, E
@@ -49,6 +49,7 @@ from hydro2d.physics.corner import filter_power
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import velocity_gradient
 from hydro2d.physics.stress import release
+from hydro2d.physics.traction import tied_work
 
 #: mixed-cell closure by name
 CLOSURES = ("uniform", "tipton")
@@ -321,6 +322,7 @@ def deform_mixed(j, w):
         for g in range(groups):
             if w.cell_mass[g, j, i] > 0.0:
                 heat_of_ties(j, i, g, w)
+        heat_of_holding(j, i, w)
         if cut or is_beside_gas(j, i, w.gases, w.vof):
             heat_of_filter(j, i, w)
         cell_yield = strain_deviators(j, i, w.dt / volume, w)

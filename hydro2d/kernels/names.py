@@ -73,6 +73,8 @@ BODIES = (
     Work("carried", "m k", "rows of q that the remap carries: their number, then their indices", int),
     Work("gases", "m", "whether the body is a gas", bool),
     Work("strong", "m", "whether the body has strength", bool),
+    Work("tension", "m", "tension that the body carries, Pa: 0 without strength"),
+    Work("fades", "m", "1 where this falls with the damage, else 0"),
     Work("hard_bodies", "m", "whether the body is hard in a slip layer", bool),
     Work("interface_order", "m", "bodies in the order in which interfaces are drawn", int),
     Work("hard_first", "m", "bodies in that order, group 1 first", int),

@@ -42,3 +42,9 @@ def packed(table, cutoff_density, factor) -> tuple[np.ndarray, np.ndarray]:
                table.fracture_stress)
     own = np.stack(numbers, axis=1)
     return models, np.concatenate([table.strength_par, table.damage_par, own, table.melting, table.eos_par], axis=1)
+
+
+def tension(models, materials) -> np.ndarray:
+    """Tension that each body carries, Pa, float64[m]: the least of its limits, 0 without strength."""
+    cracks, most = materials[:, CRACKS], np.minimum(materials[:, TENSILE], materials[:, MOST_STRESS])
+    return np.where(models[:, STRENGTH] != 0, np.where(cracks > 0.0, np.minimum(cracks, most), most), 0.0)

@@ -122,3 +122,13 @@ def gas_work(p, growth, exponent):
     if less < 1e-6:
         return p * log(1.0 + growth)
     return p * (1.0 - (1.0 + growth) ** -less) / less
+
+
+@point
+def tied_work(i, by_r, by_z, b0, t0, b1, t1):
+    """Work of the ties of cell i against one component of its vertices' velocities, J per radian: at the start, at the end."""
+    low, high = b0[i + 1] - b0[i], t0[i + 1] - t0[i]
+    left, right = t0[i] - b0[i], t0[i + 1] - b0[i + 1]
+    along_r = low * (low + (b1[i + 1] - b1[i])) + high * (high + (t1[i + 1] - t1[i]))
+    along_z = left * (left + (t1[i] - b1[i])) + right * (right + (t1[i + 1] - b1[i + 1]))
+    return 0.5 * (by_r * along_r + by_z * along_z)

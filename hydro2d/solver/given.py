@@ -55,7 +55,8 @@ class Given:
         models, materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)
         bodies = {
             "models": models, "materials": materials, "carried": _carried(table), "gases": materials[:, rows.GAS] > 0.0,
-            "strong": models[:, rows.STRENGTH] != 0, "hard_bodies": method.hard, "interface_order": order,
+            "strong": models[:, rows.STRENGTH] != 0, "fades": materials[:, rows.FADES].copy(),
+            "tension": rows.tension(models, materials), "hard_bodies": method.hard, "interface_order": order,
             "hard_first": np.concatenate([order[own != 0], order[own == 0]]),
             "soft_first": np.concatenate([order[own == 0], order[own != 0]]),
         }

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from problems.verification.exact.vibration import Elastic, cylinder, period, shape, sphere
+from problems.verification.exact.vibration import Elastic, Spheroidal, cylinder, period, shape, sphere
 
 ALUMINIUM = Elastic(2785.0, 5328.0, 27.6e9)
 
@@ -28,3 +28,28 @@ def test_the_surface_is_free():
     slope = (shape(x, 1.0 + h) - shape(x, 1.0 - h)) / (2.0 * h)
     ratio = 1.0 - 2.0 * (ALUMINIUM.transverse / ALUMINIUM.longitudinal) ** 2
     assert slope + 2.0 * ratio * shape(x, 1.0) == pytest.approx(0.0, abs=1e-8)
+
+
+def test_lambs_spheroidal_vibration():
+    """For Poisson's ratio 1/4, Lamb (1882) gives k a = 0.840 pi."""
+    assert Spheroidal(Elastic(1.0, (5.0 / 3.0) ** 0.5, 1.0)).x / np.pi == pytest.approx(0.840, abs=5e-4)
+
+
+def test_the_spheroidal_vibration_leaves_its_surface_free():
+    """By differences of the displacements: no traction on the pole, on the equator and half-way between."""
+    solid = Elastic(2.0, 3.0, 1.5)
+    mode, step, mu = Spheroidal(solid), 1e-4, 1.5
+    lame = solid.rho * solid.longitudinal**2 - 2.0 * mu
+
+    def at(r, z):
+        return np.array(mode.displacement(np.float64(r), np.float64(z), 1.0))
+
+    for angle in (0.0, 0.25 * np.pi, 0.5 * np.pi):
+        r, z = np.sin(angle), np.cos(angle)
+        along_r, along_z = ((at(r + a, z + b) - at(r - a, z - b)) / (2.0 * step) for a, b in ((step, 0.0), (0.0, step)))
+        hoop = at(r, z)[0] / r if r > 0.0 else along_r[0]
+        pressure = lame * (along_r[0] + along_z[1] + hoop)
+        rr, zz, rz = pressure + 2.0 * mu * along_r[0], pressure + 2.0 * mu * along_z[1], mu * (along_r[1] + along_z[0])
+        scale = mu * np.abs([along_r, along_z]).max()
+        assert rr * r + rz * z == pytest.approx(0.0, abs=1e-6 * scale)
+        assert rz * r + zz * z == pytest.approx(0.0, abs=1e-6 * scale)

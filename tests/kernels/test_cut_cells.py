@@ -45,6 +45,7 @@ class Cell:
         self.mix[0, MODULUS], self.mix[0, FLOW] = shear, flow
         self.skin[NORMAL_R], self.skin[KIND] = np.sqrt(weight), kind
         self.void, self.solid = max(1.0 - f.sum(), 0.0), np.full((1, 1), f.sum())
+        self.borne = np.zeros((1, 1))
 
     def strained(self, along, beside):
         """The bodies after strain along the surface: n . s . n, of uniaxial deviators, and its trace."""
@@ -60,7 +61,8 @@ class Cell:
         return traction_of_change(0, 0, change, self.names(p=p, bulk=bulk, solid=self.solid))
 
     def names(self, **more):
-        return handle(skin=self.skin, vof=self.vof, pm=self.pm, km=self.km, mix=self.mix, gases=self.gases, **more)
+        return handle(skin=self.skin, vof=self.vof, pm=self.pm, km=self.km, mix=self.mix, gases=self.gases, borne=self.borne,
+                      **more)
 
     @property
     def grown(self) -> float:
@@ -77,6 +79,17 @@ STEEL, ALUMINIUM = (1.0, 0.5), (0.45, 0.17)  # bulk and shear modulus
 
 
 # ------------------------------------------------------------------------------------------------------- traction
+
+
+@pytest.mark.parametrize("change", [0.0, 0.01, -0.01])
+def test_a_fluid_next_to_void_goes_to_the_pressure_that_it_bears_and_void_takes_the_rest(change):
+    cell = Cell((0.7, 0.006, 1.0, 0.0), kind=FREE_SURFACE).strained(0.0, 0.0)
+    cell.borne[...] = 0.002
+    assert cell.meet(change) == 0.002
+    assert cell.mix[0, GROWTH, 0] == pytest.approx(0.004, rel=1e-12)
+    one = np.ones((1, 1))
+    names = handle(dt=0.1, skin=cell.skin, p=0.002 * one, bulk=one, solid=cell.solid, borne=cell.borne)
+    assert cut_pressure(0, 0, 0.0, names) == pytest.approx(0.7 * 0.002)
 
 
 @pytest.mark.parametrize("change", [0.0, 0.01, -0.01])
@@ -276,7 +289,7 @@ def test_groups_do_not_pull_at_each_other():
 
 def test_at_half_the_step_half_of_the_strain_has_come():
     cell, one = Cell((0.99, 0.0, *STEEL)), np.ones((1, 1))
-    names = handle(dt=0.1, skin=cell.skin, p=0.005 * one, bulk=one, solid=0.99 * one)
+    names = handle(dt=0.1, skin=cell.skin, p=0.005 * one, bulk=one, solid=0.99 * one, borne=cell.borne)
     assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.005 + 0.02 - 0.01)
     assert cut_pressure(0, 0, 0.4, names) == 0.0
     names.solid = (1.0 + 1e-15) * one
@@ -456,7 +469,7 @@ def test_the_share_of_a_body_in_vertices_in_a_gas_is_tied_to_it():
     assert pulls == pytest.approx([2 * by_r + 5 * by_z, -2 * by_r + 7 * by_z, 4 * by_r - 5 * by_z, -4 * by_r - 7 * by_z])
     after = u0[0] + np.reshape(pulls, (2, 2))  # on vertices of 1 kg
     lost = 0.5 * (u0**2).sum() - 0.5 * (after**2).sum()
-    assert cut_cells.tied_work.py_func(0, by_r, by_z, *u0[0], *after) == pytest.approx(lost)
+    assert traction.tied_work.py_func(0, by_r, by_z, *u0[0], *after) == pytest.approx(lost)
     cell.skin[KIND] = JOINT
     assert cut_cells.ties.source(0, 0, names) == (0.0, 0.0)
 

@@ -10,7 +10,7 @@ import eos
 import strength
 from hydro2d.cli import info
 from hydro2d.deck import deck
-from hydro2d.materials import library
+from hydro2d.materials import library, rows
 from strength.layout import SHEAR, YIELD
 
 TEXT = """\
@@ -354,3 +354,12 @@ def test_a_resolved_deck_gives_the_same_rows():
     first, second = library.resolve(d), library.resolve(deck.loads(d.to_toml()))
     for key in ("eos_par", "strength_par", "damage_par", "fracture_pressure", "rho0"):
         assert np.array_equal(getattr(first, key), getattr(second, key))
+
+
+def test_a_body_carries_the_least_of_its_tensions_and_none_without_strength():
+    models, materials = np.ones((5, 5), dtype=int), np.zeros((5, rows.EOS_AT))
+    models[4, rows.STRENGTH] = 0
+    materials[:, rows.TENSILE] = 3.0, np.inf, np.inf, np.inf, 3.0
+    materials[:, rows.CRACKS] = 0.0, 0.0, 2.0, 0.0, 0.0
+    materials[:, rows.MOST_STRESS] = np.inf, np.inf, np.inf, 1.0, np.inf
+    assert list(rows.tension(models, materials)) == [3.0, np.inf, 2.0, 1.0, 0.0]

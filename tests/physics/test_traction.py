@@ -247,3 +247,12 @@ def test_a_gas_follows_its_isentrope_and_does_the_work_under_it(exponent):
 def test_a_step_leaves_some_of_a_gas_and_lets_it_grow_by_no_more_than_a_solid():
     assert gas_growth(1e5, 0.0, 1.4)[0] == gas_growth(1e5, -1e9, 1.4)[0] == MOST_GROWTH
     assert gas_growth(1e-10, 1e9, 1.4)[0] == LEAST_LEFT - 1.0
+
+
+def test_ties_do_work_against_differences_along_r_and_along_z():
+    """Rows of two vertices, b below and t above: differences of 1 and 2 along r, 3 and 4 along z, before and after alike."""
+    b, t = np.array([0.0, 1.0]), np.array([3.0, 5.0])
+    work = traction.tied_work.py_func
+    assert work(0, 0.5, 0.0, b, t, b, t) == 0.5 * 0.5 * 2.0 * (1.0 + 4.0)
+    assert work(0, 0.0, 0.25, b, t, b, t) == 0.5 * 0.25 * 2.0 * (9.0 + 16.0)
+    assert work(0, 0.5, 0.25, b, t, -b, -t) == 0.0  # the middle of the step is at rest
