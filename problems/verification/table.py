@@ -22,7 +22,7 @@ from problems.verification.accuracy import BY_NAME, FOLDER, PROBLEMS, Problem
 RESULTS = FOLDER / "results"
 NUMBERS, CURVES = RESULTS / "accuracy.csv", RESULTS / "accuracy_curves.csv"
 COLUMNS = ("problem", "variant", "cells", "quantity", "unit", "exact", "found", "error_percent", "status", "time_s", "seconds",
-           "cycles")
+           "cycles", "method")
 CURVE_COLUMNS = ("problem", "cells", "x", "y")
 #: the file in the directory of a run that records its seconds on one core
 COST = "cost.json"
@@ -59,7 +59,8 @@ def rows_of(runs: Path, problem: Problem, variant: str, cells: int) -> list[dict
     facts = results.summary
     status = facts["status"] if facts["status"] != "done" else "trusted" if facts["trustworthy"] else "not trusted"
     common = {"problem": problem.name, "variant": variant, "cells": cells, "status": status, "time_s": f"{facts['time_s']:.6g}",
-              "seconds": json.loads((place / COST).read_text())["seconds"], "cycles": facts["cycles"]}
+              "seconds": json.loads((place / COST).read_text())["seconds"], "cycles": facts["cycles"],
+              "method": facts["method"]}
     if facts["status"] != "done":
         return [common]
     return [common | {"quantity": each.name, "unit": each.unit, "exact": f"{each.exact:.7g}", "found": f"{each.found:.7g}",
