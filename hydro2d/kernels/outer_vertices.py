@@ -2,8 +2,8 @@
 
 The outermost layer of a body, in cells with void, has half of its mass at vertices outside of all full cells. No stress acts on
 these in the direction of the surface's normal, since the traction there is that of void. They move with the vertices of full
-cells inward of them, which take over their momentum (explanation/mixed-cells, equations 14 to 16). Vertices at which both
-groups of a contact have mass are not among them: slaves have ties of their own (`extension`).
+cells inward of them, which take over their momentum (explanation/mixed-cells, equations 14 to 16). The kernels can hold the
+vertices of either group of a contact where the other one has no mass, but a step with contact does not run them.
 """
 
 from math import sqrt
@@ -24,6 +24,7 @@ from hydro2d.physics.outer_vertices import (
     TAKEN,
     WEIGHT,
     anchor,
+    beyond_noise,
     borne_share,
     clearness,
     fullness,
@@ -186,7 +187,7 @@ def pull_of_body(j, x, w):
     without strength has none), and it acts on the layer, whose mass per area is the mean density of these cells times the width
     across.
     """
-    i, least, density, cells, stiffest = w.held_columns[j, x], 1e300, 0.0, 0, 0.0
+    i, least, density, cells, fastest = w.held_columns[j, x], 1e300, 0.0, 0, 0.0
     for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
         of_row = 0.0
         for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
@@ -195,10 +196,10 @@ def pull_of_body(j, x, w):
                 if w.vof[m, row, column] > 0.0:
                     least = min(least, tension_limit(w.tension[m], w.fades[m], w.q[DMG, m, row, column]))
                     of_row += w.vof[m, row, column] * w.q[RHO, m, row, column]
-                    stiffest = max(stiffest, w.km[m, row, column] / w.q[RHO, m, row, column])
+                    fastest = max(fastest, sqrt(w.km[m, row, column] / w.q[RHO, m, row, column]))
         density += of_row
     across = 0.5 * (abs(w.hold[j, x, OUT_R]) * (w.dr[i - 1] + w.dr[i]) + abs(w.hold[j, x, OUT_Z]) * (w.dz[j - 1] + w.dz[j]))
-    return least * w.dt * cells / (density * across), sqrt(stiffest)
+    return least * w.dt * cells / (density * across), fastest
 
 
 @point
@@ -247,7 +248,7 @@ def let_go(j, x, w):
         v -= weight * anchor_v
     inward = -(w.hold[j, x, OUT_R] * u + w.hold[j, x, OUT_Z] * v)
     most, sound = pull_of_body(j, x, w)
-    lost = lost_by_hold(inward, own_sinking(j, x, w), most)
+    lost = lost_by_hold(inward, beyond_noise(own_sinking(j, x, w), sound), most)
     if lost == 0.0:
         w.held[j, i] = 0.0
     elif most > 0.0:

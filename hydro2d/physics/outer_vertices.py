@@ -7,6 +7,8 @@ from hydro2d.physics.traction import smoothstep
 
 #: velocity of a solid layer relative to its body, over the sound speed, from which the body does not hold it
 GENTLE = 3e-3
+#: velocity by the slope of the body, over the sound speed, that is noise
+NOISE = 1e-9
 #: rows of `anchors`: places and weights of the vertices that hold one
 ROW, COLUMN, WEIGHT = range(3)
 #: rows of `anchored`: velocity of an anchor before; mass that it takes over and momentum along r and z: from vertices below it,
@@ -63,6 +65,15 @@ def gentleness(apart, sound):
     apart : velocity of the layer relative to the body, m/s;  sound : sound speed, m/s. From GENTLE sound on, the layer flies.
     """
     return 1.0 - smoothstep(2.0 * abs(apart) / (GENTLE * sound) - 1.0)
+
+
+@point
+def beyond_noise(own, sound):
+    """The part of a velocity beyond NOISE of the sound speed, m/s.
+
+    A layer that followed the slope of its body to the last bit would feed noise back to it: round-off grew by e in 170 cycles.
+    """
+    return own - min(max(own, -NOISE * sound), NOISE * sound)
 
 
 @point

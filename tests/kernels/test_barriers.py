@@ -194,7 +194,7 @@ RARE = [
 #: all others that this deck needs
 OFTEN = [
     ("close_cells", "mixed.close_cells", "u"), ("close_cells", "contact_geometry.number_nodes", "contact_node_count"),
-    ("find_contact", "contact_geometry.face_apertures", "line"), ("find_contact", "extension.find_extensions", "filled"),
+    ("find_contact", "contact_geometry.face_apertures", "line"), ("find_contact", "extension.find_extensions", "firmly"),
     ("find_contact", "thermodynamics.least_step", "row_step"), ("accelerate", "vertex_forces.accelerate", "sig_rr"),
     ("accelerate", "contact_velocities.resolve_contact", "u"), ("accelerate", "boundaries.constrain", "u"),
     ("deform", "surface_volumes.heat_evened_cells", "even_z"), ("deform", "contact_volumes.contact_work", "checkerboard"),

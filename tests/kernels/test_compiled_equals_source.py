@@ -103,6 +103,7 @@ def test_kernels_do_what_their_source_says(monkeypatch, phases_as_python, advect
     unused |= {"light_points", "bend_around"}  # before the first step of an explosive: tests/kernels/test_light_times.py
     if follows:
         unused |= {"moving_columns", "moving_box"}  # a mesh that travels skips no cells
+        unused |= {"bear", "find_held", "hold_vertices", "heat_held_vertices"}  # with one velocity only
     else:
         unused |= {"transmit"} | {name for module, name, _ in kernels if module.__name__ == "hydro2d.kernels.mesh_motion"}
     assert seen == {name for _, name, _ in kernels} - unused

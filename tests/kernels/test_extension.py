@@ -6,7 +6,7 @@ import pytest
 from hydro2d.kernels.contact import extension
 from hydro2d.kernels.contact.contact_geometry import REACH
 from hydro2d.kernels.contact.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
-from hydro2d.mesh.fields import RHO
+from hydro2d.mesh.fields import DMG, RHO
 from hydro2d.mesh.grid import Grid
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
@@ -35,7 +35,7 @@ class Extensions:
                  gas=0.0):
         self.grid = g = Grid(edges, edges, "planar")
         inside, mesh = g.inside, np.s_[g.g:g.g + N + 1, g.g:g.g + N + 1]
-        vof, q = np.zeros((3, *g.shape)), np.ones((1, 3, *g.shape))
+        vof, q = np.zeros((3, *g.shape)), np.ones((DMG + 1, 3, *g.shape))
         vof[2][inside], q[RHO, 2] = gas, 1e-3
         vof[1][inside] = hard
         vof[0][inside] = 1.0 - np.asarray(hard) - vof[2][inside] if soft is None else soft
@@ -53,8 +53,8 @@ class Extensions:
         strength, number = np.zeros((slots, 2)), np.zeros((slots, 2), dtype=np.int64)
         where, weights = np.zeros((slots, 2, MASTERS + 1), dtype=np.int64), np.full((slots, 2, MASTERS + 1), np.nan)
         mesh_box = np.array([g.g, g.g + N, g.g, g.g + N])
-        rows, dmg = mesh_box[:2], np.zeros_like(vof)
-        dmg[1] = damage
+        rows, q[DMG] = mesh_box[:2], 0.0
+        q[DMG, 1] = damage
         filled, firmly = np.full((2, 2, *g.vertex_shape), np.nan)
         find_filled(0, handle(parts=rows, mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, contact_node_count=count,
                     contact_nodes=nodes, hard=both_bodies[1], soft=both_bodies[0], firm=firm, mass=mass, filled=filled,
@@ -63,7 +63,7 @@ class Extensions:
                         most_squares=most_squares, r=g.r, z=g.z,
                         contact_node_count=count, contact_nodes=nodes, first_slot=first, contact_normal=directions,
                         hard=both_bodies[1], soft=both_bodies[0], firm=firm, filled=filled, firmly=firmly,
-                        inward=np.full((len(both), 4, 36), np.nan), group=np.array([0, 1, 0]), vof=vof, dmg=dmg, q=q,
+                        inward=np.full((len(both), 4, 36), np.nan), group=np.array([0, 1, 0]), vof=vof, q=q,
                         gases=np.array([False, False, True]), volume=g.volume, metrics=g.metrics, strength=strength,
                         masters=number, where=where, weights=weights))
         self.first, self.mass, self.normal, self.ties = first, mass, directions, (strength, number, where, weights)
@@ -138,17 +138,17 @@ def test_a_node_counts_as_filled_by_degrees():
 
 
 def test_debris_is_failed_material_of_the_other_group_that_fills_half_of_a_cell():
-    vof, dmg = np.zeros((2, 6, 6)), np.zeros((2, 6, 6))
-    vof[1, 2, 3], dmg[1, 2, 3] = 0.5, 1.0
+    vof, q = np.zeros((2, 6, 6)), np.zeros((DMG + 1, 2, 6, 6))
+    vof[1, 2, 3], q[DMG, 1, 2, 3] = 0.5, 1.0
     mesh_box, group = np.array([0, 6, 0, 6]), np.array([0, 1])
     assert [(j, i) for j in range(7) for i in range(7) if in_debris(0, j, i, handle(mesh_box=mesh_box, group=group, vof=vof,
-                                                                    dmg=dmg))] == [
+                                                                    q=q))] == [
         (2, 3), (2, 4), (3, 3), (3, 4)]
-    assert not in_debris(1, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, dmg=dmg))
+    assert not in_debris(1, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, q=q))
     vof[1, 2, 3] = 0.49
-    assert not in_debris(0, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, dmg=dmg))
-    vof[1, 2, 3], dmg[1, 2, 3] = 1.0, 0.99
-    assert not in_debris(0, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, dmg=dmg))
+    assert not in_debris(0, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, q=q))
+    vof[1, 2, 3], q[DMG, 1, 2, 3] = 1.0, 0.99
+    assert not in_debris(0, 2, 3, handle(mesh_box=mesh_box, group=group, vof=vof, q=q))
 
 
 @pytest.mark.parametrize(("row", "column", "expected"), [(5, 5, (0.5 / 0.5) ** 4), (5, 6, (1.5 / 2.5) ** 4), (5, 4, 0.0),

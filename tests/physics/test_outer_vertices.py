@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.physics import outer_vertices
-from hydro2d.physics.outer_vertices import CLEAR, GENTLE, PARTLY, TAKEN
+from hydro2d.physics.outer_vertices import CLEAR, GENTLE, NOISE, PARTLY, TAKEN
 from tests.physics.continuity import changes_in_proportion
 
 fullness = outer_vertices.fullness.py_func
@@ -46,6 +46,13 @@ def test_a_body_with_tensile_strength_takes_its_layer_along_both_ways():
     assert lost(-3.0, -1.0, 10.0) == -2.0
     assert lost(-3.0, 1.0, 2.5) == -2.5  # no more than the strength holds
     assert lost(1e9, 0.0, 2.5) == 1e9
+
+
+def test_noise_has_no_slope():
+    beyond = outer_vertices.beyond_noise.py_func
+    assert beyond(0.5 * NOISE * 5000.0, 5000.0) == beyond(-NOISE * 5000.0, 5000.0) == 0.0
+    assert beyond(1.0, 5000.0) == 1.0 - NOISE * 5000.0
+    assert beyond(-1.0, 5000.0) == -1.0 + NOISE * 5000.0
 
 
 def test_a_layer_that_flies_is_not_held():

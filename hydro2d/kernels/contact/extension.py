@@ -10,7 +10,7 @@ from math import sqrt
 from hydro2d.jit import kernel, not_inlined, point, vertex_rows
 from hydro2d.kernels.column_ranges import NOTHING, first_row, outer_rows, past_row
 from hydro2d.kernels.contact.contact_geometry import REACH
-from hydro2d.mesh.fields import RHO
+from hydro2d.mesh.fields import DMG, RHO
 from hydro2d.mesh.grid import CM_IN, CM_OUT
 from hydro2d.physics.contact_faces import dual_share, own_inward
 from hydro2d.physics.traction import smoothstep
@@ -73,7 +73,7 @@ def in_debris(g, j, i, w):
         if w.group[m] != g:
             for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
                 for column in range(max(i - 1, w.mesh_box[2]), min(i + 1, w.mesh_box[3])):
-                    failed = failed or (w.vof[m, row, column] >= 0.5 and w.dmg[m, row, column] >= 1.0)
+                    failed = failed or (w.vof[m, row, column] >= 0.5 and w.q[DMG, m, row, column] >= 1.0)
     return failed
 
 
@@ -243,7 +243,7 @@ def find_extensions(j, w):
     mass. A vertex in the gas that held the edge of a solid would be thrown off by it.
 
     Reads    first_slot [j], the slot of a row's first contact node; contact_normal [3, 2, j, i]; hard, soft [j, i];
-             firm, filled, firmly [b, j, i]; vof, dmg [m, j, i], q (rho)
+             firm, filled, firmly [b, j, i]; vof [m, j, i]; q (rho, dmg) [k, m, j, i]
     Writes   strength [x, b], 0 for a node that moves by itself to 1; masters [x, b], how many; where [x, b, n], their places
              SPAN (dj + REACH) + (di + REACH), or TIED; weights [x, b, n], which add up to 1
     Scratch  inward [j, 4, n]
