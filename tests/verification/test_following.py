@@ -145,7 +145,7 @@ def test_two_plates_and_the_gap_between_them():
     assert inflow.mass[moving.table.names.index("rear")] < 0.0
 
 
-@pytest.mark.xfail(strict=False, raises=AssertionError, reason="a pressure of 11.6 Pa of noise since layers are held; 10 is wanted")
+@pytest.mark.xfail(strict=False, raises=AssertionError, reason="11.6 Pa of noise since layers are held; 10 are wanted")
 def test_entering_bodies_are_those_placed_by_the_deck():
     """Every body ahead has come in to the last digit of its volume, at the place where it was put."""
     ball = body("ball", "Al5083", "sphere", centre="22.5 mm", radius="1.7 mm")
