@@ -305,12 +305,11 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         f = w.vof[m, j, i]
         if f == 0.0:
             continue
-        gas = is_free_gas(m, j, i, w)
-        grown = (w.mix[j, GROWTH, m] if gas else max(w.mix[j, GROWTH, m], -0.5)) * f * volume
+        grown = w.mix[j, GROWTH, m] * f * volume
         filled += f * volume + grown
         mass += w.q[RHO, m, j, i] * f * volume
         done = 0.5 * (w.pm[m, j, i] - w.mix[j, NORMAL, m] + target) * grown
-        if gas:
+        if is_free_gas(m, j, i, w):
             done = gas_work(w.pm[m, j, i], w.mix[j, GROWTH, m], gas_exponent(m, j, i, w)) * f * volume * film_heat(f)
         w.mix[j, HEAT, m] -= done
         left += done
@@ -321,8 +320,7 @@ def fill_cut_cell(j, i, change, volume, target, work, w):
         if f == 0.0:
             continue
         own = w.q[RHO, m, j, i] * f * volume
-        grown = w.mix[j, GROWTH, m] if is_free_gas(m, j, i, w) else max(w.mix[j, GROWTH, m], -0.5)
-        space = squeeze * (1.0 + grown) * f * volume
+        space = squeeze * (1.0 + w.mix[j, GROWTH, m]) * f * volume
         w.q[E, m, j, i] += w.mix[j, HEAT, m] / own + left / mass
         w.q[RHO, m, j, i] = own / space
         w.vof[m, j, i] = space / after

@@ -148,7 +148,8 @@ _AXES = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
 #: all names that kernels of the step can use
 NAMES = (
     *(Work(field.symbol, _AXES[field.centring], field.meaning) for field in fields.FIELDS),
-    *fields.WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *BLOCKS, *BODIES, *METHOD, *TIES,
+    *fields.WORK, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *BLOCKS, *BODIES, *METHOD,
+    *TIES,
 )
 
 declare({name.symbol: (name.kind, len(name.axes.split())) for name in (*NAMES, *LIGHT)})

@@ -2,13 +2,14 @@
 
 The outermost layer of a body, in cells with void, has half of its mass at vertices outside of all full cells. No stress acts on
 these in the direction of the surface's normal, since the traction there is that of void. They move with the vertices of full
-cells inward of them, which take over their momentum (explanation/mixed-cells, equations 14 to 16). The kernels can hold the
-vertices of either group of a contact where the other one has no mass, but a step with contact does not run them.
+cells inward of them, which take over their momentum (explanation/mixed-cells, equations 14 to 16). A step
+with contact does not run these kernels.
 """
 
 from math import sqrt
 
 from hydro2d.jit import cell_rows, point, serial, vertex_rows
+from hydro2d.kernels.boundaries import velocity_at_edges
 from hydro2d.kernels.column_ranges import NOTHING, outer_rows
 from hydro2d.kernels.mixed_scratch import HEAT
 from hydro2d.kernels.vertex_forces import SMALLEST_SPEED
@@ -35,14 +36,12 @@ from hydro2d.physics.outer_vertices import (
     is_free,
     is_plain_fluid,
     lost_by_hold,
-    motion,
-    only_group,
     start_anchor,
 )
 from hydro2d.physics.traction import FREE_SURFACE, KIND, NORMAL_R, NORMAL_Z, smoothstep
 
-#: distance up to which a vertex looks for the body inward, in cells, and the most vertices that it may find
-REACH, MOST = 2.5, 12
+#: distance up to which a vertex looks for the body inward, in cells; within it, a line crosses at most three lines of the mesh
+REACH, CROSSINGS = 2.5, 3
 #: columns of `hold`: outward normal at a held vertex, and the distance of its anchors in cells
 OUT_R, OUT_Z, AWAY = range(3)
 #: weight of an anchor below which it is left out; distance from a line of the mesh, in cells, up to which a point is on it
@@ -52,13 +51,10 @@ ENOUGH = 1e-2
 
 
 @point
-def firmness(g, j, i, w):
-    """Weight with which vertex (j, i) touches a full cell, and may hold others of group g: 0 to 1.
-
-    0 where the other group has mass as well: that is a contact node.
-    """
+def firmness(j, i, w):
+    """Weight with which vertex (j, i) touches a full cell, and may hold others: 0 to 1."""
     j0, j1 = outer_rows(w.parts)
-    if j < j0 or j > j1 or i < w.i0 or i > w.i1 or only_group(j, i, w.mass) != g:
+    if j < j0 or j > j1 or i < w.i0 or i > w.i1 or w.mass[0, j, i] == 0.0:
         return 0.0
     most = 0.0
     for row in range(max(j - 1, w.mesh_box[0]), min(j + 1, w.mesh_box[1])):
@@ -95,7 +91,7 @@ def outward(j, i, w):
 
 
 @point
-def find_anchors(g, j, i, x, w):
+def find_anchors(j, i, x, w):
     """(number of anchors of vertex (j, i), share of it that they hold, their distance in cells).
 
     A line runs inward from the vertex. Wherever it crosses a line of the mesh, the two vertices there hold the vertex by how
@@ -109,7 +105,7 @@ def find_anchors(g, j, i, x, w):
     every_r = 1.0 / abs(step_r) if abs(step_r) > NO_WEIGHT else 1e300
     every_z = 1.0 / abs(step_z) if abs(step_z) > NO_WEIGHT else 1e300
     n, left, away, past_r, past_z = 0, 1.0, 0.0, 1, 1
-    for _ in range(MOST // 2):
+    for _ in range(CROSSINGS):
         at_r, at_z = past_r * every_r, past_z * every_z
         at = min(at_r, at_z)
         if at > REACH or left <= NO_WEIGHT:
@@ -126,8 +122,8 @@ def find_anchors(g, j, i, x, w):
             row, column = j + way_z * int(off), i + way_r * past_r
             row_1, column_1 = row + way_z, column
             past_r += 1
-        first = left * (1.0 - beside) * firmness(g, row, column, w) if beside < 1.0 else 0.0
-        second = left * beside * firmness(g, row_1, column_1, w) if beside > 0.0 else 0.0
+        first = left * (1.0 - beside) * firmness(row, column, w) if beside < 1.0 else 0.0
+        second = left * beside * firmness(row_1, column_1, w) if beside > 0.0 else 0.0
         if first > NO_WEIGHT:
             w.anchors[j, x, ROW, n], w.anchors[j, x, COLUMN, n], w.anchors[j, x, WEIGHT, n] = row, column, first
             n += 1
@@ -136,12 +132,12 @@ def find_anchors(g, j, i, x, w):
             n += 1
         away += at * (first + second)
         left -= first + second
-    held = 0.0
+    total = 0.0
     for k in range(n):
-        held += w.anchors[j, x, WEIGHT, k]
+        total += w.anchors[j, x, WEIGHT, k]
     for k in range(n):
-        w.anchors[j, x, WEIGHT, k] /= held
-    return n, min(held, 1.0), away / held if held > 0.0 else 0.0
+        w.anchors[j, x, WEIGHT, k] /= total
+    return n, min(total, 1.0), away / total if total > 0.0 else 0.0
 
 
 @vertex_rows
@@ -149,8 +145,8 @@ def find_held(j, w):
     """Vertices that no full cell touches and that the body inward holds, and the share of their mass that is held.
 
     Reads    mass [b, j, i]; solid [j, i]; skin [3, j, i]; vof [m, j, i]; the list of mixed cells
-    Writes   held [j, i] for whole rows; held_count [j]; of the x-th of them held_columns, held_group, anchor_count [j, x],
-             hold [j, x, 3], anchors [j, x, 3, n]
+    Writes   held [j, i] for whole rows; held_count [j]; of the x-th of them held_columns, anchor_count [j, x], hold [j, x, 3],
+             anchors [j, x, 3, n]
     """
     count, first, last = 0, NOTHING, 0
     for i in range(w.i0, w.i1 + 1):
@@ -160,20 +156,19 @@ def find_held(j, w):
             first = min(first, w.mixed[row, 0])
             last = max(last, w.mixed[row, w.mixed_count[row] - 1] + 1)
     for i in range(max(first, w.i0), min(last, w.i1) + 1):
-        g = only_group(j, i, w.mass)
-        if g < 0:
+        if w.mass[0, j, i] == 0.0:
             continue
-        loose = 1.0 - firmness(g, j, i, w)
+        loose = 1.0 - firmness(j, i, w)
         if loose == 0.0:
             continue
         n_r, n_z, length = outward(j, i, w)
         if length == 0.0:
             continue
         w.hold[j, count, OUT_R], w.hold[j, count, OUT_Z] = n_r, n_z
-        n, share, away = find_anchors(g, j, i, count, w)
+        n, share, away = find_anchors(j, i, count, w)
         if n > 0:
             w.held[j, i] = loose * share * clearness(length)
-            w.held_columns[j, count], w.held_group[j, count], w.anchor_count[j, count] = i, g, n
+            w.held_columns[j, count], w.anchor_count[j, count] = i, n
             w.hold[j, count, AWAY] = away
             count += 1
     w.held_count[j] = count
@@ -211,24 +206,24 @@ def own_sinking(j, x, w):
 
     Reads    u0, v0 [b, j, i]; hold [j, x, 3], anchors [j, x, 3, n]
     """
-    g, i, n_r, n_z = w.held_group[j, x], w.held_columns[j, x], w.hold[j, x, OUT_R], w.hold[j, x, OUT_Z]
+    i, n_r, n_z = w.held_columns[j, x], w.hold[j, x, OUT_R], w.hold[j, x, OUT_Z]
     step_r, step_z = inward_step(j, i, n_r, n_z, w.dr, w.dz)
     way_r, way_z = 1 if step_r > 0.0 else -1, 1 if step_z > 0.0 else -1
-    along_z, along_r, held = abs(step_z), abs(step_r), 0.0
+    along_z, along_r, near = abs(step_z), abs(step_r), 0.0
     for k in range(w.anchor_count[j, x]):
         row, column, weight = anchor(j, x, k, w.anchors)
         along_z += weight * abs(row - j)
         along_r += weight * abs(column - i)
-        held += weight * (n_r * w.u0[g, row, column] + n_z * w.v0[g, row, column])
+        near += weight * (n_r * w.u0[0, row, column] + n_z * w.v0[0, row, column])
     up, out = int(along_z + ON_LINE), int(along_r + ON_LINE)
     above, beside, firm, further = max(along_z - up, 0.0), max(along_r - out, 0.0), 1.0, 0.0
     for k in range(4):
         weight = (beside if k % 2 == 1 else 1.0 - beside) * (above if k // 2 == 1 else 1.0 - above)
         if weight > ON_LINE:
             row, column = j + way_z * (up + k // 2), i + way_r * (out + k % 2)
-            firm *= firmness(g, row, column, w)
-            further += weight * (n_r * w.u0[g, row, column] + n_z * w.v0[g, row, column])
-    return firm * w.hold[j, x, AWAY] * (further - held)
+            firm *= firmness(row, column, w)
+            further += weight * (n_r * w.u0[0, row, column] + n_z * w.v0[0, row, column])
+    return firm * w.hold[j, x, AWAY] * (further - near)
 
 
 @point
@@ -237,15 +232,14 @@ def let_go(j, x, w):
 
     Writes   sinking [2, j, i]; anchored [11, j, i] there and at the anchors
     """
-    g, i = w.held_group[j, x], w.held_columns[j, x]
-    u, v = motion(j, i, w.u[g], w.v[g], w.constrained, w.edge_velocity)
-    start_anchor(j, i, w.u[g], w.v[g], w.anchored)
+    i = w.held_columns[j, x]
+    u, v = velocity_at_edges(i, 0, w.u[0, j, i], w), velocity_at_edges(j, 2, w.v[0, j, i], w)
+    start_anchor(j, i, w.u[0], w.v[0], w.anchored)
     for k in range(w.anchor_count[j, x]):
         row, column, weight = anchor(j, x, k, w.anchors)
-        start_anchor(row, column, w.u[g], w.v[g], w.anchored)
-        anchor_u, anchor_v = motion(row, column, w.u[g], w.v[g], w.constrained, w.edge_velocity)
-        u -= weight * anchor_u
-        v -= weight * anchor_v
+        start_anchor(row, column, w.u[0], w.v[0], w.anchored)
+        u -= weight * velocity_at_edges(column, 0, w.u[0, row, column], w)
+        v -= weight * velocity_at_edges(row, 2, w.v[0, row, column], w)
     inward = -(w.hold[j, x, OUT_R] * u + w.hold[j, x, OUT_Z] * v)
     most, sound = pull_of_body(j, x, w)
     lost = lost_by_hold(inward, beyond_noise(own_sinking(j, x, w), sound), most)
@@ -264,38 +258,38 @@ def take_over(j, x, upward, w):
 
     Updates  anchored [11, j, i] at the anchors; u, v [b, j, i] of anchors where an edge prescribes them, which the edge takes
     """
-    g, i = w.held_group[j, x], w.held_columns[j, x]
+    i = w.held_columns[j, x]
     for k in range(w.anchor_count[j, x]):
         row, column, weight = anchor(j, x, k, w.anchors)
         if upward != (row > j):
             continue
-        mass = weight * w.held[j, i] * w.mass[g, j, i]
+        mass = weight * w.held[j, i] * w.mass[0, j, i]
         place = TAKEN if row > j else (TAKEN + 3 if row < j else TAKEN + 6)
         w.anchored[place, row, column] += mass
         w.anchored[place + 1, row, column] += mass * w.sinking[0, j, i]
         w.anchored[place + 2, row, column] += mass * w.sinking[1, j, i]
         free_r, free_z = is_free(row, column, w.constrained)
         if not free_r:
-            w.u[g, row, column] += mass / w.mass[g, row, column] * w.sinking[0, j, i]
+            w.u[0, row, column] += mass / w.mass[0, row, column] * w.sinking[0, j, i]
         if not free_z:
-            w.v[g, row, column] += mass / w.mass[g, row, column] * w.sinking[1, j, i]
+            w.v[0, row, column] += mass / w.mass[0, row, column] * w.sinking[1, j, i]
 
 
 @point
-def set_velocity(g, j, i, held_u, held_v, w):
-    """Velocity of vertex (j, i) of group g: its own share gains as an anchor, the held one by what is given; edges keep theirs.
+def set_velocity(j, i, held_u, held_v, w):
+    """Velocity of vertex (j, i): its own share gains as an anchor, the held one by what is given; edges keep theirs.
 
     Updates  u, v [b, j, i]
     """
-    own_u, own_v = gain(j, i, w.held, w.mass[g], w.constrained, w.anchored)
+    own_u, own_v = gain(j, i, w.held, w.mass[0], w.constrained, w.anchored)
     held = w.held[j, i]
     free_r, free_z = is_free(j, i, w.constrained)
     if free_r:
         u = w.anchored[START_R, j, i] + ((1.0 - held) * own_u + held * held_u)
-        w.u[g, j, i] = u if abs(u) > SMALLEST_SPEED else 0.0
+        w.u[0, j, i] = u if abs(u) > SMALLEST_SPEED else 0.0
     if free_z:
         v = w.anchored[START_Z, j, i] + ((1.0 - held) * own_v + held * held_v)
-        w.v[g, j, i] = v if abs(v) > SMALLEST_SPEED else 0.0
+        w.v[0, j, i] = v if abs(v) > SMALLEST_SPEED else 0.0
 
 
 @point
@@ -304,16 +298,16 @@ def move_together(j, x, w):
 
     Updates  u, v [b, j, i]
     """
-    g, i = w.held_group[j, x], w.held_columns[j, x]
+    i = w.held_columns[j, x]
     u, v = -w.sinking[0, j, i], -w.sinking[1, j, i]
     for k in range(w.anchor_count[j, x]):
         row, column, weight = anchor(j, x, k, w.anchors)
-        anchor_u, anchor_v = gain(row, column, w.held, w.mass[g], w.constrained, w.anchored)
+        anchor_u, anchor_v = gain(row, column, w.held, w.mass[0], w.constrained, w.anchored)
         u += weight * anchor_u
         v += weight * anchor_v
         if w.held[row, column] == 0.0:
-            set_velocity(g, row, column, 0.0, 0.0, w)
-    set_velocity(g, j, i, u, v, w)
+            set_velocity(row, column, 0.0, 0.0, w)
+    set_velocity(j, i, u, v, w)
 
 
 @serial
@@ -321,7 +315,7 @@ def hold_vertices(w):
     """Velocities of held vertices, which do not sink into their body, and of their anchors; momentum is kept.
 
     Reads    held [j, i]; held_columns, anchor_count [j, x], hold [j, x, 3], anchors [j, x, 3, n]; mass, u0, v0 [b, j, i];
-             edge_velocity [4]
+             constrained, pushing, edge_velocity [4]
     Updates  u, v [b, j, i]
     Writes   anchored [11, j, i] at held vertices and their anchors; sinking [2, j, i] at held vertices
     """
@@ -349,17 +343,17 @@ def heat_held_vertices(j, w):
     Writes   held_heat [j, i] at held vertices, J/kg
     """
     for x in range(w.held_count[j]):
-        g, i = w.held_group[j, x], w.held_columns[j, x]
+        i = w.held_columns[j, x]
         if w.held[j, i] == 0.0:
             continue
         free_r, free_z = is_free(j, i, w.constrained)
-        mean_u, mean_v = 0.5 * (w.u0[g, j, i] + w.u[g, j, i]), 0.5 * (w.v0[g, j, i] + w.v[g, j, i])
+        mean_u, mean_v = 0.5 * (w.u0[0, j, i] + w.u[0, j, i]), 0.5 * (w.v0[0, j, i] + w.v[0, j, i])
         heat = 0.0
         for k in range(w.anchor_count[j, x]):
             row, column, weight = anchor(j, x, k, w.anchors)
-            u, v = gain(row, column, w.held, w.mass[g], w.constrained, w.anchored)
-            apart_u = mean_u - 0.5 * (w.u0[g, row, column] + w.u[g, row, column])
-            apart_v = mean_v - 0.5 * (w.v0[g, row, column] + w.v[g, row, column])
+            u, v = gain(row, column, w.held, w.mass[0], w.constrained, w.anchored)
+            apart_u = mean_u - 0.5 * (w.u0[0, row, column] + w.u[0, row, column])
+            apart_v = mean_v - 0.5 * (w.v0[0, row, column] + w.v[0, row, column])
             heat += weight * ((w.sinking[0, j, i] - u) * apart_u if free_r else 0.0)
             heat += weight * ((w.sinking[1, j, i] - v) * apart_v if free_z else 0.0)
         w.held_heat[j, i] = w.held[j, i] * heat

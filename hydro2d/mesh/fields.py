@@ -181,16 +181,7 @@ WORK = (
     Work("mixed", "j i", "their columns", int),
     Work("skin", "3 j i", "normal of the surface that cuts a cell, its square the weight; kind of cut cell"),
     Work("borne", "j i", "pressure half-way into what of a body lies in a cell with void, borne by the cells inward, Pa"),
-    Work("held_count", "J", "number of vertices in a row that are held by the body inward of them", int),
-    Work("held_columns", "J I", "their columns", int),
-    Work("held_group", "J I", "their groups", int),
     Work("held", "J I", "share of the mass of a vertex that is held"),
-    Work("anchor_count", "J I", "number of vertices that hold each of them", int),
-    Work("anchors", "J I 3 12", "these: rows, columns and weights"),
-    Work("hold", "J I 3", "outward normal at a held vertex, distance of its anchors in cells"),
-    Work("anchored", "11 J I", "velocity of an anchor before; mass and momentum that it takes over from three sides"),
-    Work("sinking", "2 J I", "velocity that a held vertex has to lose, along r and z"),
-    Work("held_heat", "J I", "heat of holding a vertex, per mass"),
     Work("mix", "j 17 m", "data of each body in a mixed cell while it deforms"),
     Work("filter_r", "b j i", "force of the hourglass filter on the radial velocities of a cell, N per radian"),
     Work("filter_z", "b j i", "the same along z"),
@@ -222,6 +213,18 @@ WORK = (
     Work("gate", "G", "barrier at which the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
     Work("moving", "4", "rows and columns of all moving vertices", int),
+)
+
+#: further arrays for the outermost layer of bodies, with one velocity
+HOLD_WORK = (
+    Work("held_count", "J", "number of vertices in a row that are held by the body inward of them", int),
+    Work("held_columns", "J I", "their columns", int),
+    Work("anchor_count", "J I", "number of vertices that hold each of them", int),
+    Work("anchors", "J I 3 6", "these: rows, columns and weights"),
+    Work("hold", "J I 3", "outward normal at a held vertex, distance of its anchors in cells"),
+    Work("anchored", "11 J I", "velocity of an anchor before; mass and momentum that it takes over from three sides"),
+    Work("sinking", "2 J I", "velocity that a held vertex has to lose, along r and z"),
+    Work("held_heat", "J I", "heat of holding a vertex, per mass"),
 )
 
 #: further arrays for equations of state with internal variables

@@ -38,7 +38,7 @@ def _arrays(groups: int, remembers: bool) -> Iterator[tuple[str, str, type]]:
     views = {"u", "v", "u0", "v0", "centroid_r", "centroid_z", *(field.symbol for field in fields.BODY)}
     axes = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
     yield from ((field.symbol, axes[field.centring], float) for field in fields.FIELDS if field.symbol not in views)
-    beside = (*(fields.CONTACT_WORK if groups > 1 else ()), *(fields.MEMORY_WORK if remembers else ()))
+    beside = (*(fields.CONTACT_WORK if groups > 1 else fields.HOLD_WORK), *(fields.MEMORY_WORK if remembers else ()))
     yield from ((work.symbol, work.axes, work.kind) for work in (*fields.WORK, *beside))
 
 
@@ -51,9 +51,10 @@ def bytes_needed(nj: int, ni: int, bodies: int, groups: int, internal: int = 0, 
 class State:
     """Fields of ``bodies`` bodies on a mesh, and the arrays through which the kernels of a cycle pass values to one another.
 
-    Its arrays are those of `fields.FIELDS` and `fields.WORK`, by their symbols; with two groups, of `fields.CONTACT_WORK` as
-    well, and if an equation of state has memory, of `fields.MEMORY_WORK`. Shapes: body fields [m, j, i], cell fields [j, i],
-    vertex fields [b, j, i] with a leading index of body group b (one group unless contact is on); all with ghosts.
+    Its arrays are those of `fields.FIELDS` and `fields.WORK`, by their symbols; with two groups, of `fields.CONTACT_WORK`
+    as well, with one of `fields.HOLD_WORK`, and if an equation of state has memory, of `fields.MEMORY_WORK`. Shapes: body
+    fields [m, j, i], cell fields [j, i], vertex fields [b, j, i] with a leading index of body group b (one group unless
+    contact is on); all with ghosts.
     ``velocity`` and ``velocity0`` contain u, v and u0, v0, ``centroid`` contains centroid_r and centroid_z; ``body_range`` and
     ``active_range`` are the first of ``body_ranges`` and ``group_ranges``.
 

@@ -1,4 +1,4 @@
-"""What is in a cell: gases, groups, several bodies, the surface between them and its normal.
+"""Contents of a cell: gases, groups, several bodies, the surface between them and its normal.
 
 skin : normal and kind of the surface in a cell, rows of `traction`;  vof : fractions [m, j, i]
 """

@@ -14,7 +14,6 @@ ROW, COLUMN, WEIGHT = range(3)
 #: rows of `anchored`: velocity of an anchor before; mass that it takes over and momentum along r and z: from vertices below it,
 #: above it and beside it, three rows each, so that a mirror image adds the same numbers in the same order
 START_R, START_Z, TAKEN = range(3)
-
 #: filled share of a cell up to which it does not count as full
 PARTLY = 0.99
 #: length of the mean normal of the cells around a vertex from which the vertex is held in full
@@ -47,7 +46,7 @@ def borne_share(filled, away, across):
 
 @point
 def lost_by_hold(inward, own, most):
-    """What a held vertex loses of its velocity into its body, m/s: what it sinks faster than by `own`; negative if it gains.
+    """Velocity into its body that a held vertex loses, m/s: by how much it sinks faster than `own`; negative if it gains some.
 
     inward : its velocity relative to the body, towards it;  own : that by the slope of the body's own velocity, by which the
     layer is compressed or stretched with it;  most : the velocity that the tensile strength of the body takes from a vertex
@@ -107,19 +106,8 @@ def is_free(j, i, constrained):
 
 
 @point
-def motion(j, i, u, v, constrained, edge_velocity):
-    """(radial, axial) velocity of vertex (j, i), that of an edge where it prescribes one, m/s."""
-    radial, axial = u[j, i], v[j, i]
-    if i == constrained[0] or i == constrained[1]:
-        radial = edge_velocity[0] if i == constrained[0] else edge_velocity[1]
-    if j == constrained[2] or j == constrained[3]:
-        axial = edge_velocity[2] if j == constrained[2] else edge_velocity[3]
-    return radial, axial
-
-
-@point
 def taken(k, j, i, anchored):
-    """What anchor (j, i) takes over from below, above and beside: k = 0 mass, 1 and 2 momentum along r and z."""
+    """Mass (k = 0) or momentum along r or z (k = 1, 2) that anchor (j, i) takes over from below, above and beside."""
     return (anchored[TAKEN + k, j, i] + anchored[TAKEN + 3 + k, j, i]) + anchored[TAKEN + 6 + k, j, i]
 
 
@@ -134,19 +122,6 @@ def gain(j, i, held, mass, constrained, anchored):
     u = taken(1, j, i, anchored) / whole if free_r and whole > 0.0 else 0.0
     v = taken(2, j, i, anchored) / whole if free_z and whole > 0.0 else 0.0
     return u, v
-
-
-@point
-def only_group(j, i, mass):
-    """The group that alone has mass at vertex (j, i), -1 where none or both have some.
-
-    mass : of the groups at the vertices [b, j, i], kg per radian
-    """
-    if mass.shape[0] == 1:
-        return 0 if mass[0, j, i] > 0.0 else -1
-    if mass[0, j, i] > 0.0:
-        return -1 if mass[1, j, i] > 0.0 else 0
-    return 1 if mass[1, j, i] > 0.0 else -1
 
 
 @point

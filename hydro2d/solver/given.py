@@ -49,7 +49,8 @@ class Given:
         self._state, self._contact, self.handle = cycle.state, cycle.contact, Handle()
         state, method = cycle.state, cycle.method
         arrays = _of(state, [name for name in names.NAMES if name not in names.TIES])
-        absent = (*(fields.CONTACT_WORK if state.groups == 1 else ()), *(() if table.remembers else fields.MEMORY_WORK))
+        absent = (*(fields.CONTACT_WORK if state.groups == 1 else fields.HOLD_WORK),
+                  *(() if table.remembers else fields.MEMORY_WORK))
         arrays |= {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind) for work in absent}
         order, own = method.interface_order, state.group[method.interface_order]
         models, materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)

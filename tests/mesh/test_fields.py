@@ -60,7 +60,7 @@ def test_only_a_run_that_needs_them_has_rows_for_internal_variables():
 @pytest.mark.parametrize("groups", [1, 2])
 def test_every_array_of_the_state_is_in_a_table(groups):
     state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 5)), 2, [0, groups - 1])
-    tables = [*fields.FIELDS, *fields.WORK, *(fields.CONTACT_WORK if groups == 2 else ())]
+    tables = [*fields.FIELDS, *fields.WORK, *(fields.CONTACT_WORK if groups == 2 else fields.HOLD_WORK)]
     symbols = [entry.symbol for entry in tables]
     assert len(set(symbols)) == len(symbols)
     arrays = {name for name, value in vars(state).items() if isinstance(value, np.ndarray)}

@@ -145,25 +145,36 @@ def test_two_plates_and_the_gap_between_them():
     assert inflow.mass[moving.table.names.index("rear")] < 0.0
 
 
-@pytest.mark.xfail(strict=False, raises=AssertionError, reason="11.6 Pa of noise since layers are held; 10 are wanted")
-def test_entering_bodies_are_those_placed_by_the_deck():
-    """Every body ahead has come in to the last digit of its volume, at the place where it was put."""
+@functools.cache
+def entered():
+    """A run whose mesh has taken in both bodies ahead."""
     ball = body("ball", "Al5083", "sphere", centre="22.5 mm", radius="1.7 mm")
     disc = plate("2.77 mm", name="disc", material="Al7039", z_front="24.4 mm", radius="3.1 mm")
     text = FLIGHT[: FLIGHT.index("[[body]]\nname = \"plate\"")] + ball + disc + FLIGHT[FLIGHT.index("[stop]") :]
     simulation = Simulation(decks.loads(text))
     while simulation.grid.z_edges[-1] < 27.5e-3:
         simulation.step()
+    return simulation
+
+
+def test_entering_bodies_are_those_placed_by_the_deck():
+    """Every body ahead has come in to the last digit of its volume, at the place where it was put."""
+    simulation = entered()
     expected = {"ball": 4 / 3 * np.pi * 1.7e-3**3, "disc": np.pi * 3.1e-3**2 * 2.77e-3}
     z, volume = simulation.grid.zc[2:-2], simulation.grid.volume[simulation.grid.inside]
     for name, centre in (("ball", 22.5e-3), ("disc", 24.4e-3 + 2.77e-3 / 2)):
-        m = simulation.table.names.index(name)
-        share = simulation.grid.interior(simulation.state.vof)[m] * volume
+        share = simulation.grid.interior(simulation.state.vof)[simulation.table.names.index(name)] * volume
         assert 2 * np.pi * share.sum() == pytest.approx(expected[name], rel=1e-9)
         assert np.sum(share * z[:, None]) / share.sum() == pytest.approx(centre, abs=5e-5)  # a tenth of a cell
-        there = share > 0
-        assert np.abs(simulation.grid.interior(simulation.state.pm)[m][there]).max() < 10.0  # Pa
     closes(simulation)
+
+
+@pytest.mark.xfail(strict=False, reason="11.6 Pa of noise in the ball since layers are held; 10 are wanted")
+def test_entering_bodies_have_no_pressure():
+    simulation = entered()
+    for name in ("ball", "disc"):
+        m, inside = simulation.table.names.index(name), simulation.grid.interior
+        assert np.abs(inside(simulation.state.pm)[m][inside(simulation.state.vof)[m] > 0]).max() < 10.0  # Pa
 
 
 @functools.cache
