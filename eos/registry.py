@@ -10,7 +10,7 @@ from types import ModuleType
 from hydro2d.jit import modules
 
 MODULES = modules("eos", "mie_grueneisen", "ideal_gas", "stiffened_gas", "p_alpha", "tillotson", "johnson_holmquist", "jwl",
-                  "tabular")
+                  "tabular", "noble_abel_stiffened_gas")
 #: models that no deck names: a material gets them with a model of another kind
 BESIDE = modules("eos", "cracked")
 MODELS = {module.NAME: module for module in MODULES}

@@ -17,7 +17,10 @@ from hydro2d.materials.material import Material
 
 @dataclass(frozen=True)
 class Curve:
-    """A material at one rate (1/s): its flow stress (Pa) and temperature (K) at plastic strains."""
+    """A material at one rate (1/s): its flow stress (Pa) and temperature (K) at plastic strains.
+
+    start : temperature at zero strain, K; None: that of the material at rest
+    """
 
     material: Material
     rate: float
@@ -25,16 +28,18 @@ class Curve:
     strains: tuple[float, ...]
     stress: np.ndarray
     temperature: np.ndarray
+    start: float | None = None
 
     @classmethod
-    def of(cls, material: Material, rate: float, strains: Sequence[float], isothermal: bool = False) -> Curve:
+    def of(cls, material: Material, rate: float, strains: Sequence[float], isothermal: bool = False,
+           start: float | None = None) -> Curve:
         """Raises DeckError for a material without strength, or without the data for its heating."""
-        stress, temperature = curves.flow_stress(material, rate, strains, isothermal=isothermal)
-        return cls(material, rate, isothermal, tuple(strains), stress, temperature)
+        stress, temperature = curves.flow_stress(material, rate, strains, isothermal=isothermal, temperature=start)
+        return cls(material, rate, isothermal, tuple(strains), stress, temperature, start)
 
     def at(self, strains: Sequence[float]) -> Curve:
         """This curve at other strains."""
-        return Curve.of(self.material, self.rate, strains, self.isothermal)
+        return Curve.of(self.material, self.rate, strains, self.isothermal, self.start)
 
     @property
     def name(self) -> str:
@@ -47,6 +52,8 @@ def lines(all_curves: Sequence[Curve]) -> list[str]:
     rows += [(each.name, f"{each.rate:g}", *(f"{stress / 1e6:.0f}" for stress in each.stress)) for each in all_curves]
     widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
     how = "at a constant temperature" if all_curves[0].isothermal else "heated by its plastic work"
+    start = all_curves[0].start
+    how += "" if start is None else f", from {start:g} K on"
     heading = f"flow stress [MPa] at zero pressure against plastic strain, {how}"
     table = ("  ".join(cell.ljust(w) if n == 0 else cell.rjust(w) for n, (cell, w) in enumerate(zip(row, widths, strict=True)))
              for row in rows)

@@ -39,7 +39,10 @@ def _printed(material: library.Material, part: str, name: str) -> str:
 
 
 def _equation_of_state(material: library.Material) -> dict[str, Given]:
+    """Density, sound speed and, where it is a straight line, the slope of the Hugoniot."""
     numbers = material.eos.numbers
+    if (curvature := numbers.get("hugoniot_slope_2")) is not None and curvature.value != 0.0:
+        numbers = {name: number for name, number in numbers.items() if name != "hugoniot_slope"}
     names = {"density": "reference_density", "sound_speed": "sound_speed", "hugoniot_slope": "hugoniot_slope"}
     return {
         key: Given(numbers[name].value, _printed(material, "eos", name)) for key, name in names.items() if name in numbers

@@ -19,6 +19,7 @@ def curve(
     *,
     rate: Annotated[list[str] | None, Parameter(negative="", allow_leading_hyphen=True)] = None,
     strain: Annotated[list[float] | None, Parameter(negative="")] = None,
+    temperature: str | None = None,
     isothermal: bool = False,
     csv: Path | None = None,
     figure: Path | None = None,
@@ -35,6 +36,8 @@ def curve(
         Plastic strain rate, such as "1e4 /s"; can be repeated; default: 1e3, 1e4 and 1e5 /s.
     strain
         Plastic strain of a row of the table; can be repeated; default: eight strains from 0 to 1.5.
+    temperature
+        Initial temperature, such as "600 K"; default: that of the material at rest.
     isothermal
         Keeps the material at its initial temperature.
     csv
@@ -48,9 +51,12 @@ def curve(
     strains = sorted(strain or STRAINS)
     if min(rates) < 0.0 or strains[0] < 0.0:
         raise UsageError("--rate and --strain must not be negative")
+    start = None if temperature is None else quantity(temperature, "K", "--temperature")
+    if start is not None and start <= 0.0:
+        raise UsageError(f"--temperature must be above 0 K, is {start:g} K")
     from hydro2d.analytic import flow_curves
 
-    curves = [flow_curves.Curve.of(material, each, strains, isothermal) for material in map(library.load, materials)
+    curves = [flow_curves.Curve.of(material, each, strains, isothermal, start) for material in map(library.load, materials)
               for each in rates]
     for line in flow_curves.lines(curves):
         say(line)

@@ -83,7 +83,10 @@ def _table(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def page(name: str) -> str:
-    """The pages of everything with this name or common name. Raises DeckError with the nearest names if there is nothing."""
+    """The pages of everything with this name or common name; if there is nothing, of the one name that differs in capitals.
+
+    Raises DeckError with the nearest names if there is none either.
+    """
     from hydro2d.analytic import model_text
     from hydro2d.base.parameters import described
     from hydro2d.materials import library, outside
@@ -110,6 +113,9 @@ def page(name: str) -> str:
         models = {model for kind in outside.KINDS.values() for model in kind.models}
         known = {*others, *library.names(), *models, *catalogue.MODELS, *quantities.BY_KEY, *keys,
                  *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
+        alike = [each for each in known if each != name and each.lower() == name.lower()]
+        if len(alike) == 1:
+            return page(alike[0])
         raise DeckError(_unknown(name, {*known, *words.WORDS, *words.ALSO}))
     return "\n\n".join(text.rstrip() for text in pages)
 

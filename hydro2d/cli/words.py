@@ -25,7 +25,7 @@ class Word:
 WORDS = {
     "anvil": Word(
         "A rigid wall that only pushes: a body that touches it may leave it again. It is a kind of edge of the mesh, as in "
-        '[boundaries] z_min = "anvil"; an edge "wall" also holds a body that touches it.',
+        '[boundaries] z_min = "anvil". A body cannot leave an edge "wall", but slides along it; "held" clamps it.',
         ("boundaries.z_min", "boundaries"), ("how-to/write-a-deck.md#choose-the-edges",), "hydro2d new taylor"),
     "ballistic limit": Word(
         'The velocity at which half of the shots perforate. A search with of = "perforation" in its [transition] finds it.',
@@ -36,8 +36,12 @@ WORDS = {
         ("sliding.method", "sliding.boundary_layer", "sliding.slip_layer"), ("explanation/sliding.md#the-slip-layer",)),
     "cavitation": Word(
         'Void that opens where tension exceeds the fracture_pressure of a material, with failure.tensile = "material". Water '
-        "of the library cavitates by its equation of state. The models of an expanding cavity are unrelated.",
-        ("failure.tensile", "fracture_pressure", "water_tillotson", "cavity"), ("explanation/fracture.md",)),
+        "of the library has a fracture_pressure of 8.7 MPa. The models of an expanding cavity are unrelated.",
+        ("failure.tensile", "fracture_pressure", "water", "water_tillotson", "cavity"), ("explanation/fracture.md",)),
+    "clamp": Word(
+        'An edge of the mesh that holds the rim of a plate: [boundaries] r_max = "held". A "wall" is smooth and lets the plate '
+        "slide.",
+        ("boundaries.r_max", "boundaries"), ("how-to/write-a-deck.md#choose-the-edges",)),
     "cfl": Word(
         "numerics.courant is the ratio of the time step to the time in which a wave crosses a cell.",
         ("numerics.courant", "numerics.shock_courant", "numerics.advective_courant")),
@@ -53,6 +57,10 @@ WORDS = {
     "detonator": Word(
         "A [[source]] of kind = \"detonation\" whose points light an explosive, each [r, z, time].",
         ("source", "jwl", "TNT"), ("explanation/explosives.md",), "hydro2d new cylinder-test"),
+    "ejecta": Word(
+        "Material that flies off a hit surface. Behind a plate it is debris, targets.NAME.debris in summary.json; no number is "
+        "kept of what flies back from the front face, which the fields and pictures show.",
+        ("penetration.targets", "debris"), ("how-to/results.md#debris-behind-a-plate",)),
     "erosion": Word(
         "No cell is ever deleted: material flows through the mesh, and a rod becomes shorter as its head is consumed. "
         '`regime` in summary.json says whether it was eroding; a search with of = "erosion" finds the velocity of the change.',
@@ -64,6 +72,14 @@ WORDS = {
     "gravity": Word(
         'There is no gravity by default. A [[source]] of kind = "acceleration" with axial = "-9.81 m/s^2" gives it to a body.',
         ("source",), ("how-to/write-a-deck.md",)),
+    "hole": Word(
+        "What a projectile leaves in a target: targets.NAME in summary.json has the diameters of its hole or crater at the "
+        "entrance and the exit, the mean one, its depth and its volume.",
+        ("penetration.targets",), ("how-to/perforate-a-plate.md#results",)),
+    "plexiglas": Word("PMMA in the library, with its Hugoniot and no strength.", ("PMMA",)),
+    "polycarbonate": Word(
+        "Lexan in the library, with its Hugoniot and no strength; polycarbonate_tillotson vaporises as well.",
+        ("Lexan", "polycarbonate_tillotson")),
     "principal": Word(
         "fracture_stress is the largest principal stress that a material bears; beyond it the material fails for good.",
         ("fracture_stress", "failure.tensile"), ("explanation/fracture.md#the-largest-principal-stress",)),
@@ -93,17 +109,26 @@ WORDS = {
     "us-up": Word(
         "Us = c0 + s up, the straight line between shock and particle velocity, is the equation of state mie-grueneisen: c0 is "
         "sound_speed, s is hugoniot_slope.",
-        ("mie-grueneisen", "sound_speed", "hugoniot_slope"), ("explanation/equation-of-state.md",)),
+        ("mie-grueneisen", "sound_speed", "hugoniot_slope", "hugoniot_slope_2"), ("explanation/equation-of-state.md",)),
+    "titanium": Word("The library has the alloy Ti-6Al-4V.", ("Ti_6Al_4V",)),
+    "tungsten carbide": Word("WC in the library.", ("WC",)),
+    "visar": Word(
+        "An interferometer of velocities. The velocity of a free surface is that of a [[gauge]] with `surface`, and behind a "
+        "window (LiF, sapphire, PMMA) that of a [[tracer]] at the interface; its refractive index is not corrected for.",
+        ("gauge.surface", "tracer", "LiF", "sapphire", "PMMA"), ("how-to/free-surface-velocity.md",)),
 }  # fmt: skip
 
 #: other forms of these words
 ALSO = {
+    "clamped": "clamp", "held": "clamp", "no slip": "clamp", "fixed": "clamp",
     "bounce": "restitution", "rebound velocity": "restitution", "coefficient of restitution": "restitution",
     "v50": "ballistic limit", "slip line": "blint", "eroding": "erosion", "eroded": "erosion", "fragment": "debris",
     "fragments": "debris", "igniter": "detonator", "primer": "detonator", "gaps": "gap", "standoff": "gap",
     "principal stress": "principal", "rigid body": "rigid", "rigid wall": "anvil", "segments": "segmented",
-    "segmented rod": "segmented", "spallation": "spall", "scabbing": "spall", "unit": "units", "hugoniot": "us-up",
-    "usup": "us-up", "shock velocity": "us-up", "time step": "cfl", "courant number": "cfl",
+    "crater": "hole", "ejection": "ejecta", "pdv": "visar", "interferometer": "visar", "free surface velocity": "visar",
+    "free-surface velocity": "visar", "perspex": "plexiglas", "lucite": "plexiglas", "acrylic": "plexiglas",
+    "ti-6al-4v": "titanium", "segmented rod": "segmented", "spallation": "spall", "scabbing": "spall", "unit": "units",
+    "hugoniot": "us-up", "usup": "us-up", "shock velocity": "us-up", "time step": "cfl", "courant number": "cfl",
 }  # fmt: skip
 
 

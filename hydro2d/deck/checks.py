@@ -12,13 +12,15 @@ from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import MeshError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.materials.material import Material
-from hydro2d.mesh.edges.base import EDGES, PUSH
-from hydro2d.mesh.edges.registry import BY_NAME, KINDS
+from hydro2d.mesh.edges.base import EDGES, PRESSURE, PUSH, Edge
+from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.sources.detonation import EXPLOSIVES
 
 #: rod radii that a mesh should reach ahead of the rod that it follows; at this distance its edge no longer affects the rod
 AHEAD = 20
+#: where a body counts as lying at an edge, in cells from it
+AT_EDGE = 1e-6
 #: a radius that stands for the axis, m
 BESIDE_AXIS = 1e-9
 
@@ -50,7 +52,10 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
             used.update(own)
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
-    yield from _bad_edges(deck)
+    if bad_edges := list(_bad_edges(deck)):
+        yield from bad_edges
+    else:
+        yield from _closing_edges(deck)
     yield from _bad_sources(deck)
     if deck.stop.time is None and deck.stop.cycles is None:
         yield ("stop",), "needs time or cycles"
@@ -149,16 +154,61 @@ def _bad_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
     table = deck.boundaries.model_dump()
     for edge in EDGES:
         kind = BY_NAME.get(table[edge])
-        needed = {f"{edge}_{key.name}" for key in kind.keys} if kind else set()
-        for key in sorted(needed):
-            if table[key] is None:
+        own = {f"{edge}_{key.name}": key for key in kind.keys} if kind else {}
+        for key, entry in sorted(own.items()):
+            if table[key] is None and entry.required:
                 yield ("boundaries", edge), f"{kind.in_words} needs {key}"
-        if needed and deck.sliding.method == "contact":
+        moves = kind is not None and kind.constrains() and any(table[key] or entry.required for key, entry in own.items())
+        if moves and deck.sliding.method == "contact":
             yield ("boundaries", edge), "a contact allows no edge with a velocity: each body group would need its own"
         for other in KINDS:
             for key in (f"{edge}_{each.name}" for each in other.keys if edge in other.edges):
-                if key not in needed and table[key] is not None:
+                if key not in own and table[key] is not None:
                     yield ("boundaries", key), f'has no meaning without {edge} = "{other.name}"'
+
+
+def mesh_edges(deck: Deck) -> dict[str, Edge]:
+    """The edges of the mesh of a deck with all of their keys, by their names."""
+    table = deck.boundaries.model_dump()
+    return {name: made(name, table) for name in EDGES if table[name] is not None}
+
+
+def _closing_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Held edges that move what lies between them and the opposite edge into that edge, or along an anvil."""
+    of = mesh_edges(deck)
+    for name, edge in of.items():
+        beside = [other for other, each in of.items() if other[0] != name[0] and each.traction() == PUSH]
+        if edge.slide() and beside:
+            yield ("boundaries", name), f"a held edge that moves along itself has no corner with an anvil, here {beside[0]}"
+    for low, high in (("r_min", "r_max"), ("z_min", "z_max")):
+        inward = {name: sign * (of[name].constrain(0.0) or 0.0) for name, sign in ((low, 1.0), (high, -1.0)) if name in of}
+        held = [name for name, speed in inward.items() if of[name].slide() is not None and speed > 0.0]
+        if held and len(inward) == 2 and of[low].constrains() and of[high].constrains():
+            closing = sum(inward.values())
+            if closing > 0.0:
+                yield ("boundaries", held[0]), (f"{low} and {high} move the bodies between them into each other, at "
+                                                f'{closing:g} m/s; an edge with a "velocity" may compress them')
+
+
+def share_filled(deck: Deck, edge: str) -> float:
+    """Share of the length of an edge at which bodies lie, at the start."""
+    axis, end = edge.split("_")
+    across, along = (axis_edges(deck, name) for name in (axis, "z" if axis == "r" else "r"))
+    line = across[:2] if end == "min" else across[:-3:-1]
+    inside = line[0] + AT_EDGE * (line[1] - line[0])
+    low, high, total = float(along[0]), float(along[-1]), 0.0
+    outlines, reached = [placed.outline for placed in layout(deck).bodies], low
+    for start, stop in sorted(chord for one in outlines for chord in one.chords("z" if axis == "r" else "r", inside)):
+        total += max(min(stop, high) - max(start, reached), 0.0)
+        reached = max(reached, min(stop, high))
+    return total / (high - low)
+
+
+def _idle_pressures(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Edges with a pressure at which no body lies."""
+    for name, edge in mesh_edges(deck).items():
+        if edge.traction() == PRESSURE and share_filled(deck, name) == 0.0:
+            yield ("boundaries", name), "no body lies at this edge, and its pressure does not act across void"
 
 
 def _bad_mesh(deck: Deck) -> Iterator[tuple[tuple, str]]:
@@ -240,7 +290,7 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         return
     for key in ("z_min", "z_max"):
         kind = getattr(deck.boundaries, key)
-        if BY_NAME[kind].constrains() or BY_NAME[kind].traction() == PUSH:
+        if BY_NAME[kind].constrains() or BY_NAME[kind].traction() in (PUSH, PRESSURE):
             yield ("boundaries", key), (f'a mesh that follows "{name}" must have open ends along z; {BY_NAME[kind].in_words} '
                                         "cannot travel with it")  # fmt: skip
     ahead, behind = room(deck, z)
@@ -290,6 +340,7 @@ def faces(deck: Deck, rod: str, target: str) -> tuple[float, float]:
 
 def unsupported(deck: Deck) -> Iterator[tuple[tuple, str]]:
     """Combinations that are impossible with the materials of the deck."""
+    yield from _idle_pressures(deck)
     if deck.sliding.method == "slip-layer":
         for number, name in enumerate(deck.sliding.hard):
             material = deck.materials[body(deck, name).material]

@@ -28,6 +28,8 @@ from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain
 from hydro2d.materials import from_files, library
+from hydro2d.mesh.edges.base import EDGES
+from hydro2d.mesh.edges.registry import BY_NAME
 
 if TYPE_CHECKING:
     from hydro2d.deck.shapes.registry import AnyBody
@@ -308,6 +310,10 @@ def _with_defaults(deck: Deck) -> Deck:
     if deck.boundaries.r_min is None:
         axis = deck.mesh.geometry == "cylindrical" and deck.mesh.r_start == 0
         data["boundaries"]["r_min"] = "axis" if axis else "wall"
+    for edge in EDGES:
+        for key in BY_NAME[data["boundaries"][edge]].keys:
+            if data["boundaries"][f"{edge}_{key.name}"] is None:
+                data["boundaries"][f"{edge}_{key.name}"] = key.default
     alone = [entry for entry in deck.body if entry.join is None]
     plates = [entry for entry in alone if entry.is_target]
     rod = max(alone, key=lambda entry: entry.projectile_rank, default=None)

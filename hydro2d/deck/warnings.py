@@ -7,14 +7,14 @@ from itertools import combinations
 
 import numpy as np
 
-from hydro2d.deck.checks import AHEAD, room
+from hydro2d.deck.checks import AHEAD, AT_EDGE, mesh_edges, room, share_filled
 from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import body, misfits
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes.outlines import shared_volume
 from hydro2d.deck.thin import thin_things
 from hydro2d.materials.material import FRACTURE, Material
-from hydro2d.mesh.edges.registry import BY_NAME
+from hydro2d.mesh.edges.base import DASHPOTS, PRESSURE, PUSH, Edge
 from hydro2d.sources.detonation import EXPLOSIVES
 
 #: a body whose density is below this share of the densest one's is a gas
@@ -27,7 +27,8 @@ CELLS_ACROSS_RADIUS = 5
 
 def warnings(deck: Deck) -> list[str]:
     """Allowed but unwise choices, one sentence each, as `hydro2d check` and the start of a run show it."""
-    return [*misfits(deck), *_coarse_rods(deck), *thin_things(deck), *_leaving(deck), *_jumps(deck), *_short_mesh(deck),
+    return [*misfits(deck), *_coarse_rods(deck), *thin_things(deck), *_leaving(deck), *_stuck(deck),
+            *_half_pressed(deck), *_jumps(deck), *_short_mesh(deck),
             *_overlaps(deck), *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
 
 
@@ -45,19 +46,51 @@ def _coarse_rods(deck: Deck) -> Iterator[str]:
 
 def _leaving(deck: Deck) -> Iterator[str]:
     """Bodies that fly out of the mesh before the end, with nothing in their way."""
-    edges = axis_edges(deck, "z")
+    lines, of = axis_edges(deck, "z"), mesh_edges(deck)
     for entry in deck.body:
         speed = entry.velocity[1]
         if speed == 0.0 or deck.mesh.follow is not None or deck.stop.time is None or entry.join is not None:
             continue
         low, high = extent(entry, deck, "z")
-        front, edge = (high, edges[-1]) if speed > 0.0 else (low, edges[0])
+        front, edge = (high, lines[-1]) if speed > 0.0 else (low, lines[0])
         others = [extent(other, deck, "z") for other in deck.body if other is not entry]
         ahead = any(end[1] > front if speed > 0.0 else end[0] < front for end in others)
-        kept = BY_NAME[deck.boundaries.z_max if speed > 0.0 else deck.boundaries.z_min]
-        flight = (edge - front) / speed
-        if not ahead and kept.flow() and 0.0 <= flight < deck.stop.time:
+        flight = (edge - front) / speed + 0.0  # never -0
+        there = of["z_max" if speed > 0.0 else "z_min"]
+        if not ahead and 0.0 <= flight < deck.stop.time and _lets_out(there, flight):
             yield f'body "{entry.name}": reaches the edge of the mesh after {flight * 1e6:.3g} us and leaves it before the end'
+
+
+def _lets_out(edge: Edge, flight: float) -> bool:
+    """Whether a body that reaches an edge after a flight, s, leaves through it: not one that an edge that transmits cuts."""
+    at_rest = edge.constrains() and edge.constrain(0.0) == 0.0
+    return bool(edge.flow()) and edge.traction() != PUSH and not at_rest and not (edge.traction() == DASHPOTS and flight == 0.0)
+
+
+def _stuck(deck: Deck) -> Iterator[str]:
+    """Bodies at a held edge that start with another velocity than it."""
+    for name, edge in mesh_edges(deck).items():
+        slide = edge.slide()
+        if slide is None:
+            continue
+        across = edge.constrain(0.0) or 0.0
+        given = (across, slide) if name.startswith("r") else (slide, across)
+        at = axis_edges(deck, name[0])[-1 if name.endswith("max") else 0]
+        for entry in deck.body:
+            low, high = extent(entry, deck, name[0])
+            near = AT_EDGE * abs(at) if at else AT_EDGE * (high - low)
+            if entry.velocity != given and low <= at + near and high >= at - near:
+                start, held = (f"[{u:g}, {v:g}] m/s" for u, v in (entry.velocity, given))
+                yield (f'boundaries.{name} = "held": "{entry.name}" starts at {start}, and the edge at which it lies holds it '
+                       f"at {held}: one part of it is pushed into the other")
+
+
+def _half_pressed(deck: Deck) -> Iterator[str]:
+    """Edges with a pressure at which there is void beside the bodies."""
+    for name, edge in mesh_edges(deck).items():
+        if edge.traction() == PRESSURE and (share := share_filled(deck, name)) < 1.0 - AT_EDGE:
+            yield (f'boundaries.{name} = "pressure": void lies at {1.0 - share:.0%} of it; the pressure acts on the bodies '
+                   "alone and drives them into the void beside them")
 
 
 def _overlaps(deck: Deck) -> Iterator[str]:

@@ -1,15 +1,17 @@
-"""Ghost cells and vertices, mirrored at the axis and at walls and copied at open edges; tractions of transmitting edges.
+"""Ghost cells and vertices, mirrored at the axis and at walls and copied at open edges; tractions and constraints of edges.
 
 Material leaves freely through an open edge; beyond it is void without stress. Only void comes in, or, where the mesh travels,
-the material that the deck has placed there (hydro2d/following). A transmitting edge lets in the material next to it.
+the material that the deck has placed there (hydro2d/following). An edge with a traction, which transmits waves or has a
+pressure, lets in the material next to it.
 """
 
 
 from hydro2d.jit import cell_rows, kernel, not_inlined, point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows
-from hydro2d.mesh.fields import PARITY
+from hydro2d.mesh.fields import CUT, FAR_P, FAR_U, FAR_V, PARITY
 from hydro2d.mesh.grid import GHOSTS
 from hydro2d.physics.corner import corner
+from hydro2d.physics.edges import edge_normal_velocity, is_constrained
 from hydro2d.physics.waves import impedances
 
 
@@ -108,56 +110,92 @@ def ghost_vertices_z(part, w):
 
 
 @point
-def dashpots(along_r, j, i, w):
-    """Dashpots of a vertex on an edge along the normal and along the edge, N s/m: the impedances of the cells around it."""
-    normal, shear = 0.0, 0.0
+def far_field(edge, j, i, w):
+    """(drag_r, drag_z, push_r, push_z) on a vertex from beyond an edge with a traction, N s/m and N per radian.
+
+    The traction on a body that the edge cuts is -p_0 n - rho c (v - v_0), with the impedance c of the wave and the pressure and
+    the velocity of the body at the start; on every body, besides, that of the edge. drag : the impedances;  push : all that
+    does not depend on the velocity of the vertex.
+    """
+    along_r, inward = edge < 2, 1.0 if edge % 2 == 0 else -1.0
+    drag_r, drag_z, push_r, push_z = 0.0, 0.0, 0.0, 0.0
     for row in range(j - 1, j + 1):
         for column in range(i - 1, i + 1):
+            if w.rhobar[row, column] == 0.0:  # void, or beyond the mesh
+                continue
+            filled, cut, u_far, v_far, p_far = 0.0, 0.0, 0.0, 0.0, 0.0
+            for m in range(w.vof.shape[0]):
+                far = w.far[:, edge, m, row if along_r else column]
+                filled += w.vof[m, row, column]
+                part = w.vof[m, row, column] * far[CUT]
+                cut += part
+                u_far += part * far[FAR_U]
+                v_far += part * far[FAR_V]
+                p_far += part * far[FAR_P]
             across, hoop, c_z, _ = corner(column, column < i, row < j, w.metrics, w.dz[row])
             area = abs(across + hoop) if along_r else abs(c_z)
-            z_l, z_s = impedances(row, column, w.rhobar, w.cl, w.bulk)
-            normal += area * z_l
-            shear += area * z_s
-    return normal, shear
+            push = inward * area * (p_far + filled * w.edge_pressure[edge])
+            push_r += push if along_r else 0.0
+            push_z += 0.0 if along_r else push
+            if cut > 0.0:
+                z_l, z_s = impedances(row, column, w.rhobar, w.cl, w.bulk)
+                radial = area * (cut / filled) * (z_l if along_r else z_s)
+                axial = area * (cut / filled) * (z_s if along_r else z_l)
+                drag_r += radial
+                drag_z += axial
+                push_r += radial * (u_far / cut)
+                push_z += axial * (v_far / cut)
+    return drag_r, drag_z, push_r, push_z
 
 
 @not_inlined
-def transmit(edge, w):
-    """Tractions -rho c_l v_n and -rho c_s v_t on the vertices of an edge, as if the material continued without end.
+def load_edge(edge, w):
+    """Tractions of `far_field` on the vertices of an edge: a body that it cuts feels what its continuation would do.
 
-    J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely.
-    The dashpots use the velocity at the end of the step. Vertices that two groups share are left to the contact. At a corner
-    of two transmitting edges, the edge along z has the dashpots of both and the other one leaves the corner out. A velocity
-    that a wall or the axis prescribes has no dashpot. Momentum and energy taken from the vertices leave the mesh.
+    J. Lysmer & R. L. Kuhlemeyer, J. Engng Mech. Div. ASCE 95 (1969) 859: exact for plane waves that meet the edge squarely,
+    here waves on the state and the motion with which the body starts. The dashpots use the velocity at the end of the step.
+    Vertices that two groups share have no dashpots, which are left to the contact; both groups there gain the same velocity. At
+    a corner of two such edges, the edge along z has the tractions of both and the other one leaves the corner out. A velocity
+    that a wall, the axis or a held edge prescribes has none. Momentum and energy taken from the vertices leave the mesh.
 
-    Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; rhobar, cl, bulk [j, i]; mass [b, j, i]
+    Reads    loaded [4], constrained [8], columns and rows, -1 for none; far [4, edge, m, j or i]; edge_pressure [4];
+             vof [m, j, i]; rhobar, cl, bulk [j, i]; mass [b, j, i]
     Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i], the impulses taken, where there are any
     """
-    at, along_r = w.transmitting[edge], edge < 2
-    crossing = w.transmitting[2:4] if along_r else w.transmitting[0:2]
+    at, along_r = w.loaded[edge], edge < 2
+    crossing = w.loaded[2:4] if along_r else w.loaded[0:2]
     drag = w.drag[edge]
     j0, j1 = outer_rows(w.parts)
     first, last = (j0, j1 + 1) if along_r else (w.i0, w.i1 + 1)
     groups = w.mass.shape[0]
     for place in range(first, last):
         j, i = (place, at) if along_r else (at, place)
-        corner = place == crossing[0] or place == crossing[1]
-        if corner and not along_r:
+        if not along_r and (place == crossing[0] or place == crossing[1]):
             continue
-        normal, shear = dashpots(along_r, j, i, w)
-        radial_drag, axial_drag = (normal, shear) if along_r else (shear, normal)
-        if corner:
-            normal, shear = dashpots(False, j, i, w)
-            radial_drag += shear
-            axial_drag += normal
-        radial_drag = 0.0 if i == w.constrained[0] or i == w.constrained[1] else radial_drag
-        axial_drag = 0.0 if j == w.constrained[2] or j == w.constrained[3] else axial_drag
+        drag_r, drag_z, push_r, push_z = far_field(edge, j, i, w)
+        for other in range(2, 4):
+            if along_r and place == w.loaded[other]:
+                more_drag_r, more_drag_z, more_push_r, more_push_z = far_field(other, j, i, w)
+                drag_r += more_drag_r
+                drag_z += more_drag_z
+                push_r += more_push_r
+                push_z += more_push_z
+        constrained_r, constrained_z = is_constrained(j, i, w.constrained)
+        if constrained_r:
+            drag_r, push_r = 0.0, 0.0
+        if constrained_z:
+            drag_z, push_z = 0.0, 0.0
         for b in range(groups):
             m = w.mass[b, j, i]
-            if m == 0.0 or (groups == 2 and w.mass[1 - b, j, i] > 0.0):
+            if m == 0.0:
                 continue
-            radial = w.u[b, j, i] * (m / (m + w.dt * radial_drag))
-            axial = w.v[b, j, i] * (m / (m + w.dt * axial_drag))
+            if groups == 2 and w.mass[1 - b, j, i] > 0.0:
+                both = w.mass[0, j, i] + w.mass[1, j, i]
+                radial = w.u[b, j, i] + w.dt * push_r / both
+                axial = w.v[b, j, i] + w.dt * push_z / both
+            else:
+                radial = w.u[b, j, i] * (m / (m + w.dt * drag_r)) + w.dt * push_r / (m + w.dt * drag_r)
+                axial = w.v[b, j, i] * (m / (m + w.dt * drag_z)) + w.dt * push_z / (m + w.dt * drag_z)
             drag[b, 0, place] = m * (w.u[b, j, i] - radial)
             drag[b, 1, place] = m * (w.v[b, j, i] - axial)
             w.u[b, j, i] = radial
@@ -165,15 +203,15 @@ def transmit(edge, w):
 
 
 @serial
-def transmit_edges(w):
-    """Tractions of every transmitting edge that the active box has reached (`transmit`).
+def load_edges(w):
+    """Tractions of every edge with dashpots or a pressure that the active box has reached (`load_edge`).
 
-    Reads    transmitting, constrained [4], columns (2) and rows (2), -1 for none; the rest as `transmit`
+    Reads    loaded [4], columns (2) and rows (2), -1 for none; the rest as `load_edge`
     Updates  u, v [b, j, i];  writes drag [edge, b, c, j or i]
     """
     j0, j1 = outer_rows(w.parts)
     for edge in range(4):
-        at, along_r = w.transmitting[edge], edge < 2
+        at, along_r = w.loaded[edge], edge < 2
         if at < 0:
             continue
         for b in range(w.mass.shape[0]):
@@ -181,20 +219,20 @@ def transmit_edges(w):
                 w.drag[edge, b, 0, place] = 0.0
                 w.drag[edge, b, 1, place] = 0.0
         if (at == w.i0 or at == w.i1) if along_r else (at == j0 or at == j1):
-            transmit(edge, w)
+            load_edge(edge, w)
 
 
 @serial
 def sum_drag(w):
-    """Momentum and energy that transmitting edges have taken, from the velocities at the end of the step.
+    """Momentum and energy that edges with a traction have taken, from the velocities at the end of the step.
 
-    Reads    transmitting [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
-    Writes   transmitted [2], axial momentum and energy
+    Reads    loaded [4]; drag [edge, b, c, j or i], impulses; u0, v0, u, v [b, j, i]
+    Writes   taken [edge, 2], axial momentum and energy
     """
     j0, j1 = outer_rows(w.parts)
-    w.transmitted[0], w.transmitted[1] = 0.0, 0.0
     for edge in range(4):
-        at = w.transmitting[edge]
+        w.taken[edge, 0], w.taken[edge, 1] = 0.0, 0.0
+        at = w.loaded[edge]
         if at < 0:
             continue
         first, last = (j0, j1 + 1) if edge < 2 else (w.i0, w.i1 + 1)
@@ -202,8 +240,8 @@ def sum_drag(w):
             j, i = (place, at) if edge < 2 else (at, place)
             for b in range(w.u.shape[0]):
                 radial, axial = w.drag[edge, b, 0, place], w.drag[edge, b, 1, place]
-                w.transmitted[0] += axial
-                w.transmitted[1] += 0.5 * (radial * (w.u0[b, j, i] + w.u[b, j, i]) + axial * (w.v0[b, j, i] + w.v[b, j, i]))
+                w.taken[edge, 0] += axial
+                w.taken[edge, 1] += 0.5 * (radial * (w.u0[b, j, i] + w.u[b, j, i]) + axial * (w.v0[b, j, i] + w.v[b, j, i]))
 
 
 @point
@@ -213,29 +251,26 @@ def own_rows(part, parts, rows):
 
 
 @point
-def edge_normal_velocity(edge, only_pushes, given, free):
-    """Normal velocity of a vertex at an edge: the prescribed one, or its own if it leaves an edge that only pushes."""
-    return free if only_pushes and (free > 0.0 if edge % 2 == 0 else free < 0.0) else given
-
-
-@point
-def velocity_at_edges(at, low, free, w):
-    """Normal velocity that the edges allow a vertex in column (low = 0) or row (low = 2) `at`: its own away from edges."""
-    for edge in range(low, low + 2):
-        if at == w.constrained[edge]:
+def velocity_at_edges(j, i, c, free, w):
+    """Component c (0 radial, 1 axial) of the velocity that the edges allow vertex (j, i): its own away from edges, m/s."""
+    for edge in range(2 * c, 2 * c + 2):  # those across this component, then those that hold it along them
+        if (j if c else i) == w.constrained[edge]:
             return w.edge_velocity[edge]
-        if at == w.pushing[edge]:
+        if (j if c else i) == w.pushing[edge]:
             return edge_normal_velocity(edge, True, w.edge_velocity[edge], free)
+    for edge in range(6 - 2 * c, 8 - 2 * c):
+        if (i if c else j) == w.constrained[edge]:
+            return w.edge_velocity[edge]
     return free
 
 
 @kernel
 def constrain(part, w):
-    """Prescribed normal velocity of constrained vertices: axis, walls, edges with a velocity, anvils that nothing is leaving.
+    """Prescribed velocity of constrained vertices: axis, walls, held edges, edges with a velocity, anvils that nothing leaves.
 
-    The axis and walls along z take no axial momentum and do no work.
+    The axis and walls along z take no axial momentum and do no work. A velocity across an edge goes before one along another.
 
-    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4], m/s; mass, u0, v0 [b, j, i]
+    Reads    constrained [8], pushing [4], columns and rows, -1 for none; edge_velocity [8], m/s; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]
     Writes   walls [4, 2, j]: axial momentum and energy that each edge takes in a row
     """
@@ -252,6 +287,12 @@ def constrain(part, w):
                 impulse = w.mass[b, j, at] * (w.u[b, j, at] - given)
                 w.walls[edge, 1, j] += 0.5 * impulse * (w.u0[b, j, at] + given)
                 w.u[b, j, at] = given
+                if w.constrained[4 + edge] == at and j != w.constrained[2] and j != w.constrained[3]:
+                    given = w.edge_velocity[4 + edge]
+                    impulse = w.mass[b, j, at] * (w.v[b, j, at] - given)
+                    w.walls[edge, 0, j] += impulse
+                    w.walls[edge, 1, j] += 0.5 * impulse * (w.v0[b, j, at] + given)
+                    w.v[b, j, at] = given
             for edge in range(2, 4):
                 if max(w.constrained[edge], w.pushing[edge]) != j:
                     continue
@@ -261,6 +302,11 @@ def constrain(part, w):
                     w.walls[edge, 0, j] += impulse
                     w.walls[edge, 1, j] += 0.5 * impulse * (w.v0[b, j, i] + given)
                     w.v[b, j, i] = given
+                    if w.constrained[4 + edge] == j and i != w.constrained[0] and i != w.constrained[1]:
+                        given = w.edge_velocity[4 + edge]
+                        impulse = w.mass[b, j, i] * (w.u[b, j, i] - given)
+                        w.walls[edge, 1, j] += 0.5 * impulse * (w.u0[b, j, i] + given)
+                        w.u[b, j, i] = given
 
 
 @kernel

@@ -94,7 +94,7 @@ accelerate = Phase(
     WAIT,
     unless("contact", alone(outer_vertices.hold_vertices)),
     when("contact", alone(contact_velocities.resolve_contact)),
-    alone(boundaries.transmit_edges),
+    alone(boundaries.load_edges),
     WAIT,
     vertex_forces.limit_speed,
     boundaries.constrain,

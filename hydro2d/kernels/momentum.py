@@ -1,11 +1,11 @@
 """The remap of momentum on dual cells, and of kinetic energy by the three advection choices."""
 
 from hydro2d.jit import cell_rows, kernel, not_inlined, plus, point, rowwise
-from hydro2d.kernels.boundaries import edge_normal_velocity
 from hydro2d.kernels.column_ranges import copy_beside, past_row
 from hydro2d.mesh.fields import E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, GHOSTS
 from hydro2d.physics.advection import TINY
+from hydro2d.physics.edges import edge_normal_velocity
 from hydro2d.physics.momentum import (
     carried,
     corner_mean,
@@ -106,7 +106,8 @@ def vertex_row(g, j, below, above, w):
     both       u = P/M, and the deficit K - M u^2/2 is left in `deficit` for `deposit` to give to the cells
     P/M is kept within the velocities of the three vertices that it comes from. This removes round-off, and makes up for the
     half of a cell that a vertex at an open edge lacks when the whole cell leaves. The normal velocity on the axis, on walls and
-    on edges with a velocity is prescribed: constrained has their columns (2) and rows (2), -1 for none, edge_velocity gives it.
+    on edges with a velocity is prescribed, and on held edges that along them: constrained has the columns (2) and rows (2) of
+    both, -1 for none, edge_velocity gives it. One across an edge goes before one along another.
     On edges that only push, likewise in `pushing`, it stays 0 where it is 0, and is 0 where it would go beyond.
 
     Reads    cell_mass [b, j, i] after the sweep, dual [k, slot, i] in the slots `below` and `above`;
@@ -144,19 +145,21 @@ def vertex_row(g, j, below, above, w):
             a_high = w.velocity0[c, g, j + dj, lo + di:hi + di]
             out = w.velocity[c, g, j, lo:hi]
             k_before, k_after, k_cut, p_gained, p_wall = 0.0, 0.0, 0.0, 0.0, 0.0
-            wall_row = c == 1 and (j == w.constrained[2] or j == w.constrained[3])
-            low_edge = c == 0 or j == w.constrained[2]
-            given = w.edge_velocity[2 * c] if low_edge else w.edge_velocity[3]
-            given_outside = w.edge_velocity[1]
-            axis, outside = (w.constrained[0], w.constrained[1]) if c == 0 else (-1, -1)
+            wall_row = j == w.constrained[6 - 4 * c] or j == w.constrained[7 - 4 * c]
+            of_row = w.edge_velocity[6 - 4 * c] if j == w.constrained[6 - 4 * c] else w.edge_velocity[7 - 4 * c]
+            axis, outside = w.constrained[4 * c], w.constrained[4 * c + 1]
+            given, given_outside = w.edge_velocity[4 * c], w.edge_velocity[4 * c + 1]
+            row_first = wall_row and c == 1
             # Step 2: momentum and kinetic energy of this component, and the velocity by the kind of advection (7 to 9)
             for x in range(n):
                 a = a_j[x]
                 old = m_j[x]
                 new = new_j[x]
                 resting = f_in[x] == 0.0 and f_out[x] == 0.0  # without flow not a bit may change
-                wall = wall_row or lo + x == axis or lo + x == outside
+                of_column = lo + x == axis or lo + x == outside
+                wall = wall_row or of_column
                 fixed = given_outside if lo + x == outside else given
+                fixed = of_row if row_first or (wall_row and not of_column) else fixed
                 over = 1.0 / max(new, TINY)
                 momentum = old * a + (p_in[x] - p_out[x])
                 mean = velocity_of_momentum(momentum, over, a, a_low[x], a_high[x])

@@ -46,10 +46,12 @@ MESH = (
     Work("mirror_r_max", "", "whether the outer edge along r is a mirror", bool),
     Work("mirror_z_min", "", "whether the low edge along z is a mirror", bool),
     Work("mirror_z_max", "", "whether the high edge along z is a mirror", bool),
-    Work("constrained", "4", "columns (2) and rows (2) of edges with a prescribed normal velocity, -1 for none", int),
+    Work("constrained", "8", "columns (2) and rows (2) of edges with a prescribed normal velocity, then of those that also "
+         "prescribe the velocity along them, -1 for none", int),
     Work("pushing", "4", "columns and rows of edges that only push", int),
-    Work("transmitting", "4", "columns and rows of edges with dashpots", int),
-    Work("edge_velocity", "4", "normal velocity of each edge, m/s"),
+    Work("loaded", "4", "columns and rows of edges with a traction, that transmit waves or have a pressure", int),
+    Work("edge_velocity", "8", "normal velocity of each edge, then the velocity along it, m/s"),
+    Work("edge_pressure", "4", "pressure from beyond each edge, Pa"),
     Work("void_only", "4", "columns and rows of edges that only void enters through, -1 for the others", int),
     Work("pushed", "2 b J I", "velocity that forces of sources add in the step, m/s, or an empty array"),
 )

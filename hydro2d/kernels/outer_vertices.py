@@ -233,13 +233,13 @@ def let_go(j, x, w):
     Writes   sinking [2, j, i]; anchored [11, j, i] there and at the anchors
     """
     i = w.held_columns[j, x]
-    u, v = velocity_at_edges(i, 0, w.u[0, j, i], w), velocity_at_edges(j, 2, w.v[0, j, i], w)
+    u, v = velocity_at_edges(j, i, 0, w.u[0, j, i], w), velocity_at_edges(j, i, 1, w.v[0, j, i], w)
     start_anchor(j, i, w.u[0], w.v[0], w.anchored)
     for k in range(w.anchor_count[j, x]):
         row, column, weight = anchor(j, x, k, w.anchors)
         start_anchor(row, column, w.u[0], w.v[0], w.anchored)
-        u -= weight * velocity_at_edges(column, 0, w.u[0, row, column], w)
-        v -= weight * velocity_at_edges(row, 2, w.v[0, row, column], w)
+        u -= weight * velocity_at_edges(row, column, 0, w.u[0, row, column], w)
+        v -= weight * velocity_at_edges(row, column, 1, w.v[0, row, column], w)
     inward = -(w.hold[j, x, OUT_R] * u + w.hold[j, x, OUT_Z] * v)
     most, sound = pull_of_body(j, x, w)
     lost = lost_by_hold(inward, beyond_noise(own_sinking(j, x, w), sound), most)
@@ -315,7 +315,7 @@ def hold_vertices(w):
     """Velocities of held vertices, which do not sink into their body, and of their anchors; momentum is kept.
 
     Reads    held [j, i]; held_columns, anchor_count [j, x], hold [j, x, 3], anchors [j, x, 3, n]; mass, u0, v0 [b, j, i];
-             constrained, pushing, edge_velocity [4]
+             constrained [8], pushing [4], edge_velocity [8]
     Updates  u, v [b, j, i]
     Writes   anchored [11, j, i] at held vertices and their anchors; sinking [2, j, i] at held vertices
     """

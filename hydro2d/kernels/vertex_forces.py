@@ -147,7 +147,7 @@ def limit_speed(j, w):
     A node is under-filled if the density of its dual cell is below underfilled_density; contact nodes are left to the contact.
     The work of an impulse uses the mean of the velocities at the start and at the end of the step, which edges may prescribe.
 
-    Reads    constrained, pushing [4], columns (2) and rows (2), -1 for none; edge_velocity [4]; mass, u0, v0 [b, j, i]
+    Reads    constrained [8], pushing [4], columns and rows, -1 for none; edge_velocity [8]; mass, u0, v0 [b, j, i]
     Updates  u, v [b, j, i]
     Writes   limited [3, j]: momentum and energy removed, and how often
     """
@@ -174,8 +174,8 @@ def limit_speed(j, w):
             if not alone and other[i] > 0.0:
                 continue
             shrink = w.speed_limit / sqrt(square)
-            end_u = velocity_at_edges(i, 0, shrink * un[i], w)
-            end_v = velocity_at_edges(j, 2, shrink * vn[i], w)
+            end_u = velocity_at_edges(j, i, 0, shrink * un[i], w)
+            end_v = velocity_at_edges(j, i, 1, shrink * vn[i], w)
             lost_p += m * vn[i] * (1.0 - shrink)
             lost_e += 0.5 * m * (1.0 - shrink) * (un[i] * (u_c[i] + end_u) + vn[i] * (v_c[i] + end_v))
             count += 1.0

@@ -22,13 +22,14 @@ def at_rest(material: Material):
 
 
 def flow_stress(
-    material: Material, rate: float, strains: Sequence[float], *, isothermal: bool = False
+    material: Material, rate: float, strains: Sequence[float], *, isothermal: bool = False, temperature: float | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Flow stress (Pa) and temperature (K) at plastic strains, both float64[n], at zero pressure and the density at rest.
 
     rate : plastic strain rate, 1/s
     strains : plastic strains, not decreasing
     isothermal : at constant temperature; otherwise all plastic work heats, rho c dT = Y d(ep), as in the solver
+    temperature : at zero strain, K; None: that of the material at rest
 
     Raises DeckError for a material without strength, and for one without a specific heat unless isothermal.
     """
@@ -38,6 +39,7 @@ def flow_stress(
     if not (isothermal or heat):
         raise DeckError(f"{material.name} has no specific heat; its flow stress is known at only one temperature")
     model, row, (p, rho, T) = at_rest(material)
+    T = T if temperature is None else temperature
     warming = 0.0 if isothermal else 1.0 / (rho * heat.value)
 
     def law(ep: float, T: float) -> float:

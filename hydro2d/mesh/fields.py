@@ -110,6 +110,9 @@ INTERNAL = len(BODY)
 FAILURE_RECORD = Field("failure_record", "", "body", "1", 1, "mass", False,
                        "share of the body's mass that tension has broken, minus that which damage has", BY_DAMAGE, BY_TENSION)
 
+#: rows of `far`: radial and axial velocity, m/s, and pressure, Pa, of a body beyond an edge, and 1 if the edge cuts it, else 0
+FAR_U, FAR_V, FAR_P, CUT = range(4)
+
 #: columns of `remap_rules`: 1 for fields carried per mass, 0 per volume; the bounds; the sign in a mirror
 PER_MASS, LEAST, MOST, PARITY = range(4)
 
@@ -208,8 +211,9 @@ WORK = (
     Work("removed_sum", "4+m", "the same in all rows"),
     Work("walls", "4 2 J", "axial momentum and energy that each edge with a given velocity takes in a row"),
     Work("walls_sum", "4 2", "the same in all rows"),
-    Work("drag", "4 b 2 L", "impulses that the dashpots of each transmitting edge take, along r and along z"),
-    Work("transmitted", "2", "axial momentum and energy that the transmitting edges take"),
+    Work("far", "4 4 m L", "beyond each edge that transmits waves: velocities and pressure of every body, 1 if it is cut"),
+    Work("drag", "4 b 2 L", "impulses that each edge with a traction takes, along r and along z"),
+    Work("taken", "4 2", "axial momentum and energy that each edge with a traction takes"),
     Work("gate", "G", "barrier at which the threads of a phase wait for one another", int),
     Work("row_moving", "J 2", "columns of the moving vertices of a row", int),
     Work("moving", "4", "rows and columns of all moving vertices", int),

@@ -3,6 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import point
+from hydro2d.physics.edges import is_constrained
 from hydro2d.physics.traction import smoothstep
 
 #: velocity of a solid layer relative to its body, over the sound speed, from which the body does not hold it
@@ -102,7 +103,8 @@ def inward_step(j, i, n_r, n_z, dr, dz):
 @point
 def is_free(j, i, constrained):
     """Whether no edge prescribes (the radial, the axial) velocity of vertex (j, i)."""
-    return i != constrained[0] and i != constrained[1], j != constrained[2] and j != constrained[3]
+    constrained_r, constrained_z = is_constrained(j, i, constrained)
+    return not constrained_r, not constrained_z
 
 
 @point

@@ -13,7 +13,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.materials import library
 from hydro2d.mesh import quantities
 from hydro2d.mesh.edges.base import EDGES
-from hydro2d.mesh.edges.registry import BY_NAME, halved, made
+from hydro2d.mesh.edges.registry import halved, made
 from hydro2d.mesh.grid import Grid
 from hydro2d.output.vtk import Dump
 from hydro2d.physics.waves import STABLE
@@ -99,11 +99,13 @@ class Check:
         return START + self.seconds * (1.0 - shared + shared / threads)
 
     def _edge(self, key: str) -> str:
-        """The boundary condition at an edge, with its velocity, or the range of it, if it has its own."""
+        """The boundary condition at an edge, with its velocity or pressure, or the range of it, if it has its own."""
         kind = getattr(self.deck.boundaries, key)
-        speeds = made(key, self.deck.boundaries.model_dump()).speeds() if BY_NAME[kind].keys else ()
-        shown = " to ".join(f"{speed:g}" for speed in sorted({min(speeds), max(speeds)})) if speeds else ""
-        return f"{key} {kind}" + (f" {shown} m/s" if shown else "")
+        edge = made(key, self.deck.boundaries.model_dump())
+        values, unit = (edge.pressures(), "Pa") if edge.presses() else (edge.speeds() if edge.keys else (), "m/s")
+        shown = " to ".join(f"{value:g}" for value in sorted({min(values), max(values)})) if values else ""
+        along = f", {edge.slide():g} m/s along it" if edge.slide() else ""
+        return f"{key} {kind}" + (f" {shown} {unit}" if shown else "") + along
 
     def _tied(self) -> list[str]:
         """Lines on contacts that resist tension: walls, and bodies of one velocity field that start differently."""
@@ -121,7 +123,8 @@ class Check:
                 until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "always"
                 lines.append(f"{name} is tied to {_listed([names[m] for m in others])} where they touch, {until}{cure}")
         walls = [key for key in EDGES if getattr(deck.boundaries, key) == "wall" and key != "r_min"]
-        wall_line = f'a wall ({", ".join(walls)}) also resists tension: it holds a body that touches it; an "anvil" only pushes'
+        wall_line = (f'a wall ({", ".join(walls)}) also resists tension: it holds a body that touches it; an "anvil" only '
+                     'pushes. It is smooth: the body slides along it; a "held" edge clamps it')
         return lines + [wall_line] * bool(walls)
 
     def _follow(self) -> list[str]:

@@ -18,7 +18,10 @@ class Books:
     def __init__(self, cycle):
         self._cycle, self._state = cycle, cycle.state
         self._edges, self._opens = cycle.method.boundaries.edges, cycle.method.boundaries.having("opens")
-        rows = np.maximum(cycle.edges.constrained, cycle.edges.pushing)[2:].tolist()
+        rows = np.maximum(cycle.edges.constrained[:4], cycle.edges.pushing)[2:].tolist()
+        loaded = [cycle.state.taken] if (cycle.edges.loaded >= 0).any() else []
+        self._edge_sums = (*loaded, cycle.state.walls_sum)
+        self._held_columns = [edge.sink for n, edge in enumerate(self._edges[:2]) if cycle.edges.constrained[4 + n] >= 0]
         self._rows_that_hold = [(edge, j) for edge, j in zip(self._edges[2:], rows, strict=True) if j >= 0]
 
     @property
@@ -27,18 +30,16 @@ class Books:
         return self._cycle.audit
 
     def acceleration(self) -> None:
-        """Enters losses and gains by the speed limit, contact, dashpots, edges and sources."""
+        """Enters losses and gains by the speed limit, contact, tractions and velocities of edges, and sources."""
         s, cycle = self._state, self._cycle
         momentum, energy, number = s.limited_sum.tolist()
         if number:
             self.audit.add("speed_limit", momentum=momentum, energy=energy)
         cycle.contact.account(self.audit)
-        momentum, energy = s.transmitted.tolist()
-        if momentum != 0.0 or energy != 0.0:
-            self.audit.add("transmitted", momentum=momentum, energy=energy)
-        for edge, (momentum, energy) in zip(self._edges, s.walls_sum.tolist(), strict=True):
-            if momentum != 0.0 or energy != 0.0:
-                self.audit.add(edge.sink, momentum=momentum, energy=energy)
+        for sums in self._edge_sums:
+            for edge, (momentum, energy) in zip(self._edges, sums.tolist(), strict=True):
+                if momentum != 0.0 or energy != 0.0:
+                    self.audit.add(edge.sink, momentum=momentum, energy=energy)
         cycle.sources.account(self.audit)
 
     def open_edges(self, di: int) -> tuple[bool, bool]:
@@ -64,7 +65,7 @@ class Books:
     def momentum(self, di: int) -> None:
         """Enters amounts discarded by the advection of momentum and removed by the tidying."""
         s = self._state
-        before, after, p_gained, k_cut, _ = s.momentum_sum.tolist()
+        before, after, p_gained, k_cut, p_edges = s.momentum_sum.tolist()
         lost = before - after - self._kinetic_outflow(di) - float(s.deposited_sum[0])
         self.audit.add("advection", momentum=-p_gained, energy=lost - k_cut)
         if k_cut != 0.0:
@@ -72,6 +73,9 @@ class Books:
         for edge, j in self._rows_that_hold:
             if self._cycle.box[0] <= j <= self._cycle.box[1]:
                 self.audit.add(edge.sink, momentum=float(s.momentum_sums[4, j]))
+                p_edges -= float(s.momentum_sums[4, j])
+        if self._held_columns:  # two of them have one sink
+            self.audit.add(self._held_columns[0], momentum=p_edges)
         internal, kinetic, axial, _, *mass = s.removed_sum.tolist()
         if any(mass) or internal + kinetic != 0.0 or axial != 0.0:
             self.audit.add("cutoff", mass=np.array(mass), momentum=axial, energy=internal + kinetic)

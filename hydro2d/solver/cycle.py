@@ -147,7 +147,7 @@ class Cycle:
     def accelerate(self) -> None:
         """Total stress of every cell at half the step, and the velocities at its end."""
         self.state.swap_velocities()
-        self.method.boundaries.drive(self.time + self.dt)
+        self.method.boundaries.drive(self.time + self.dt, self.dt)
         self.sources.push(self.time, self.dt, self.edges.constrained_vertices)
         self.given.run(lagrangian_step.accelerate, dt=self.dt)
         self.books.acceleration()

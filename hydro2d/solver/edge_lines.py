@@ -15,9 +15,10 @@ class EdgeLines:
 
     Attributes
     ----------
-    constrained, pushing, transmitting : int64[4], columns (2) and rows (2) of the edges whose normal velocity is given, that
-        only push, and that have dashpots; -1 for the others
-    constrained_vertices : list of (sink, axis, vertices) of the edges that constrain their vertices
+    constrained : int64[8], columns (2) and rows (2) of the edges whose normal velocity is given, then of those that also give
+        the velocity along them; -1 for the others
+    pushing, loaded : int64[4], columns and rows of the edges that only push, and that have a traction; -1 for the others
+    constrained_vertices : list of (sink, component, vertices) of the edges that constrain their vertices
     widths : list of the four widths of the cells next to the edges along their normals, m
     """
 
@@ -25,10 +26,13 @@ class EdgeLines:
         g, lines = grid.g, (np.s_[:, 0], np.s_[:, -1], np.s_[0, :], np.s_[-1, :])
         at = np.array([g, g + grid.nr, g, g + grid.nz], dtype=np.int64)
         self._boundaries, self._mesh = boundaries, np.roll(at, 2)
-        self.constrained, self.pushing, self.transmitting = (
-            np.where(boundaries.having(flag), at, -1) for flag in ("constrains", "pushes", "transmits"))
+        normal, held, self.pushing, self.loaded = (
+            np.where(boundaries.having(flag), at, -1) for flag in ("constrains", "holds", "pushes", "loads"))
+        self.constrained = np.concatenate([normal, held])
         self.constrained_vertices = [
             (edge.sink, n // 2, lines[n]) for n, edge in enumerate(boundaries.edges) if edge.constrains()]
+        self.constrained_vertices += [
+            (edge.sink, 1 - n // 2, lines[n]) for n, edge in enumerate(boundaries.edges) if held[n] >= 0]
         self.widths = [*grid.dr[[g, g + grid.nr - 1]].tolist(), *grid.dz[[g, g + grid.nz - 1]].tolist()]
 
     def void_beyond(self, leading: int | None) -> np.ndarray:

@@ -64,7 +64,8 @@ class Given:
         edges = {
             **{f"mirror_{edge}": mirrors for edge, mirrors in zip(EDGES, method.boundaries.having("mirrors"), strict=True)},
             "mesh_box": cycle.mesh_box, "constrained": cycle.edges.constrained, "pushing": cycle.edges.pushing,
-            "transmitting": cycle.edges.transmitting, "edge_velocity": method.boundaries.velocity,
+            "loaded": cycle.edges.loaded, "edge_velocity": method.boundaries.velocity,
+            "edge_pressure": method.boundaries.pressure,
             "void_only": cycle.edges.void_beyond(cycle.mesh.leading), "pushed": cycle.sources.pushed,
         }
         choices = _of(method, [name for name in names.METHOD]) | {

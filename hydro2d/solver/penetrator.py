@@ -19,6 +19,8 @@ from hydro2d.solver.targets import Target
 LEFT_MASS = 0.01
 #: material slower than the axis by more than half of its speed plus this share of the first speed is debris, not core
 DEBRIS_SPEED = 0.05
+#: a core whose speed relative to a target is below this share of the first speed stays in it
+LEAVING_SPEED = 0.01
 #: cycles between checks of perforation, of the ends of a run, and of whether the state makes sense
 WATCH_EVERY = 10
 
@@ -66,8 +68,10 @@ class Penetrator:
     regime is "left the mesh" for good, and the nose stays where it was when the core reached the edge. Debris that leaves
     through any edge changes nothing as long as the core is inside. The edge behind the rod of a mesh that follows it does not
     count: material flowing out there is debris, even if it fills the hole up to the axis and so is connected to the core.
-    A rod in pieces, with no cell on the axis half full, is through a target when most of it is beyond the rear; behind the last
-    target it has left the mesh by the same 1 %, and is gone when at most a tenth is left.
+    A core is through a target when its nose is its radius beyond the rear and it flies away from the target. One that the last
+    target carries along is not, even if it was before. A rod in pieces, with no cell on the axis half full, is through a target
+    when most of it is beyond the rear; behind the last target it has left the mesh by the same 1 %, and is gone when at most a
+    tenth is left.
 
     Depths, rears and exits are measured from where the targets would be if nothing had touched them: the face of a target that
     flies at the rod moves with its own velocity. Velocities are in the frame of the mesh.
@@ -99,7 +103,8 @@ class Penetrator:
         self._against = targets[0].velocity
         self.impact_energy = self.energy - self._against * momentum + 0.5 * self.mass * self._against**2
         self._run = np.zeros(2, dtype=np.int64)
-        self._slack = DEBRIS_SPEED * abs((sim.mean_velocity(self.m) or 0.0) - self._against)
+        speed = abs((sim.mean_velocity(self.m) or 0.0) - self._against)
+        self._slack, self._leaving = DEBRIS_SPEED * speed, LEAVING_SPEED * speed
         self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
         self.passed: list[Passage] = []
@@ -283,6 +288,8 @@ class Penetrator:
     def watch(self) -> None:
         """After a cycle: records the rod when its core reaches an open edge, and when it is through each target."""
         looks = self.sim.cycle % WATCH_EVERY == 0
+        if looks and len(self.passed) == len(self.targets) and not (self.left or self._flies_from()):
+            self.passed.pop()
         while looks and len(self.passed) < len(self.targets) and self._is_through(len(self.passed)):
             flying = self._whole() if self._in_pieces() else self._whole_core()
             self.passed.append(Passage(self.sim.time, *flying, self._stretch * self._length()[0]))
@@ -302,7 +309,14 @@ class Penetrator:
 
     def _is_through(self, number: int) -> bool:
         """Whether the rod, or most of its pieces, is through a target; quick if it is far from that."""
-        return (self._near_exit() and self._through(self.nose(), number)) or self._pieces_through(number)
+        out = self._near_exit() and self._through(self.nose(), number) and self._flies_from(number)
+        return out or self._pieces_through(number)
+
+    def _flies_from(self, number: int = -1) -> bool:
+        """Whether the core moves away from a target, by the mean velocity of what is left of both; a rod in pieces does."""
+        velocity, mass = self._whole_core()
+        target = self.sim.mean_velocity(self._targets[number].m)
+        return mass == 0.0 or target is None or self.direction * (velocity - target) > self._leaving
 
     def _watch_pieces(self) -> None:
         """Records a rod in pieces behind the last target, until the first of them flows out."""
@@ -365,8 +379,9 @@ class Penetrator:
         return 0 <= j < g.nz and any(s.vof[self.m, g.g + j, g.g + i] >= HALF for i in range(self.columns))
 
     def perforates(self) -> bool:
-        """Whether the nose is the rod's radius beyond the rear of the last target, or most of a rod in pieces is behind it."""
-        return self._through(self.nose()) or len(self.passed) == len(self.targets)
+        """Whether the nose is the rod's radius beyond the rear of the last target, from which the core flies away, or most of a
+        rod in pieces is behind it."""
+        return (self._through(self.nose()) and self._flies_from()) or len(self.passed) == len(self.targets)
 
     def cleared(self) -> bool:
         """Whether the tail is beyond the original rear of the last target; of a rod in pieces, nine tenths of them."""
@@ -390,7 +405,7 @@ class Penetrator:
         pieces, those of all of it."""
         if self.left:
             return self.exit.velocity, self.exit.mass
-        if core > 0.0 and self._through(nose):
+        if core > 0.0 and self._through(nose) and self._flies_from():
             return momentum / core, core
         if core == 0.0 and len(self.passed) == len(self.targets):
             return self._whole()

@@ -160,8 +160,8 @@ def _edges(deck):
 def closing_speed(deck, grid) -> float:
     """Largest difference of two velocities that a deck gives, of parts of bodies and of edges that constrain or push, m/s.
 
-    An edge meets bodies that move along its normal, and has no friction: in a tube or along the axis, bodies may fly along z
-    at any speed. Bodies that move as a whole meet nothing.
+    An edge meets bodies that move along its normal, and has no friction unless it is held: in a tube or along the axis, bodies
+    may fly along z at any speed. Bodies that move as a whole meet nothing.
     """
     rows, columns = grid.inside
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
@@ -171,6 +171,7 @@ def closing_speed(deck, grid) -> float:
         given += [(x, y) for x in (np.min(u), np.max(u)) for y in (np.min(v), np.max(v))]
     along = [[velocity[n] for velocity in given] for n in range(2)]
     for n, edge in enumerate(_edges(deck)):
+        along[1 - n // 2] += [] if edge.slide() is None else [edge.slide()]
         along[n // 2] += edge.speeds() or ((0.0,) if edge.traction() != FREE else ())
     between = [math.dist(one, other) for one, other in combinations(given, 2)]
     return float(max([*between, *(max(each) - min(each) for each in along if each)], default=0.0))

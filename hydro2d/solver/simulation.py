@@ -20,7 +20,7 @@ from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
-from hydro2d.solver import body_measurements, debris, insertion, reach
+from hydro2d.solver import body_measurements, debris, far_field, insertion, reach
 from hydro2d.solver.audit import Audit, Totals, totals
 from hydro2d.solver.crater import Crater
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
@@ -85,6 +85,7 @@ class Simulation:
         self.state = State(self.grid, len(slots), method.group, self.table.internal, self.table.initial,
                            self.table.remembers)
         self._insert(method.boundaries)
+        far_field.place(deck, self.state, self.table, method.boundaries)
         self.sources = Sources(deck.source, self.state, self.table, [slots.index(entry.body) for entry in deck.source])
         #: warnings of the sources about the deck on its mesh, one sentence each
         self.warnings = self.sources.begin()
@@ -147,7 +148,10 @@ class Simulation:
             np.divide(vertex, dual, out=vertex, where=dual > 0)
             vertex[...] = np.where(dual > 0, vertex, vertex[::-1])
         ends = (g.g, g.g + g.nr, g.g, g.g + g.nz)
-        for edge, (at, kind, velocity) in enumerate(zip(ends, conditions.edges, conditions.velocity, strict=True)):
+        for edge, (at, kind, velocity) in enumerate(zip(ends, conditions.edges, conditions.velocity[4:], strict=True)):
+            if kind.slide() is not None:
+                (s.v[..., at] if edge < 2 else s.u[:, at])[...] = velocity
+        for edge, (at, kind, velocity) in enumerate(zip(ends, conditions.edges, conditions.velocity[:4], strict=True)):
             normal = s.u[..., at] if edge < 2 else s.v[:, at]
             if kind.constrains():
                 normal[...] = velocity

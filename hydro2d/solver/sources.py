@@ -148,9 +148,11 @@ class Sources:
         for component in range(2):
             for name, m, gain in gains:
                 impulse = at_vertices(grid, grid.interior(s.vof[m] * s.rho[m] * grid.volume) * gain[component])
-                absorbed = [(sink, line, impulse[line].copy()) for sink, of, line in constrained_vertices if of == component]
-                for _, line, _ in absorbed:
-                    impulse[line] = 0.0
+                absorbed = []
+                for sink, of, line in constrained_vertices:
+                    if of == component:
+                        absorbed.append((sink, line, impulse[line].copy()))
+                        impulse[line] = 0.0  # the next edge does not take the impulse of a common corner again
                 mass = grid.interior_vertices(s.mass[s.group[m]])
                 gained = np.divide(impulse, mass, out=np.zeros_like(mass), where=mass > 0.0)
                 grid.interior_vertices(self.pushed[component, s.group[m]])[...] += gained

@@ -40,6 +40,17 @@ def test_isothermal_keeps_the_temperature():
     assert stress == pytest.approx(337e6 + 343e6 * np.array(STRAINS) ** 0.41, rel=1e-12)
 
 
+def test_a_curve_at_a_temperature():
+    """Johnson-Cook: the stress falls by 1 - ((T - 298)/(Tm - 298))^m, and the plastic work heats from there on."""
+    material = library.load("Ti_6Al_4V")
+    cold, _ = curves.flow_stress(material, 1.0, STRAINS, isothermal=True)
+    hot, T = curves.flow_stress(material, 1.0, STRAINS, isothermal=True, temperature=800.0)
+    assert (T == 800.0).all()
+    assert hot == pytest.approx(cold * (1.0 - ((800.0 - 298.0) / (1878.0 - 298.0)) ** 0.8), rel=1e-9)
+    _, T = curves.flow_stress(material, 1.0, STRAINS, temperature=800.0)
+    assert T[0] == 800.0 < T[1]
+
+
 def test_a_gas_has_no_curve():
     with pytest.raises(DeckError, match="gas_7_5 has no strength"):
         curves.flow_stress(library.load("gas_7_5"), 1.0, STRAINS)
@@ -57,6 +68,12 @@ def test_the_command(tmp_path, capsys):
     stress, _ = curves.flow_stress(library.load("W_sintered"), 1e3, [0.0, 0.5])
     assert [float(row["flow stress [Pa]"]) for row in rows[:2]] == list(stress)
     assert picture.read_bytes()[:4] == b"\x89PNG"
+    assert call(["curve", "Ti_6Al_4V", "--rate", "1 /s", "--strain", "0", "--isothermal", "--temperature", "800 K"]) == 0
+    out = capsys.readouterr().out.splitlines()
+    assert out[0].endswith("at a constant temperature, from 800 K on")
+    assert out[3].split()[-1] == "518"
+    assert call(["curve", "W_sintered", "--temperature", "0 K"]) == 2
+    assert "--temperature must be above 0 K" in capsys.readouterr().err
     assert call(["curve", "W_sintered", "--rate", "-1 /s"]) == 2
     assert "must not be negative" in capsys.readouterr().err
     assert call(["curve", "W_sintered", "--rate", "1e3"]) == 2

@@ -37,6 +37,12 @@ def toy(*extra: Input, values=None) -> Model:
 # ------------------------------------------------------------------------------------------- the material library
 
 
+def test_a_curved_hugoniot_has_no_slope():
+    """Models that need the slope of a straight line say that it is missing, and do not take the first of three."""
+    assert "hugoniot_slope" in model_materials.quantities(library.load("nylon"))
+    assert "hugoniot_slope" not in model_materials.quantities(library.load("nylon:steinberg"))
+
+
 def test_numbers_of_a_steinberg_guinan_material():
     """K = rho0 c0^2 and G give E and nu; the ultimate strength is Y0 (1 + beta)^n, below the cap."""
     quantities = {name: given.value for name, given in model_materials.quantities(library.load("W_alloy")).items()}

@@ -76,6 +76,18 @@ def test_a_name_near_nothing_gets_no_list():
         info.page("qqqqqq")
 
 
+@pytest.mark.parametrize(("name", "first"), [
+    ("pmma", "PMMA: "), ("Air", "air: "), ("LEXAN", "Lexan: "), ("VISAR", "VISAR (a word): "), ("Ejecta", "Ejecta (a word): "),
+    ("hole", "hole (a word): "), ("water", "water: ")])
+def test_names_that_people_try(name, first):
+    assert info.page(name).startswith(first)
+
+
+def test_water_says_what_each_of_it_is_for():
+    assert "for boiling take water_tillotson" in info.page("water")
+    assert "for shocks, jets and impact below 1 km/s take water" in info.page("water_tillotson")
+
+
 def test_the_overview_has_the_words(capsys):
     assert call(["info"]) == 0
     shown = capsys.readouterr().out

@@ -19,6 +19,8 @@ SOLID = {
     "grueneisen": 2.2,
     "specific_heat": 875.0,
 }
+DENSE = {"reference_density": 999.0, "sound_speed": 1500.0, "adiabatic_index": 1.19, "covolume": 6.72e-4,
+         "specific_heat": 3610.0}  # fmt: skip
 LIQUID = {"reference_density": 1000.0, "sound_speed": 1480.0, "adiabatic_index": 3.0, "specific_heat": 4180.0}
 TILLOTSON = {"reference_density": 2700.0, "a": 0.5, "b": 1.63, "A": 75.2e9, "B": 65e9, "E0": 5e6, "alpha": 5.0, "beta": 5.0,
              "incipient_vaporisation": 3e6, "complete_vaporisation": 13.9e6, "specific_heat": 900.0}  # fmt: skip
@@ -35,6 +37,7 @@ EOS_CASES = {
     "mie-grueneisen": (SOLID, np.linspace(0.95, 2.0, 22), (0.0, 1e5, 3e6)),
     "ideal-gas": ({"reference_density": 1.2, "adiabatic_index": 1.4}, np.geomspace(0.01, 20.0, 9), (1.0, 2e5, 1e9)),
     "stiffened-gas": (LIQUID, np.linspace(0.9, 1.6, 9), (0.0, 1e5, 3e6)),
+    "noble-abel-stiffened-gas": (DENSE, np.linspace(0.9, 1.3, 9), (0.0, 1e5, 3e6)),
     "p-alpha": (POROUS, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
     "johnson-holmquist": (CERAMIC, np.linspace(0.95, 1.5, 12), (0.0, 1e5, 3e6)),
     "jwl": (EXPLOSIVE, np.linspace(0.95, 1.5, 12), (0.0, 4.29e6, 7e6)),

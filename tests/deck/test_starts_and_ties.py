@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
 from hydro2d.deck.shapes.outlines import rectangle, shared_volume
 from hydro2d.deck.shapes.sphere import sphere_outline
@@ -134,8 +135,54 @@ def test_ties_are_reported():
 
 def test_walls_that_bear_tension_are_reported():
     alone = box_of("bar", (0, 3), (-14, 0), velocity="-20 m/s")
-    assert "a wall (z_min) also resists tension: it holds" in lines(MESH + alone + table("boundaries", z_min="wall"))
+    at_wall = lines(MESH + alone + table("boundaries", z_min="wall"))
+    assert "a wall (z_min) also resists tension: it holds" in at_wall
+    assert "It is smooth" in at_wall
     assert "resists tension" not in lines(MESH + alone)
+
+
+LEAVES = "leaves it before the end"
+
+
+@pytest.mark.parametrize(("kind", "start", "leaves"), [
+    ("outflow", -14, True), ("outflow", -13, True), ("anvil", -14, False), ("anvil", -13, False), ("held", -14, False),
+    ("wall", -14, False), ("transmit", -14, False), ("transmit", -13, True)])
+def test_a_body_at_an_edge_that_keeps_it_is_not_said_to_leave(kind, start, leaves):
+    """The mesh begins at -14 mm. Earlier, a bar on an anvil was to leave it after -0 us; a cut body has no end that leaves."""
+    bar = box_of("bar", (0, 3), (start, 0), velocity="-20 m/s") + table("boundaries", z_min=kind)
+    said = [text for text in warnings(deck.loads(MESH + bar, ["stop.time=1 ms"])) if LEAVES in text]
+    assert len(said) == leaves
+    assert not any("-0 us" in text for text in said)
+
+
+@pytest.mark.parametrize(("settings", "stuck"), [
+    ({}, ["plate"]), ({"r_max_axial": "100 m/s"}, []), ({"r_max_radial": "1 m/s"}, ["plate"])])
+def test_bodies_that_a_held_edge_starts_to_shear_are_reported(settings, stuck):
+    bodies = (box_of("plate", (0, 20), (0, 10), velocity="100 m/s") + box_of("rod", (0, 3), (-10, 0), velocity="200 m/s")
+              + table("boundaries", r_max="held", **settings))  # fmt: skip
+    said = [text for text in warnings(deck.loads(MESH + bodies)) if 'r_max = "held"' in text]
+    assert [name for name in ("plate", "rod") if any(f'"{name}" starts at' in text for text in said)] == stuck
+
+
+@pytest.mark.parametrize(("width", "share"), [(20, ""), (12, "40% of it")])
+def test_void_beside_a_body_under_a_pressure_is_reported(width, share):
+    text = MESH + box_of("plate", (0, width), (-14, 10)) + table("boundaries", z_min="pressure", z_min_pressure="1 GPa")
+    said = [text for text in warnings(deck.loads(text)) if "void lies at" in text]
+    assert [share in text for text in said] == [True] * bool(share)
+
+
+def test_a_pressure_across_void_is_refused():
+    text = MESH + box_of("plate", (0, 20), (0, 10)) + table("boundaries", z_min="pressure", z_min_pressure="1 GPa")
+    with pytest.raises(DeckError, match=r"no body lies at this edge, and its pressure does not act across void"):
+        deck.loads(text)
+
+
+def test_a_mesh_that_follows_has_no_pressure_and_no_clamp_along_z():
+    flying = MESH.replace("[mesh]", '[mesh]\nfollow = "rod"') + box_of("rod", (0, 3), (-10, 0), velocity="200 m/s")
+    for kind, said in (("pressure", "an edge with a pressure cannot travel with it"), ("held", "a held edge cannot travel")):
+        more = {"z_min_pressure": "1 kPa"} if kind == "pressure" else {}
+        with pytest.raises(DeckError, match=said):
+            deck.loads(flying + table("boundaries", z_min=kind, **more))
 
 
 def test_liquids_that_bear_any_tension_are_reported():

@@ -24,6 +24,8 @@ AL5083 = {
     "reference_temperature": 300.0,
 }
 MATERIALS = {"tungsten alloy": TUNGSTEN_ALLOY, "aluminium 5083": AL5083}
+WATER = {"reference_density": 1000.0, "sound_speed": 1480.0, "hugoniot_slope": 2.56, "hugoniot_slope_2": -1.986,
+         "hugoniot_slope_3": 0.2268, "grueneisen": 0.5, "specific_heat": 4180.0}  # fmt: skip
 
 
 @pytest.fixture(params=list(MATERIALS))
@@ -165,3 +167,70 @@ def test_nan_stays_nan(material):
     values, row = material
     assert np.isnan(mie_grueneisen.evaluate(np.nan, 0.0, row)[0])
     assert np.isnan(mie_grueneisen.evaluate(2e4, np.nan, row)[0])
+
+
+# ------------------------------------------------------------------------------------------------ a curved Hugoniot
+
+
+def curved(values, up: float) -> float:
+    """Us by bisection of Us = c0 + s up + s2 (up/Us) up + s3 (up/Us)^2 up, as Steinberg writes it; m/s."""
+    s, s2, s3 = (values.get(f"hugoniot_slope{end}", 0.0) for end in ("", "_2", "_3"))
+    low, high = max(up, values["sound_speed"]), 20.0 * (values["sound_speed"] + up)
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        ratio = up / middle
+        more = values["sound_speed"] + s * up + s2 * ratio * up + s3 * ratio**2 * up > middle
+        low, high = (middle, high) if more else (low, middle)
+    return middle
+
+
+@pytest.mark.parametrize("up", [1.0, 250.0, 1000.0, 4000.0, 8000.0])
+def test_states_on_a_curved_hugoniot_are_exact(up):
+    """Steinberg's cubic for water: 3489 m/s at a particle velocity of 1 km/s; a straight line of slope 2.56 has 4040."""
+    speed, row = curved(WATER, up), mie_grueneisen.row(WATER)
+    if up == 1000.0:
+        assert speed == pytest.approx(3489.0, abs=1.0)
+    rho = 1000.0 * speed / (speed - up)
+    assert mie_grueneisen.evaluate(rho, 0.5 * up**2, row)[0] == pytest.approx(1000.0 * speed * up, rel=1e-11)
+
+
+@pytest.mark.parametrize("change", [{}, {"hugoniot_slope_3": 0.0}, {"hugoniot_slope_2": -3.0}, {"hugoniot_slope_2": 1.0}])
+def test_derivatives_of_a_curved_hugoniot(change):
+    row = mie_grueneisen.row({**WATER, **change})
+    for rho in np.linspace(1005.0, 1000.0 / (1.0 - row[mie_grueneisen.GUARD]) * 1.2, 25):
+        for e in (0.0, 1e6):
+            _, dpdrho, dpde, _ = mie_grueneisen.evaluate(rho, e, row)
+            step = 1e-5 * rho
+            if abs(1.0 - 1000.0 / rho - row[mie_grueneisen.GUARD]) < 1e-3:
+                continue  # the slope has a corner there
+            up, down = (mie_grueneisen.evaluate(rho + way, e, row)[0] for way in (step, -step))
+            assert dpdrho == pytest.approx((up - down) / (2 * step), rel=1e-5)
+            assert dpdrho > 0.0
+            heated, cold = (mie_grueneisen.evaluate(rho, energy, row)[0] for energy in (e + 1e3, e))
+            assert dpde == pytest.approx((heated - cold) / 1e3, rel=1e-5)
+
+
+def test_without_curvature_not_a_bit_changes():
+    row = mie_grueneisen.row({**AL5083, "hugoniot_slope_2": 0.0, "hugoniot_slope_3": 0.0})
+    assert (row == mie_grueneisen.row(AL5083)).all()
+    d = 1.0 / (1.0 - 1.4 * 0.2)
+    assert mie_grueneisen.reference_slope(0.2, 1.4, 0.0, 0.0, 0.985) == d * d * ((1.0 + 1.4 * 0.2) * d * (1.0 - 0.985 * 0.2)
+                                                                                 - 0.985 * 0.2)  # fmt: skip
+
+
+def test_temperature_along_the_isentrope_of_a_curved_hugoniot():
+    """T = T0 exp(Gamma0 eta) on the isentrope through the state at rest, which is integrated numerically."""
+    row = mie_grueneisen.row(WATER)
+
+    def slope(eta, energy):
+        return mie_grueneisen.evaluate(1000.0 / (1.0 - eta), energy[0], row)[0] / 1000.0
+
+    path = solve_ivp(slope, (0.0, 0.45), [0.0], t_eval=[0.1, 0.3, 0.45], rtol=1e-10, atol=1e-6)
+    for eta, e in zip(path.t, path.y[0], strict=True):
+        T = mie_grueneisen.evaluate(1000.0 / (1.0 - eta), e, row)[3]
+        assert pytest.approx(298.0 * np.exp(0.5 * eta), rel=1e-4) == T
+
+
+def test_a_third_slope_needs_the_second():
+    with pytest.raises(ValueError, match=r"hugoniot_slope_3 = 0.2268 without hugoniot_slope_2: a cubic Hugoniot needs both"):
+        mie_grueneisen.row({name: value for name, value in WATER.items() if name != "hugoniot_slope_2"})

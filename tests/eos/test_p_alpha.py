@@ -123,7 +123,7 @@ DECK = "problems/verification/porous_compaction.toml"
     ('materials.Al_porous={based_on="Al_porous", eos={reference_density="2800 kg/m^3"}}',
      "reference_density = 2800, with the pores, must be below solid_density = 2700"),
     ('materials.Al_porous={based_on="Al_porous", eos={model="p-alpha", solid="p-alpha"}}',
-     "unknown equation of state without memory .*allowed: ideal-gas, mie-grueneisen, stiffened-gas"),
+     "unknown equation of state without memory .*allowed: ideal-gas, mie-grueneisen, noble-abel-stiffened-gas, stiffened-gas"),
     ('materials.Al_porous={based_on="Al_porous", eos={hardness=1}}', 'unknown parameter of p-alpha "hardness"'),
     ('materials.Al_porous={based_on="Al_porous", eos={sound_speed="-1 m/s"}}', "must be non-negative|must be positive"),
     ('materials.Al_porous={eos={model="p-alpha", reference_density=2000}}', "p-alpha needs solid"),

@@ -22,6 +22,11 @@ def handles(function, values: dict) -> list[SimpleNamespace]:
     return [handle(**values)] if by_name.takes_handle(function) else []
 
 
+def lines(*normal: int, along=(-1, -1, -1, -1)) -> np.ndarray:
+    """Columns (2) and rows (2) of edges with a prescribed normal velocity, then of those that also prescribe it along them."""
+    return np.array([*(normal or (-1, -1, -1, -1)), *along])
+
+
 def source(function):
     """A compiled function as Python runs it."""
     return by_name.source(function) if by_name.takes_handle(function) else getattr(function, "compiled", function).py_func
@@ -41,8 +46,8 @@ class Cells:
         self.state.body_ranges[...] = self.state.group_ranges[...] = self.state.occupied[...] = first, past_r
         none = np.full(4, -1)
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
-                      "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": none, "pushing": none,
-                      "transmitting": none, "dj": 0, "di": 1, "steepness": 2.0,
+                      "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": lines(),
+                      "pushing": none, "loaded": none, "edge_pressure": np.zeros(4), "dj": 0, "di": 1, "steepness": 2.0,
                       "gases": np.zeros(bodies, dtype=bool),
                       "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 

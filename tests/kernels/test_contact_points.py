@@ -12,12 +12,11 @@ from hydro2d.mesh.grid import Grid
 from hydro2d.physics.momentum import SLIGHT
 from hydro2d.physics.traction import FILM
 from hydro2d.solver import contact_ties
-from tests.kernels.cells import handle
+from tests.kernels.cells import handle, lines
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 from tests.physics.continuity import changes_in_proportion
 
 master = contact_velocities.master.py_func
-is_constrained = contact_velocities.is_constrained.py_func
 apply_impulse = contact_velocities.apply_impulse.source
 apply_tie_impulse = contact_velocities.apply_tie_impulse.source
 mismatch = contact_velocities.mismatch.source
@@ -28,7 +27,7 @@ deposit_heat = contact_velocities.deposit_heat.source
 normal_force = contact_velocities.normal_force.source
 face_aperture = contact_geometry.face_aperture.source
 
-NOWHERE = np.full(4, -1)
+NOWHERE = lines()
 
 
 # ----------------------------------------------------------------------------------------------- one slave, its masters
@@ -55,17 +54,9 @@ def test_places_of_masters_do_not_meet():
     assert found == [*((1, 5 + dj, 6 + di) for dj, di in places), (0, 5, 6)]
 
 
-def test_axis_and_walls_hold_one_component():
-    constrained = np.array([2, 9, -1, 7])
-    assert is_constrained(4, 2, constrained) == (True, False)
-    assert is_constrained(4, 9, constrained) == (True, False)
-    assert is_constrained(7, 5, constrained) == (False, True)
-    assert is_constrained(7, 2, constrained) == (True, True)
-    assert is_constrained(4, 5, constrained) == (False, False)
-
-
-@pytest.mark.parametrize(("constrained", "gained"), [(NOWHERE, (1.5, -2.0)), (np.array([1, -1, -1, -1]), (0.0, -2.0)),
-                                               (np.array([-1, -1, 1, -1]), (1.5, 0.0))])
+@pytest.mark.parametrize(("constrained", "gained"), [
+    (NOWHERE, (1.5, -2.0)), (lines(1, -1, -1, -1), (0.0, -2.0)), (lines(-1, -1, 1, -1), (1.5, 0.0)),
+    (lines(along=(1, -1, -1, -1)), (1.5, 0.0)), (lines(along=(-1, -1, -1, 1)), (0.0, -2.0))])
 def test_an_impulse_moves_what_is_not_held(constrained, gained):
     mass, u, v, transfer = np.full((2, 3, 3), 2.0), np.zeros((2, 3, 3)), np.zeros((2, 3, 3)), np.zeros((5, 3))
     apply_impulse(0, 1, 1, 3.0, -4.0, handle(constrained=constrained, mass=mass, u=u, v=v, transfer=transfer))
@@ -119,7 +110,7 @@ def test_a_slave_is_as_heavy_as_it_and_its_masters():
     assert mobility(1, 3, 3, 0, ties) == pytest.approx(tied)
     strength[0, 1] = 0.25
     assert mobility(1, 3, 3, 0, ties) == pytest.approx(0.25 * tied + 0.75 / 4.0)
-    ties.constrained = np.array([2, -1, -1, -1])
+    ties.constrained = lines(2, -1, -1, -1)
     assert masters_mobility(1, 3, 3, 0, ties)[0] == pytest.approx(0.03125)
 
 
@@ -257,7 +248,7 @@ def test_ties_fade_in():
 def test_walls_and_the_axis_keep_what_they_hold(hard, normal):
     found = Extensions(hard, normal, most_squares=2.0)
     first = found.grid.g
-    constrained = np.array([first, -1, -1, first + N])
+    constrained = lines(first, -1, -1, first + N)
     w = velocities(found)
     w[0, :, :, first] = 0.0
     w[1, :, first + N] = 0.0

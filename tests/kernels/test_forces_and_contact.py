@@ -23,7 +23,7 @@ from hydro2d.kernels.contact.contact_motion import SEED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
 from hydro2d.physics.contact_faces import GAP, weights_beside
-from tests.kernels.cells import Cells
+from tests.kernels.cells import Cells, lines
 
 ROWS = slice(2, 6)
 
@@ -156,7 +156,7 @@ def test_the_push_of_sources_is_added():
 def limited(**given) -> Cells:
     """Vertices of 1 kg around the cell (3, 3) that were at rest and fly apart by 0.4 m/s both ways, limited to 0.2 m/s."""
     cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
-    cells.call(vertex_forces.limit_speed, speed_limit=0.2, underfilled_density=10.0, **{"edge_velocity": np.zeros(4), **given})
+    cells.call(vertex_forces.limit_speed, speed_limit=0.2, underfilled_density=10.0, **{"edge_velocity": np.zeros(8), **given})
     return cells
 
 
@@ -170,9 +170,17 @@ def test_the_speed_of_a_thinly_filled_node_is_limited():
 def test_a_limited_node_ends_the_step_with_the_velocity_that_an_edge_gives():
     """Column 3 is fixed and row 4 moves at 0.5 m/s: of each row one component of one node ends as limited."""
     end = 0.2 / np.sqrt(2.0)
-    cells = limited(constrained=np.array([3, -1, -1, 4]), edge_velocity=np.array([0.0, 9.0, 9.0, 0.5]))
+    cells = limited(constrained=lines(3, -1, -1, 4), edge_velocity=np.array([0.0, 9.0, 9.0, 0.5, 0.0, 0.0, 0.0, 0.0]))
     assert cells.limited[:, 3] == pytest.approx([2 * (end - 0.4), 0.5 * (0.4 - end) * (0.0 + end + 2 * end), 2.0])
     assert cells.limited[:, 4] == pytest.approx([2 * (0.4 - end), 0.5 * (0.4 - end) * (0.0 + end + 2 * 0.5), 2.0])
+
+
+def test_a_limited_node_ends_the_step_with_the_velocity_along_a_held_edge():
+    """Column 3 is held with 0.5 m/s along z, row 4 with 0 along r: one component of one node each, and one of both."""
+    end = 0.2 / np.sqrt(2.0)
+    cells = limited(constrained=lines(along=(3, -1, -1, 4)), edge_velocity=np.array([0.0, 0.0, 0.0, 0.0, 0.5, 9.0, 9.0, 0.0]))
+    assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (2 * end - 0.5 + end))
+    assert cells.limited[1, 4] == pytest.approx(0.5 * (0.4 - end) * (0.5 + end + 0.0 + 0.0))
 
 
 def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave():
@@ -394,7 +402,7 @@ def test_pressure_acts_on_each_group_by_its_aperture():
     both = pushed(pushed=of_source)
     assert both.u[:, 3, 4] == pytest.approx([0.1 * 4.0 / 0.25, 0.1 * 4.0 / 3.0 + 0.5])
     assert both.v[:, 3, 4] == pytest.approx([0.0, -7.0])
-    constrained_cells = pushed(constrained=np.array([4, -1, -1, -1]))
+    constrained_cells = pushed(constrained=lines(4, -1, -1, -1))
     assert constrained_cells.u[:, 3, 4].tolist() == [0.0, 0.0]
 
 

@@ -20,8 +20,8 @@ def layer(share: float, along: int = AXIAL, sign: int = 1) -> Cells:
     cells.q[RHO] = 2.0
     cells.cell_mass[0] = cells.vof[0] * 2.0 * cells.grid.volume
     low, past_z, first, past_r = cells.mesh_box
-    walls, strong = np.array([first, past_r, low, past_z]), np.zeros(1, dtype=bool)
-    cells.known |= {"constrained": walls, "edge_velocity": np.zeros(4), "group": np.zeros(1, dtype=int), "strong": strong,
+    walls, strong = np.array([first, past_r, low, past_z, -1, -1, -1, -1]), np.zeros(1, dtype=bool)
+    cells.known |= {"constrained": walls, "edge_velocity": np.zeros(8), "group": np.zeros(1, dtype=int), "strong": strong,
                     "hard_bodies": strong, "hard_threshold": 1.0, "tipton": True, "dt": 1 / 3,
                     "tension": np.zeros(1), "fades": np.zeros(1)}
     cells.call(vertex_forces.vertex_masses)
@@ -88,14 +88,14 @@ def test_what_parts_or_flies_with_its_body_keeps_its_velocity(speed):
     cells = layer(0.5)
     cells.v[0] = cells.v0[0] = np.where(cells.held > 0.0, 1.0 + speed, 1.0) * (cells.mass[0] > 0.0)
     before = cells.v.copy()
-    cells.known["constrained"] = np.array([*cells.known["constrained"][:2], -1, -1])
+    cells.known["constrained"] = np.array([*cells.known["constrained"][:2], *6 * [-1]])
     cells.call(outer_vertices.hold_vertices)
     np.testing.assert_array_equal(cells.v, before)
 
 
 def test_a_vertex_beside_an_open_edge_is_not_held():
     cells = layer(0.5)
-    cells.call(outer_vertices.find_held, constrained=np.full(4, -1))
+    cells.call(outer_vertices.find_held, constrained=np.full(8, -1))
     assert np.all(held(cells)[:, [0, 1, -2, -1]] == 0.0)
     assert np.all(held(cells)[4, 2:-2] == 1.0)
 

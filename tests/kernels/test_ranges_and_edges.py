@@ -1,12 +1,12 @@
-"""Ranges of bodies and of motion, ghosts, transmitting edges, sums along edges, a mesh that travels: cells made by hand."""
+"""Ranges of bodies and of motion, ghosts, edges with a traction, sums along edges, a mesh that travels: cells made by hand."""
 
 import numpy as np
 import pytest
 
 from hydro2d.kernels import audit_sums, boundaries, column_ranges, mesh_motion, triad
 from hydro2d.kernels.column_ranges import NOTHING
-from hydro2d.mesh.fields import RHO, SRR, SRZ, E
-from tests.kernels.cells import Cells
+from hydro2d.mesh.fields import CUT, FAR_P, FAR_U, RHO, SRR, SRZ, E
+from tests.kernels.cells import Cells, lines
 
 EMPTY = [NOTHING, 0]
 
@@ -123,15 +123,33 @@ def test_ghost_vertices_are_images_at_a_mirror_and_copies_at_an_open_edge():
 
 
 def test_an_edge_with_a_velocity_takes_momentum_and_work_and_the_axis_neither():
-    cells, velocity = Cells(), np.array([0.0, 0.0, 0.0, 5.0])
+    cells, velocity = Cells(), np.array([0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0])
     cells.u[...], cells.v[...], cells.v0[...], cells.mass[0, 6, 3], cells.mass[0, 4, 2] = 1.0, 7.0, 6.0, 3.0, 3.0
-    cells.call(boundaries.constrain, constrained=np.array([2, -1, -1, 6]), edge_velocity=velocity)
+    cells.call(boundaries.constrain, constrained=lines(2, -1, -1, 6), edge_velocity=velocity)
     assert not cells.u[0, :, 2].any()
     assert cells.u[0, :, 3].all()
     assert cells.v[0, 4:8, 3].tolist() == [7, 7, 5, 7]
     assert cells.walls[3, :, 6].tolist() == [3.0 * (7 - 5), 0.5 * 3.0 * (7 - 5) * (6 + 5)]
     assert not cells.walls[3, :, :6].any()
     assert not cells.walls[:3].any()
+
+
+def test_a_held_edge_takes_the_velocity_along_it_but_not_that_across_another_edge():
+    """Column 6 is held at 5 m/s along z, and row 2 has a velocity of 2 m/s across it, which goes first at their corner."""
+    cells, velocity = Cells(), np.array([0.0, 0.0, 2.0, 0.0, 0.0, 5.0, 0.0, 0.0])
+    cells.u[...], cells.v[...], cells.v0[...], cells.mass[...] = 1.0, 7.0, 6.0, 3.0
+    cells.call(boundaries.constrain, constrained=lines(-1, 6, 2, -1, along=(-1, 6, -1, -1)), edge_velocity=velocity)
+    assert cells.v[0, 1:5, 6].tolist() == [5, 2, 5, 5]
+    assert cells.v[0, 4, 5] == 7
+    assert not cells.u[0, :, 6].any()
+    assert cells.walls[1, 0, 4] == 3.0 * (7 - 5)
+    assert cells.walls[1, 1, 4] == 0.5 * 3.0 * (1 - 0) * (0 + 0) + 0.5 * 3.0 * (7 - 5) * (6 + 5)
+    cells.u[...] = 1.0
+    cells.u0[...] = 4.0
+    cells.call(boundaries.constrain, constrained=lines(-1, -1, 2, -1, along=(-1, -1, 2, -1)), edge_velocity=np.zeros(8))
+    assert not cells.u[0, 2].any()
+    assert cells.u[0, 3].all()
+    assert cells.walls[2, 1, 2] == 9 * 0.5 * 3.0 * (1 * 4 + 2 * 6)  # along r, and along z of what has 2 m/s
 
 
 def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
@@ -141,7 +159,7 @@ def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
     cells.u[0, 4, [2, 6]] = cells.v[0, [2, 6], 4] = -4.0
     cells.mass[...] = 3.0
     cells.v0[...] = 2.0
-    cells.call(boundaries.constrain, pushing=np.array([2, 6, 2, 6]), edge_velocity=np.zeros(4))
+    cells.call(boundaries.constrain, pushing=np.array([2, 6, 2, 6]), edge_velocity=np.zeros(8))
     assert cells.u[0, 3, [2, 6]].tolist() == cells.v[0, [2, 6], 3].tolist() == [4.0, 0.0]
     assert cells.u[0, 4, [2, 6]].tolist() == cells.v[0, [2, 6], 4].tolist() == [0.0, -4.0]
     assert cells.walls[2, :, 2].tolist() == [3.0 * -4, 0.5 * 3.0 * -4 * 2]
@@ -163,28 +181,84 @@ def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
     assert not flow[0, :, [1, 6]].any()
 
 
+def stiff(bodies: int = 1) -> Cells:
+    """Cells of rho c_l = 6 without shear waves, full of the first body, which the outer edge along r cuts, at 4 m/s."""
+    cells = Cells(bodies=bodies)
+    cells.rhobar[2:6, 2:6], cells.cl[2:6, 2:6], cells.bulk[2:6, 2:6] = 2.0, 3.0, 18.0
+    cells.vof[0, 2:6, 2:6], cells.far[CUT, 1, 0] = 1.0, 1.0
+    cells.mass[...], cells.u[0, :, 6], cells.drag[...] = 1.0, 4.0, 9.0
+    return cells
+
+
+AT_OUTER = np.array([-1, 6, -1, -1])
+
+
 def test_a_transmitting_edge_has_the_impedance_of_the_cells_next_to_it():
     """rho c_l = 6: over the step of 0.5 s, 3 kg/s on a vertex between two cells of the edge and half of that at its ends."""
-    cells, edges = Cells(), np.array([-1, 6, -1, -1])
-    cells.rhobar[2:6, 2:6], cells.cl[2:6, 2:6], cells.bulk[2:6, 2:6] = 2.0, 3.0, 18.0
-    cells.mass[...], cells.u[0, :, 6], cells.drag[...] = 1.0, 4.0, 9.0
-    cells.call(boundaries.transmit_edges, transmitting=edges, dt=0.5)
+    cells = stiff()
+    cells.call(boundaries.load_edges, loaded=AT_OUTER, dt=0.5)
     assert cells.u[0, 1:8, 6].tolist() == pytest.approx([4.0, 1.6, 1.0, 1.0, 1.0, 1.6, 4.0])
     assert cells.drag[1, 0, 0, 1:8] == pytest.approx([0.0, 2.4, 3.0, 3.0, 3.0, 2.4, 0.0])
     assert not cells.drag[1, 0, 1].any()
     before = cells.u.copy()
-    cells.call(boundaries.transmit_edges, dt=0.5)
+    cells.call(boundaries.load_edges, dt=0.5)
     assert (cells.u == before).all()
+
+
+def test_a_transmitting_edge_acts_on_what_differs_from_the_start_and_on_bodies_that_it_cuts():
+    """With 4 m/s at the start there is no drag; 8 Pa push inward by 0.5 s 8 N/(1 + 3) kg; a body that is not cut is free."""
+    cells = stiff()
+    cells.far[FAR_U, 1] = 4.0
+    cells.call(boundaries.load_edges, loaded=AT_OUTER, dt=0.5)
+    assert cells.u[0, 3:6, 6] == pytest.approx([4.0, 4.0, 4.0], rel=1e-15)
+    cells.far[FAR_P, 1] = 8.0
+    cells.call(boundaries.load_edges, loaded=AT_OUTER, dt=0.5)
+    assert cells.u[0, 3:6, 6] == pytest.approx([3.0, 3.0, 3.0], rel=1e-15)
+    cells = stiff()
+    cells.far[...] = 0.0
+    cells.call(boundaries.load_edges, loaded=AT_OUTER, dt=0.5)
+    assert (cells.u[0, :, 6] == 4.0).all()
+    half = stiff(bodies=2)  # half of the cell is a second body, which is not cut
+    half.vof[:, 2:6, 2:6] = 0.5
+    half.call(boundaries.load_edges, loaded=AT_OUTER, dt=0.5)
+    assert half.u[0, 3:6, 6] == pytest.approx(4.0 / (1.0 + 0.5 * 3.0))
+
+
+@pytest.mark.parametrize(("edge", "push"), [(0, 2.0), (1, -2.0), (2, 2.0), (3, -2.0)])
+def test_a_pressure_pushes_inward_where_a_body_lies(edge, push):
+    """4 Pa on 1 m for 0.5 s give 2 m/s to 1 kg, and half of that where the cells are half full; nothing where there is void."""
+    cells, loaded, pressure = Cells(), np.full(4, -1), np.zeros(4)
+    loaded[edge], pressure[edge] = (2, 6, 2, 6)[edge], 4.0
+    cells.rhobar[2:6, 2:6], cells.vof[0, 2:6, 2:6], cells.mass[...] = 2.0, 1.0, 1.0
+    velocity = cells.u[0].T if edge < 2 else cells.v[0]
+    cells.call(boundaries.load_edges, loaded=loaded, edge_pressure=pressure, dt=0.5)
+    assert velocity[loaded[edge], 1:8].tolist() == [0.0, 0.5 * push, push, push, push, 0.5 * push, 0.0]
+    cells.u[...], cells.v[...], cells.vof[0, 2:6, 2:6] = 0.0, 0.0, 0.5
+    cells.call(boundaries.load_edges, loaded=loaded, edge_pressure=pressure, dt=0.5)
+    assert velocity[loaded[edge], 3:6].tolist() == [0.5 * push] * 3
+    cells.u[...], cells.v[...], cells.rhobar[...] = 0.0, 0.0, 0.0
+    cells.call(boundaries.load_edges, loaded=loaded, edge_pressure=pressure, dt=0.5)
+    assert not velocity.any()
+
+
+def test_both_groups_at_a_vertex_gain_the_same_velocity_from_a_pressure():
+    """4 Pa on 1 m for 0.5 s on masses of 1 and 3 kg, which keep their difference of velocities."""
+    cells = Cells(bodies=2, group=[0, 1])
+    cells.rhobar[2:6, 2:6], cells.vof[:, 2:6, 2:6] = 2.0, 0.5
+    cells.mass[0], cells.mass[1], cells.u[1] = 1.0, 3.0, 7.0
+    cells.call(boundaries.load_edges, loaded=AT_OUTER, edge_pressure=np.array([0.0, 4.0, 0.0, 0.0]), dt=0.5)
+    assert cells.u[:, 4, 6].tolist() == [-0.5, 6.5]
 
 
 def test_energy_taken_by_dashpots_follows_the_velocities_at_the_end():
     """2 N s along r and 3 N s along z on a vertex that goes from 4 to 1 m/s and from 0 to 5 m/s, from any cause."""
-    cells, edges, energy = Cells(), np.array([-1, 6, -1, -1]), np.full(2, 9.0)
+    cells, energy = Cells(), np.full((4, 2), 9.0)
     cells.drag[1, 0, :, 3] = 2.0, 3.0
     cells.u0[0, 3, 6], cells.u[0, 3, 6], cells.v[0, 3, 6] = 4.0, 1.0, 5.0
-    cells.call(boundaries.sum_drag, transmitting=edges, transmitted=energy)
-    assert energy.tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
-    cells.call(boundaries.sum_drag, transmitted=energy)
+    cells.call(boundaries.sum_drag, loaded=AT_OUTER, taken=energy)
+    assert energy[1].tolist() == [3.0, 2.0 * 2.5 + 3.0 * 2.5]
+    assert not energy[[0, 2, 3]].any()
+    cells.call(boundaries.sum_drag, taken=energy)
     assert not energy.any()
 
 

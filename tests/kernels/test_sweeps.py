@@ -221,7 +221,7 @@ def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) ->
     step = (np.arange(13) > 6).astype(float)
     cells.velocity0[component, 0] = step[:, None] if dj else step[None, :]
     cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, ke_bound=2.0,
-               **({} if pushing is None else {"pushing": pushing}), edge_velocity=np.zeros(4))  # fmt: skip
+               **({} if pushing is None else {"pushing": pushing}), edge_velocity=np.zeros(8))  # fmt: skip
     return cells
 
 
@@ -256,7 +256,7 @@ def test_a_vertex_at_rest_on_an_edge_that_only_pushes_stays_at_rest():
     cells.flux_mass[...] = 0.2
     cells.velocity0[1, 0] = np.where(np.arange(13) == 7, 0.0, 1.0)[:, None]
     cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, ke_bound=2.0, pushing=np.array([-1, -1, 7, -1]),
-               edge_velocity=np.zeros(4))  # fmt: skip
+               edge_velocity=np.zeros(8))  # fmt: skip
     assert not cells.v[0, 7].any()
     assert cells.momentum_sums[4, 7] > 0.0
 
@@ -265,7 +265,7 @@ def test_vertices_where_nothing_flows_keep_every_bit():
     cells = Cells(nr=8, nz=8)
     cells.cell_mass[...] = cells.mass[...] = 1.0
     cells.velocity0[...] = np.random.default_rng(5).random(cells.velocity0.shape)
-    cells.call(momentum.sweep_momentum, dj=0, di=1, advection=KE, ke_bound=2.0, edge_velocity=np.zeros(4))
+    cells.call(momentum.sweep_momentum, dj=0, di=1, advection=KE, ke_bound=2.0, edge_velocity=np.zeros(8))
     inside = (slice(None), slice(None), slice(2, 11), slice(2, 11))
     assert (cells.velocity[inside] == cells.velocity0[inside]).all()
 

@@ -11,16 +11,20 @@ from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
 from hydro2d.mesh.sinks import SINKS
 from tests.sources.test_heating import TEXT
 
-#: mirrors, fixes, opens, supplies, drives, transmits, pushes
+#: mirrors, fixes, opens, supplies, drives, loads, pushes, holds
 FLAGS = {
-    "axis": (True, True, False, False, False, False, False),
-    "anvil": (True, False, True, False, False, False, True),
-    "wall": (True, True, False, False, False, False, False),
-    "outflow": (False, False, True, False, False, False, False),
-    "transmit": (False, False, True, True, False, True, False),
-    "velocity": (False, True, True, True, True, False, False),
-    "piston": (False, True, True, True, True, False, False),
+    "axis": (True, True, False, False, False, False, False, False),
+    "anvil": (True, False, True, False, False, False, True, False),
+    "wall": (True, True, False, False, False, False, False, False),
+    "held": (False, True, True, True, True, False, False, True),
+    "outflow": (False, False, True, False, False, False, False, False),
+    "transmit": (False, False, True, True, False, True, False, False),
+    "velocity": (False, True, True, True, True, False, False, False),
+    "piston": (False, True, True, True, True, False, False, False),
+    "pressure": (False, False, True, True, True, True, False, False),
 }
+#: keys of the kinds that have some
+VALUES = {"velocity": {"velocity": 1.0}, "held": {"radial": 1.0, "axial": 0.0}, "pressure": {"pressure": 1e5}}
 PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
 
 
@@ -31,9 +35,8 @@ def of(kind, **values):
 
 @pytest.mark.parametrize("kind", [kind.name for kind in KINDS])
 def test_flags(kind):
-    values = {"velocity": 1.0} if kind == "velocity" else {"piston": PISTON} if kind == "piston" else {}
-    conditions = of(kind, **values)
-    flags = "mirrors", "constrains", "opens", "supplies", "drives", "transmits", "pushes"
+    conditions = of(kind, **(VALUES | {"piston": {"piston": PISTON}}).get(kind, {}))
+    flags = "mirrors", "constrains", "opens", "supplies", "drives", "loads", "pushes", "holds"
     assert tuple(conditions.having(flag)[0] for flag in flags) == FLAGS[kind]
 
 
@@ -48,14 +51,33 @@ def test_every_sink_is_described():
 
 def test_a_piston_moves_by_its_table():
     conditions = of("piston", piston=PISTON)
-    assert conditions.velocity.tolist() == [0.0] * 4
-    velocity = conditions.velocity
+    assert conditions.velocity.tolist() == [0.0] * 8
+    velocity = conditions.velocity[:4]
     for time, speed in ((0.5e-6, 50.0), (1e-6, 100.0), (2e-6, 25.0), (9e-6, -50.0)):
         conditions.drive(time)
         assert velocity == pytest.approx([speed] * 4, rel=1e-12)
     assert conditions.sinks == ["piston"]
     assert of("wall").sinks == []
     assert made("z_min", {"z_min": "piston", "z_min_piston": PISTON}).speeds() == (0.0, 100.0, -50.0)
+
+
+def test_a_held_edge_has_a_velocity_across_and_along_it():
+    boundaries = {edge: "held" for edge in EDGES} | {f"{edge}_radial": 1.0 for edge in EDGES} | {
+        f"{edge}_axial": None if edge == "z_max" else 2.0 for edge in EDGES}  # fmt: skip
+    conditions = BoundaryConditions.of(boundaries)
+    assert conditions.velocity.tolist() == [1.0, 1.0, 2.0, 0.0, 2.0, 2.0, 1.0, 1.0]
+    assert conditions.sinks == []
+    assert not of("held").having("drives")[0]  # at rest
+
+
+def test_a_pressure_is_constant_or_follows_its_table():
+    constant, table = of("pressure", pressure=2e5), of("pressure", pressure=((0.0, 0.0), (1e-6, 4e5)))
+    for conditions, then in ((constant, 2e5), (table, 1e5)):
+        assert not conditions.pressure.any()
+        conditions.drive(0.25e-6)
+        assert conditions.pressure == pytest.approx([then] * 4)
+    assert constant.sinks == ["pressure"]
+    assert not of("pressure", pressure=0.0).having("drives")[0]
 
 
 def test_matter_that_moves_with_an_edge_crosses_the_cell_next_to_it():
@@ -78,6 +100,14 @@ def test_matter_that_moves_with_an_edge_crosses_the_cell_next_to_it():
      'z_min_piston: has no meaning without z_min = "piston"'),
     (['boundaries.z_min="piston"', 'boundaries.z_min_piston=[[0, 0], ["1 us", "1e7 m/s"]]'], "row 1: is 1e[+]07 m/s, beyond"),
     (['boundaries.z_min="axis"'], "unknown value .axis."),
+    (['boundaries.z_min="pressure"'], "an edge with a pressure needs z_min_pressure"),
+    (['boundaries.z_min="pressure"', 'boundaries.z_min_pressure=[[0, 0], ["1 us", "1 m"]]'], "row 1"),
+    (["boundaries.z_min_pressure=1 kPa"], 'has no meaning without z_min = "pressure"'),
+    (["boundaries.z_min_axial=1 m/s"], 'has no meaning without z_min = "held"'),
+    (['boundaries.z_min="held"', "boundaries.z_min_axial=30 m/s", 'boundaries.z_max="wall"'],
+     "z_min and z_max move the bodies between them into each other, at 30 m/s"),
+    (['boundaries.z_min="held"', "boundaries.z_min_radial=30 m/s", 'boundaries.r_max="anvil"'],
+     "a held edge that moves along itself has no corner with an anvil, here r_max"),
 ])  # fmt: skip
 def test_wrong_edges(overrides, words):
     with pytest.raises(DeckError, match=words):
@@ -89,4 +119,4 @@ def test_the_words_of_a_deck_become_edges():
     conditions = BoundaryConditions.of(loaded.boundaries.model_dump())
     assert [edge.name for edge in conditions.edges] == ["wall", "wall", "piston", "outflow"]
     conditions.drive(0.25e-6)
-    np.testing.assert_allclose(conditions.velocity, [0.0, 0.0, 25.0, 0.0], rtol=1e-12)
+    np.testing.assert_allclose(conditions.velocity, [0.0, 0.0, 25.0, 0.0, 0.0, 0.0, 0.0, 0.0], rtol=1e-12)

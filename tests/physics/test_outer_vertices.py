@@ -63,14 +63,14 @@ def test_a_layer_that_flies_is_not_held():
 
 
 #: columns 2 to 4 and rows 2 to 6 of a mesh with walls at its left and lower edge: places of the edges that prescribe a velocity
-BOX, WALLS = (2, 7, 2, 5), np.array([2, -1, 2, -1])
+BOX, WALLS = (2, 7, 2, 5), np.array([2, -1, 2, -1, -1, -1, -1, -1])
 
 
 def test_vertices_beside_open_edges():
     beside = outer_vertices.is_beside_open_edge.py_func
     assert [beside(2, i, BOX, WALLS) for i in range(2, 6)] == [False, False, True, True]
     assert [beside(j, 2, BOX, WALLS) for j in range(2, 8)] == [False, False, False, False, True, True]
-    assert beside(3, 3, BOX, np.array([-1, 5, 2, 7]))
+    assert beside(3, 3, BOX, np.array([-1, 5, 2, 7, -1, -1, -1, -1]))
 
 
 def test_a_plain_fluid_is_neither_a_gas_nor_strong():
@@ -92,7 +92,9 @@ def test_edges_prescribe_velocities():
     assert free(3, 3, WALLS) == (True, True)
     assert free(3, 2, WALLS) == (False, True)
     assert free(2, 3, WALLS) == (True, False)
-    assert free(7, 5, np.array([-1, 5, -1, 7])) == (False, False)
+    assert free(7, 5, np.array([-1, 5, -1, 7, -1, -1, -1, -1])) == (False, False)
+    held = np.array([2, 5, 2, 7, -1, 5, -1, 7])
+    assert free(3, 5, held) == free(7, 3, held) == (False, False)
 
 
 def test_an_anchor_gains_the_momentum_of_all_three_sides():
@@ -101,7 +103,7 @@ def test_an_anchor_gains_the_momentum_of_all_three_sides():
     assert [outer_vertices.taken.py_func(k, 3, 3, anchored) for k in range(3)] == [7.0, 10.0, -10.0]
     gain = outer_vertices.gain.py_func
     assert gain(3, 3, held, mass, WALLS, anchored) == (1.0, -1.0)
-    assert gain(3, 3, held, mass, np.array([3, -1, -1, -1]), anchored) == (0.0, -1.0)
+    assert gain(3, 3, held, mass, np.array([3, -1, -1, -1, -1, -1, -1, -1]), anchored) == (0.0, -1.0)
     assert gain(3, 4, np.ones((9, 7)), mass, WALLS, anchored) == (0.0, 0.0)
 
 

@@ -20,6 +20,8 @@ SOURCES = ("none", *sources.KINDS)
 EDGE_KINDS = edges.words("r_max")
 #: the kinds of edges that prescribe a velocity other than zero
 DRIVEN = ("velocity", "piston")
+#: the kind at which a body must lie
+PRESSING = "pressure"
 
 #: their names in the library
 METALS, GAS, EXPLOSIVE = ("Al5083", "copper_OFHC", "lead", "steel_4340"), "gas_7_5", "TNT"
@@ -55,12 +57,18 @@ def _edges(random: np.random.Generator, choices: Choices, geometry: str) -> dict
     edges = {} if geometry == "planar" else {"r_min": "axis"}
     for edge in free:
         allowed = open_ended if choices.following and edge[0] == "z" else kinds
+        if any(edges.get(f"{each}_{key}") for each in EDGES for key in ("axial", "radial")):
+            allowed = [kind for kind in allowed if kind != "anvil"]
         kind = edges[edge] = choices.edge if edge == sure else str(random.choice(allowed))
         speed = float(random.uniform(-200.0, 200.0))
         if kind == "velocity":
             edges[f"{edge}_velocity"] = speed
         if kind == "piston":
             edges[f"{edge}_piston"] = [[0.0, 0.0], [2e-7, speed], [8e-7, speed], [1e-6, -speed]]
+        if kind == "held" and choices.sliding != "contact" and "anvil" not in (*edges.values(), choices.edge):
+            edges[f"{edge}_{'axial' if edge[0] == 'r' else 'radial'}"] = speed
+        if kind == PRESSING:
+            edges[f"{edge}_pressure"] = [[0.0, 1e6 * speed], [1e-6, 1e8]]
     return edges
 
 
@@ -93,14 +101,18 @@ def deck(seed: int, choices: Choices) -> str:
     gap = float(random.choice([0.0, random.uniform(0.0, 2.0)])) * h
     back = float(random.choice([-1.0 if choices.following is False else 1.0, random.uniform(0.5, 3.0)])) * h
     velocity = float(random.uniform(20.0, 600.0))
-    text += box("rod", hard, r=[0.0, radius], z=[back, middle - gap], velocity=velocity)
     across = float(random.uniform(-50.0, 50.0)) if geometry == "planar" else 0.0
-    text += box("target", soft, r=[0.0, float(random.choice([nr + 2, nr - 1.5])) * h],
-                z=[middle, float(random.choice([nz + 2, nz - 3.3])) * h],
-                velocity=[0.0, 0.0] if choices.following else [across, float(random.uniform(-50.0, 50.0))])
+    wide, deep = (float(random.choice([n + 2, n - less])) * h for n, less in ((nr, 1.5), (nz, 3.3)))
+    motion = [0.0, 0.0] if choices.following else [across, float(random.uniform(-50.0, 50.0))]
+    gas = ""
     if choices.sliding != "contact" and choices.source != "detonation" and random.random() < 0.5:
-        text += box("gas", GAS, z=[0.0, nz * h], density=float(random.choice([1.2, 100.0])), pressure=1e7)
-    text += table("boundaries", **_edges(random, choices, geometry))
+        gas = box("gas", GAS, z=[0.0, nz * h], density=float(random.choice([1.2, 100.0])), pressure=1e7)
+    edges = _edges(random, choices, geometry)
+    back = -1.0 * h if edges["z_min"] == PRESSING else back
+    wide = (nr + 2) * h if edges["r_max"] == PRESSING else wide
+    deep = (nz + 2) * h if edges["z_max"] == PRESSING else deep
+    text += box("rod", hard, r=[0.0, radius], z=[back, middle - gap], velocity=velocity)
+    text += box("target", soft, r=[0.0, wide], z=[middle, deep], velocity=motion) + gas + table("boundaries", **edges)
     if choices.sliding != "none":
         text += table("sliding", method=choices.sliding, hard=["rod"],
                       **({"friction": 0.1} if choices.sliding == "contact" and random.random() < 0.5 else {}))

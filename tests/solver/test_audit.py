@@ -55,9 +55,12 @@ SLIDES = (
 
 @pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
 def test_dashpots_act_on_masters_of_a_contact(geometry):
-    """A bar slides in a tube, and edges cut through both: heat of the contact comes from the velocities at the end."""
+    """A bar slides in a tube, and edges cut through both: heat of the contact comes from the velocities at the end.
+
+    The dashpots keep up the velocities with which both start, against the contact.
+    """
     simulation = after(SLIDES, 60, f'mesh.geometry="{geometry}"')
-    assert simulation.audit.sinks["transmitted"].energy > 0.0
+    assert simulation.audit.sinks["transmitted"].energy < 0.0
     assert unexplained(simulation) < CLOSES
 
 

@@ -330,6 +330,27 @@ def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
     assert sim.stop_reason() == reason
 
 
+def test_a_core_that_the_target_carries_along_has_not_perforated():
+    """Its nose is 6 mm beyond the rear of a plate of 4 mm: it is through if it flies on, and no longer once both fly alike."""
+    sim = Simulation(deck.loads(TEXT.replace("TIP", "10"), ["body.plate.thickness=4e-3"]))
+    rod_there = sim.grid.interior(sim.state.vof)[0].any(axis=0).nonzero()[0].max() + 1 + sim.grid.g
+    sim.state.v[...] = 0.0
+    sim.state.v[:, :, : rod_there + 1] = 300.0
+    sim.engine.number, sim.engine.dt = WATCH_EVERY, 1e-9
+    sim.penetrator.watch()
+    assert len(sim.penetrator.passed) == 1
+    assert sim.penetrator.perforates()
+    assert sim.diagnostics()["rod_residual_velocity_m_s"] == pytest.approx(300.0)
+    assert sim.diagnostics()["exit_time_s"] is not None
+    sim.state.v[...] = 30.0
+    sim.state.v[:, :, :3] = 35.0  # on the axis alone: on the whole, the core is a little faster than the plate
+    sim.penetrator.watch()
+    assert sim.penetrator.passed == []
+    assert not sim.penetrator.perforates()
+    assert sim.diagnostics()["rod_residual_velocity_m_s"] is None
+    assert sim.diagnostics()["exit_time_s"] is None
+
+
 def test_debris_does_not_leave_for_the_rod(simulation):
     """Mass of the rod that flows out while its core is inside, or reaches an edge that it moves away from, does not count."""
     sim, sink = simulation, simulation.audit.sinks["outflow"]

@@ -129,6 +129,16 @@ def test_a_default_does_not_count_in_a_setup():
     assert first == third != second
 
 
+def test_a_parameter_that_is_later_than_kept_rows_does_not_count_until_it_is_used():
+    """The hash of a shot as it was before mie-grueneisen had S2 and S3."""
+    shot = "problems/cth_nose_shape/hemi_5083_1086.toml"
+    assert keeping.setup(decks.load(shot)) == "f2195a01cbe5"
+    curved = ["materials.alloy.based_on=W_alloy", "body.rod.material=alloy", "materials.alloy.eos.hugoniot_slope_2=0.1"]
+    straight = [*curved[:2], "materials.alloy.eos.hugoniot_slope_2=0"]
+    assert keeping.setup(decks.load(shot, curved)) != keeping.setup(decks.load(shot, straight))
+    assert keeping.setup(decks.load(shot, straight)) == keeping.setup(decks.load(shot, curved[:2]))
+
+
 def test_a_file_of_something_else_is_refused(study):
     study.keep.write_text("a,b\n1,2\n")
     with pytest.raises(StudyError, match="holds no rows of a study"):

@@ -56,6 +56,8 @@ def mirrored(text: str) -> str:
                 turned = [[t, -v] for t, v in value] if key.endswith("piston") else value
                 turned = -value if key.endswith("velocity") else turned
                 deck["boundaries"][low + key.removeprefix(high)] = turned
+    for key in [key for key in deck["boundaries"] if key.endswith("_axial")]:
+        deck["boundaries"][key] *= -1.0
     for source in deck.get("source", ()):
         if "axial" in source:
             source["axial"] *= -1.0

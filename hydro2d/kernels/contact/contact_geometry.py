@@ -14,6 +14,7 @@ from math import sqrt
 from hydro2d.jit import point, serial, vertex_rows
 from hydro2d.kernels.column_ranges import outer_rows, union
 from hydro2d.physics.contact_faces import GAP, end_apertures, known, weights_beside
+from hydro2d.physics.edges import is_constrained
 from hydro2d.physics.traction import FILM, smoothstep
 
 #: rows of `line`: normal of the hard side in the unit square, its constant, hard share of the solids; slopes, down the hard
@@ -164,8 +165,8 @@ def face_apertures(j, w):
                     both = min(both, 1.0 - (h + s))
                 full_hard += 1 if h > 1.0 - GAP else 0
                 full_soft += 1 if s > 1.0 - GAP else 0
-        free_r = 0.0 if i == w.constrained[0] or i == w.constrained[1] else 1.0
-        free_z = 0.0 if j == w.constrained[2] or j == w.constrained[3] else 1.0
+        constrained_r, constrained_z = is_constrained(j, i, w.constrained)
+        free_r, free_z = 0.0 if constrained_r else 1.0, 0.0 if constrained_z else 1.0
         for way in range(3):
             n_r = free_r * ((hard_r if way != 2 else 0.0) + (soft_r if way != 1 else 0.0))
             n_z = free_z * ((hard_z if way != 2 else 0.0) + (soft_z if way != 1 else 0.0))

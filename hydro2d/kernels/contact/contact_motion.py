@@ -21,6 +21,7 @@ from hydro2d.physics.closure import stiff_density
 from hydro2d.physics.contact_faces import meeting, volume_rate
 from hydro2d.physics.contents import contains_group
 from hydro2d.physics.corner import corner, corner_force
+from hydro2d.physics.edges import is_constrained
 from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import strained_pressure
 from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
@@ -180,9 +181,10 @@ def contact_node_forces(j, w):
             if w.pushed.shape[0] > 0:
                 w.u[g, j, i] += w.pushed[0, g, j, i]
                 w.v[g, j, i] += w.pushed[1, g, j, i]
-            if i == w.constrained[0] or i == w.constrained[1]:
+            constrained_r, constrained_z = is_constrained(j, i, w.constrained)
+            if constrained_r:
                 w.u[g, j, i] = 0.0
-            if j == w.constrained[2] or j == w.constrained[3]:
+            if constrained_z:
                 w.transfer[4, j] += w.mass[g, j, i] * w.v[g, j, i]
                 w.v[g, j, i] = 0.0
 

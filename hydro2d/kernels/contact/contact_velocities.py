@@ -12,6 +12,7 @@ from hydro2d.kernels.column_ranges import outer_rows
 from hydro2d.kernels.contact.contact_geometry import REACH, SHARE
 from hydro2d.kernels.contact.extension import SPAN, TIED
 from hydro2d.physics.corner import corner
+from hydro2d.physics.edges import is_constrained
 from hydro2d.physics.stress import normal_pressure
 
 #: share of the mismatch down to which the ties are solved, and the largest number of steps
@@ -34,12 +35,6 @@ def master(n, g, j, i, x, where):
     if place == TIED:
         return 1 - g, j, i
     return g, j + place // SPAN - REACH, i + place % SPAN - REACH
-
-
-@point
-def is_constrained(j, i, constrained):
-    """Whether the axis or a wall constrains a vertex along r, and along z."""
-    return i == constrained[0] or i == constrained[1], j == constrained[2] or j == constrained[3]
 
 
 @point

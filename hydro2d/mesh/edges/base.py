@@ -13,8 +13,8 @@ EDGES = ("r_min", "r_max", "z_min", "z_max")
 IMAGES, COPIES = "images", "copies"
 #: flow through an edge: none; bodies leave and void comes in; bodies leave and the material next to the edge comes in
 NOTHING, OUT, BOTH_WAYS = "", "out", "both ways"
-#: forces on the vertices of an edge from beyond: none, the dashpots of an endless plate, or a contact that only pushes
-FREE, DASHPOTS, PUSH = "", "dashpots", "push"
+#: forces on the vertices of an edge from beyond: none, those of an endless plate, a contact that only pushes, or a pressure
+FREE, DASHPOTS, PUSH, PRESSURE = "", "dashpots", "push", "pressure"
 
 
 class Edge:
@@ -22,7 +22,11 @@ class Edge:
 
     Parameters
     ----------
-    values : of its keys in the deck, in SI, by their names
+    values : of its keys in the deck, in SI, by their names; None for a key that the deck leaves out
+
+    Attributes
+    ----------
+    place : str, which of `EDGES` it is
     """
 
     #: its word in decks, the edges that may be of this kind, its meaning, and its keys: boundaries.EDGE_NAME for each
@@ -37,7 +41,7 @@ class Edge:
     sink_meaning: ClassVar[str] = ""
 
     def __init__(self, **values: Any):
-        self.values = values
+        self.values, self.place = values, ""
 
     @classmethod
     def ghost(cls) -> str:
@@ -51,7 +55,7 @@ class Edge:
 
     @classmethod
     def traction(cls) -> str:
-        """The forces on its vertices from beyond, FREE, DASHPOTS or PUSH."""
+        """The forces on its vertices from beyond, FREE, DASHPOTS, PUSH or PRESSURE."""
         return FREE
 
     def constrain(self, time: float) -> float | None:
@@ -62,6 +66,22 @@ class Edge:
     def constrains(cls) -> bool:
         """Whether the normal velocity of its vertices is given."""
         return cls.constrain is not Edge.constrain
+
+    def slide(self) -> float | None:
+        """The velocity of its vertices along it, m/s, towards higher z or r; None if they slip freely."""
+        return None
+
+    def pressure(self, time: float) -> float:
+        """The pressure from beyond on what lies at it, at a time in s, in Pa."""
+        return 0.0
+
+    def pressures(self) -> tuple[float, ...]:
+        """The pressures from beyond that it may have, Pa, including the least and the greatest."""
+        return ()
+
+    def presses(self) -> bool:
+        """Whether there ever is a pressure from beyond."""
+        return any(self.pressures())
 
     def fastest(self, start: float, end: float) -> float:
         """The largest speed that it prescribes from one time to another, s, in m/s; 0 if it prescribes none."""

@@ -13,10 +13,11 @@ class Outflow(Edge):
 
 
 class Transmit(Edge):
-    """Copies beyond it and dashpots on its vertices; the material next to it may come back."""
+    """Copies beyond it, and on its vertices what a body without end beyond would do; the material next to it may come back."""
 
     name = "transmit"
-    meaning = "the cut through an endless plate: it lets waves out and resists their pressure"
+    meaning = ("the cut through a body without end: it lets waves out, resists their pressure, and keeps the pressure and the "
+               "velocity with which the body starts; other bodies leave as through an open end")
     sink = "transmitted"
 
     @classmethod

@@ -6,12 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from hydro2d.mesh.edges.base import IMAGES, Edge
+from hydro2d.mesh.edges.held import Held
 from hydro2d.mesh.edges.outflow import Outflow, Transmit
 from hydro2d.mesh.edges.piston import Piston
+from hydro2d.mesh.edges.pressure import Pressure
 from hydro2d.mesh.edges.velocity import Velocity
 from hydro2d.mesh.edges.wall import Anvil, Axis, Wall
 
-KINDS: tuple[type[Edge], ...] = (Axis, Wall, Anvil, Outflow, Transmit, Velocity, Piston)
+KINDS: tuple[type[Edge], ...] = (Axis, Wall, Anvil, Held, Outflow, Transmit, Velocity, Piston, Pressure)
 
 BY_NAME = {kind.name: kind for kind in KINDS}
 
@@ -24,7 +26,9 @@ def words(edge: str) -> tuple[str, ...]:
 def made(edge: str, boundaries: Mapping[str, Any]) -> Edge:
     """The edge of this name that the table [boundaries] of a resolved deck describes."""
     kind = BY_NAME[boundaries[edge]]
-    return kind(**{key.name: boundaries[f"{edge}_{key.name}"] for key in kind.keys})
+    result = kind(**{key.name: boundaries[f"{edge}_{key.name}"] for key in kind.keys})
+    result.place = edge
+    return result
 
 
 def halved(geometry: str, r_start: float, r_min: str) -> bool:

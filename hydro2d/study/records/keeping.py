@@ -45,6 +45,9 @@ RESULTS = ("status", "stop_reason", "trustworthy", "depth_m", "length_ratio", "r
            "residual_velocity_m_s", "regime", "hole_m3", "energy_dropped", "time_s", "cycles", "wall_s")  # fmt: skip
 ORIGIN = (SETUP, OF_METHOD, "commit", "date")
 
+#: parameters of materials that are later than the first kept rows, with the values at which they change nothing
+LATER = {"hugoniot_slope_2": 0.0, "hugoniot_slope_3": 0.0}
+
 Row = dict[str, str]
 
 
@@ -67,13 +70,21 @@ class KeptRow(Row):
 def setup(deck: decks.Deck) -> str:
     """A hash of everything in a deck that can change its results, without keys that have their default values.
 
-    Titles, outputs, tracers and the experiment are left out. A new key of a later version leaves the hash alone.
+    Titles, outputs, tracers and the experiment are left out. A new key of a later version leaves the hash alone, as does a new
+    parameter of a material that is in LATER.
     """
     data = deck.model_dump(mode="json", exclude=set(TOLD), exclude_defaults=True)
-    materials = {name: {key: value for key, value in material.as_deck().items() if key != "title"}
+    materials = {name: {key: _without_later(value) for key, value in material.as_deck().items() if key != "title"}
                  for name, material in deck.materials.items()}  # fmt: skip
     text = json.dumps(data | {"materials": materials}, sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:LETTERS]
+
+
+def _without_later(part):
+    """A part of a material without parameters that are in LATER and change nothing."""
+    if not isinstance(part, dict):
+        return part
+    return {key: value for key, value in part.items() if not (key in LATER and value == LATER[key])}
 
 
 @dataclass(frozen=True)
