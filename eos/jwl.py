@@ -2,7 +2,7 @@
 
 With V = rho0/rho, mu = rho/rho0 - 1, E = rho0 e the energy per initial volume, and the burn fraction F,
 
-    p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),
+    p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),   1 - F/0.01, at least 0, instead of 1 - F where mu < 0,
     p_JWL = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V.
 
 The unreacted solid at rest has the energy of the detonation, e0 = E0/rho0; the products have that energy less the work they
@@ -24,6 +24,7 @@ NAME = "jwl"
 ID = 6
 EQUATION = """\
 p = (1 - F) rho0 c0^2 mu + F p_JWL(V, E),  V = rho0/rho,  mu = 1/V - 1,  E = rho0 e
+where mu < 0, max(1 - F/0.01, 0) instead of 1 - F: what has begun to burn bears no tension
 p_JWL = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V
 F = max(F, 0.64 + (t - t_light)/t_burn, beta (1 - V)/(1 - V_CJ)) up to 1
 T = (1 - F) (T0 + (e - E0/rho0)/cv) + F (E - A/R1 exp(-R1 V) - B/R2 exp(-R2 V))/(rho0 cv)"""
@@ -64,6 +65,8 @@ SPENT = 1.0, NEVER, 1.0
 #: indices of the internal variables
 BURNT, LIGHT, BURN_TIME = range(3)
 
+#: burn fraction from which on the unreacted solid bears no tension
+BROKEN = 0.01
 #: share of the burn time before the light time, at which the detonation reaches the middle of a cell: half of the explosive has
 #: then burnt up to half a cell ahead of the detonation, and half of the pressure is reached as far behind it (0.7 of a cell
 #: along a diagonal of the mesh); see explanation/explosives
@@ -97,11 +100,12 @@ def evaluate(rho, e, internal, par):
     """
     burnt = internal[BURNT]
     solid = 1.0 - burnt
+    bearing = solid if rho > par[RHO0] else max(1.0 - burnt / BROKEN, 0.0)
     p, dpdrho, dpde, cold = products(rho, e, par)
     stiffness = par[C0_SQUARED]
     hot = e - cold / par[RHO0]
     T = solid * max(par[T0] + (e - par[E0]) * par[HEAT], 0.0) + burnt * max(hot * par[HEAT], 0.0)
-    return (solid * stiffness * (rho - par[RHO0]) + burnt * p, solid * stiffness + burnt * dpdrho, burnt * dpde, T)
+    return (bearing * stiffness * (rho - par[RHO0]) + burnt * p, bearing * stiffness + burnt * dpdrho, burnt * dpde, T)
 
 
 @point

@@ -75,10 +75,16 @@ TEMPERATURE_WITHIN = 0.25
 
 @point
 def cold(mu, par):
-    """(A mu + B mu^2, its derivative to mu), Pa; along the tangent below TURN."""
+    """(A mu + B mu^2, its derivative to mu), Pa; below TURN it decays as the pull of the vapour does."""
     near = max(mu, par[TURN])
     slope = par[BULK] + 2.0 * par[SECOND] * near
-    return near * (par[BULK] + par[SECOND] * near) + slope * (mu - near), slope
+    p = near * (par[BULK] + par[SECOND] * near)
+    if mu < near:
+        x = max(1.0 + mu, THINNEST)
+        beyond = 1.0 / x - 1.0 / (1.0 + near)
+        p *= exp(-min((par[ALPHA] * beyond + par[BETA]) * beyond, FARTHEST))
+        slope = p * (2.0 * par[ALPHA] * beyond + par[BETA]) / (x * x)
+    return p, slope
 
 
 @point

@@ -5,4 +5,4 @@ on, and is kept with every result. A change of the method must update it: tests/
 Faster code and new features leave it alone.
 """
 
-METHOD = "2026-11-29.3"
+METHOD = "2026-11-29.4"

@@ -43,8 +43,8 @@ from hydro2d.kernels.thermodynamics import pressures_row, viscosity_row
 from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, RECORD, TENSILE
 from hydro2d.mesh.fields import BY_TENSION, DMG, RHO, E
 from hydro2d.mesh.grid import VOL_R
-from hydro2d.physics.closure import NO_VOID, relaxation_bound, relaxation_strain, softness
-from hydro2d.physics.contents import is_beside_gas, normal_deviator
+from hydro2d.physics.closure import NO_VOID, own_work, relaxation_bound, relaxation_strain, softness, stiffness
+from hydro2d.physics.contents import normal_deviator
 from hydro2d.physics.corner import filter_power
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import velocity_gradient
@@ -172,18 +172,30 @@ def heat_of_ties(j, i, g, w):
 
 
 @point
-def soften(j, i, w):
-    """(1 over the sum of the bodies' shares in a change of volume, their mean pressure) (explanation/mixed-cells, equation 2).
+def mean_pressure(j, i, w):
+    """Pressure of a cell, the mean of its bodies' by volume (explanation/mixed-cells, equation 7), before the step, Pa."""
+    pressure = 0.0
+    for m in range(w.vof.shape[0]):
+        pressure += w.vof[m, j, i] * w.pm[m, j, i] if w.vof[m, j, i] > 0.0 else 0.0
+    return pressure
+
+
+@point
+def soften(j, i, pressure, w):
+    """(1 over the sum of the bodies' shares in a change of volume, the pressure to which they relax) (explanation/mixed-cells,
+    equation 2).
+
+    pressure : of the cell, Pa
 
     Writes   mix [j, SOFT, m], a body's share, not yet over their sum
     """
-    compliance, mean_p = 0.0, 0.0
+    compliance, target = 0.0, 0.0
     for m in range(w.vof.shape[0]):
-        w.mix[j, SOFT, m] = softness(w.vof[m, j, i], w.km[m, j, i], w.tipton)
+        w.mix[j, SOFT, m] = softness(w.vof[m, j, i], stiffness(w.km[m, j, i], pressure), w.tipton)
         compliance += w.mix[j, SOFT, m]
-        mean_p += w.mix[j, SOFT, m] * w.pm[m, j, i]
+        target += w.mix[j, SOFT, m] * w.pm[m, j, i]
     inverse = 1.0 / compliance
-    return inverse, mean_p * inverse
+    return inverse, target * inverse
 
 
 @point
@@ -203,77 +215,49 @@ def heat_of_filter(j, i, w):
 
 
 @point
-def pressure_rise(j, i, w):
-    """Rise of the pressure of a cell up to the middle of the step."""
-    before = 0.0
-    for m in range(w.vof.shape[0]):
-        before += w.vof[m, j, i] * w.pm[m, j, i] if w.vof[m, j, i] > 0.0 else 0.0
-    return w.ph[j, i] - before
-
-
-@point
-def work_beside_gas(j, i, volume, change, inverse, work, target, relaxed, w):
-    """Work in a cell that a gas shares with stiffer bodies: of each body's own pressure on its own change of volume, the rest
-    by mass (explanation/mixed-cells, equation 6).
-
-    change is that of the volume, work that of pressure and viscosity on the cell, and relaxed the share of a
-    body's excess pressure over the target that it loses.
-
-    Reads    mix [j, SOFT, m]; ph [j, i]
-    Updates  mix [j, HEAT, m], then all of the work on a body
-    """
-    rise = pressure_rise(j, i, w)
-    mass, left = 0.0, work
-    for m in range(w.vof.shape[0]):
-        f = w.vof[m, j, i]
-        if f > 0.0:
-            mass += w.q[RHO, m, j, i] * f * volume
-            own = (w.pm[m, j, i] + rise) * w.mix[j, SOFT, m] * inverse * change
-            excess = w.pm[m, j, i] - target
-            own += (w.pm[m, j, i] - 0.5 * relaxed * excess) * relaxed * f * volume * excess / w.km[m, j, i]
-            w.mix[j, HEAT, m] -= own
-            left += own
-    for m in range(w.vof.shape[0]):
-        if w.vof[m, j, i] > 0.0:
-            w.mix[j, HEAT, m] += w.q[RHO, m, j, i] * w.vof[m, j, i] * volume / mass * left
-
-
-@point
-def fill_cell(j, i, change, volume, work_p, work_q, w):
-    """Volumes, densities and energies after the step in a cell that bodies of one group fill: changes by compressibility, then
+def fill_cell(j, i, change, volume, work, w):
+    """Volumes, densities and energies after the step in a cell that fluids of one group fill: changes by compressibility, then
     relaxation of the pressures.
 
-    work_p is the work of the pressure on the cell, work_q that of the viscosity.
+    Each body takes the work of its own pressure on its own change of volume, and the rest of the cell's work (`work`, of
+    pressure and viscosity) is shared by mass (explanation/mixed-cells, equation 6).
 
-    Reads    ph, solid [j, i]; mix [j, HEAT, m]
+    Reads    mix [j, HEAT, m]
     Updates  vof [m, j, i] (share of the volume after the step), q (rho, e) [k, m, j, i]
     """
-    inverse, mean_p = soften(j, i, w)
+    # Step 1: the shares in the change of volume, and the pressure to which all relax
+    pressure = mean_pressure(j, i, w)
+    inverse, target = soften(j, i, pressure, w)
+    relaxation = w.relaxation if w.tipton else 0.0
     bound = 1.0
     for m in range(w.vof.shape[0]):
-        if w.vof[m, j, i] > 0.0 and w.tipton:
-            bound = min(bound, relaxation_bound(relaxation_strain(w.relaxation, w.pm[m, j, i], mean_p, w.km[m, j, i])))
-    gas = is_beside_gas(j, i, w.gases, w.vof)
-    if gas:
-        relaxed = bound * w.relaxation if w.tipton else 0.0
-        work_beside_gas(j, i, volume, change, inverse, work_p + work_q, mean_p, relaxed, w)
+        if w.vof[m, j, i] > 0.0:
+            modulus = stiffness(w.km[m, j, i], pressure)
+            bound = min(bound, relaxation_bound(relaxation_strain(relaxation, w.pm[m, j, i], target, modulus)))
+    # Step 2: volumes, and the work of each body on its own
     after = volume + change
+    mass, left = 0.0, work
     for m in range(w.vof.shape[0]):
         f = w.vof[m, j, i]
         if f == 0.0:
             continue
-        mass = w.q[RHO, m, j, i] * f * volume
-        shift = bound * f * w.relaxation * (w.pm[m, j, i] - mean_p) / w.km[m, j, i] * volume if w.tipton else 0.0
-        filled = f * volume + w.mix[j, SOFT, m] * inverse * change + shift
-        filled = max(filled, 0.5 * f * volume)
-        w.q[RHO, m, j, i] = mass / filled if filled != f * volume else w.q[RHO, m, j, i]
-        w.vof[m, j, i] = filled / after if filled != f * volume or change != 0.0 else f
-        if gas:
-            w.q[E, m, j, i] += w.mix[j, HEAT, m] / mass
-            continue
-        rubbed = f / w.solid[j, i] * (work_q + w.motion[j, w.group[m], HOURGLASS])
-        gained = w.mix[j, SOFT, m] * inverse * work_p + rubbed + w.mix[j, HEAT, m]
-        w.q[E, m, j, i] += (gained - mean_p * shift) / mass
+        modulus = stiffness(w.km[m, j, i], pressure)
+        shared = w.mix[j, SOFT, m] * inverse * change / (f * volume)
+        relaxed = relaxation_strain(bound * relaxation, w.pm[m, j, i], target, modulus)
+        strain = max(shared + relaxed, -0.5)
+        own_mass = w.q[RHO, m, j, i] * f * volume
+        done = own_work(w.pm[m, j, i], w.km[m, j, i], strain) * f * volume
+        mass += own_mass
+        left += done
+        w.mix[j, HEAT, m] -= done
+        filled = (1.0 + strain) * f * volume
+        w.q[RHO, m, j, i] = own_mass / filled if strain != 0.0 else w.q[RHO, m, j, i]
+        w.vof[m, j, i] = filled / after if strain != 0.0 or change != 0.0 else f
+    # Step 3: energies; the mass of a body has not changed
+    for m in range(w.vof.shape[0]):
+        if w.vof[m, j, i] > 0.0:
+            own_mass = w.q[RHO, m, j, i] * w.vof[m, j, i] * after
+            w.q[E, m, j, i] += w.mix[j, HEAT, m] / own_mass + left / mass
 
 
 @cell_rows
@@ -281,11 +265,10 @@ def deform_mixed(j, w):
     """The Lagrangian step of the bodies in mixed cells.
 
     Fluids that fill a cell together share its change of volume by compressibility, w_m = R_m/Rbar with R_m = f_m/K_m. Their
-    pressures then relax, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar. Pressure work is shared by w_m, viscous
-    and hourglass work by volume fraction (in a cut cell and beside a gas `heat_of_filter`); deviatoric work goes to the body
-    whose stress did it. In a cell with a gas, work is shared as in `work_beside_gas` (explanation/mixed-cells). All bodies are
-    treated so with `uniform`, and in the hard zone of a slip layer. Cut cells follow from the traction:
-    `strain_bodies_across`, `fill_cut_cell`.
+    pressures then relax, df_m = gamma R_m (p_m - pbar), with pbar = sum R_m p_m/Rbar. Each body takes the work of its own
+    pressure; the rest of the work of pressure, viscosity and the hourglass filter is shared by mass, and deviatoric work goes
+    to the body whose stress did it (`fill_cell`, explanation/mixed-cells). All bodies are treated so with `uniform`, and in the
+    hard zone of a slip layer. Cut cells follow from the traction: `strain_bodies_across`, `fill_cut_cell`.
     Strength is by strength_mode, see STRENGTH_MODES; every body moves with its group. In contact-interface cells pressure and
     viscosity do the work of the common change of volume, and each body has its own strength where two groups meet.
 
@@ -323,8 +306,7 @@ def deform_mixed(j, w):
             if w.cell_mass[g, j, i] > 0.0:
                 heat_of_ties(j, i, g, w)
         heat_of_holding(j, i, w)
-        if cut or is_beside_gas(j, i, w.gases, w.vof):
-            heat_of_filter(j, i, w)
+        heat_of_filter(j, i, w)
         cell_yield = strain_deviators(j, i, w.dt / volume, w)
         if cut:
             target = strain_bodies_across(j, i, own, cell_yield, change / volume, w)
@@ -332,5 +314,5 @@ def deform_mixed(j, w):
         if cut:
             fill_cut_cell(j, i, change, volume, target, work_p + work_q, w)
         else:
-            fill_cell(j, i, change, volume, work_p, work_q, w)
+            fill_cell(j, i, change, volume, work_p + work_q, w)
         push_bodies(j, i, w)

@@ -27,6 +27,7 @@ OF_THE_CALL = (
     Work("opens_high", "", "whether the high edge of a sweep is open and the active box has reached it", bool),
     Work("anew", "", "whether bodies are looked for in all columns, not only around their last ones", bool),
     Work("speed_limit", "", "limit of the speed of under-filled vertices, m/s"),
+    Work("sound_floor", "", "least square of the speed of sound, m^2/s^2"),
 )
 
 #: the mesh, its edges, and forces of sources

@@ -45,7 +45,7 @@ from hydro2d.physics.viscosity import (
 from hydro2d.physics.waves import step_limits
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
-#: least square of the speed of sound, (m/s)^2
+#: least square of the speed of sound in an elastic energy, (m/s)^2
 SOUND_FLOOR = 1.0
 
 
@@ -199,9 +199,9 @@ def pressures_row(j, b, w):
         first, number = columns(w.body_range[m, j, 0], w.body_range[m, j, 1])
         for attempt in range(2):
             if model in WITH_MEMORY:
-                pressure_row_with_memory(model, par, SOUND_FLOOR, m, j, memory, first, number, w.vof, w.q, w.pm, w.km)
+                pressure_row_with_memory(model, par, w.sound_floor, m, j, memory, first, number, w.vof, w.q, w.pm, w.km)
             else:
-                pressure_row(model, par, SOUND_FLOOR, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
+                pressure_row(model, par, w.sound_floor, first, number, f_j, r_j, e_j, d_j, pm_j, km_j)
             if attempt == 0 and w.materials[m, MOST_STRESS] < inf:
                 fail_row(m, j, w)
             fractured = 0
@@ -407,18 +407,22 @@ def elastic_energy(m, j, i, shear, model, memory, par, q):
 
 
 @serial
-def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, shear, warm, chill, model, memory, par, vof, q,
-                   worst):
-    """Cells in which the energy of body m is farthest above and below the range that it can reach there, those at 0 K included.
+def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, shear, warm, chill, model, memory, par, volume,
+                   vof, q, worst):
+    """Cells in which the energy of body m is farthest above and below the range that it can reach there, those at 0 K included,
+    and how much lies beyond the range in all cells.
 
     Cells filled by less than `sliver` do not count. The elastic energy of a cell's own stress, with the shear modulus `shear`
     in Pa, does not count as heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
 
-    Reads    vof [m, j, i]; q [k, m, j, i]
-    Writes   worst [2, 3], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column
+    Reads    volume [j, i]; vof [m, j, i]; q [k, m, j, i]
+    Writes   worst [2, 5], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column; of all cells
+             beyond it: that energy, J per radian, and their mass of the body, kg per radian
     """
     for side in range(2):
         worst[side, 0] = -1e300
+        worst[side, 3] = 0.0
+        worst[side, 4] = 0.0
     for j in range(g, g + nz):
         for i in range(g, g + nr):
             if vof[m, j, i] < sliver:
@@ -433,6 +437,10 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
             for side in range(2):
                 beyond = cold if side else hot
                 beyond = beyond if beyond == beyond else 1e300
+                if beyond > 0.0:
+                    mass = q[RHO, m, j, i] * vof[m, j, i] * volume[j, i]
+                    worst[side, 3] += beyond * mass
+                    worst[side, 4] += mass
                 if beyond > worst[side, 0]:
                     worst[side, 0] = beyond
                     worst[side, 1] = j

@@ -197,16 +197,17 @@ def edge_course(di, first, last, at, entering, advance, columns, r, z, zc, dz, f
 
 @serial
 def body_course(g, nz, nr, cylindrical, m, middle, width, zc, dr, dz, cm_out, volume, vof, rho, centroid, u, v, sums):
-    """Mass of body m, its first moments and momenta along r and z, and sums of mass times cell size along r and z.
+    """Mass of body m, its first moments and momenta along r and z, sums of mass times cell size along r and z, its mass in
+    cells that it does not fill, and its volume.
 
     A body's place in a cell is its centroid; along r that is the offset in r^2/2 (in planar geometry r). There it moves with
     the interpolated velocity of the vertices; in the middle of a cell that is their mean, weighted by corner masses.
 
     Reads    middle [i], r^2/2 (planar: r) in the middle of a column, width [i], how much it changes across it; volume [j, i];
              vof, rho [m, j, i]; centroid [2, m, j, i]; u, v [j-1/2, i-1/2] of the body's group
-    Writes   sums [7]
+    Writes   sums [9]
     """
-    for k in range(7):
+    for k in range(9):
         sums[k] = 0.0
     for j in range(g, g + nz):
         for i in range(g, g + nr):
@@ -223,3 +224,5 @@ def body_course(g, nz, nr, cylindrical, m, middle, width, zc, dr, dz, cm_out, vo
             sums[4] += mass * between(v, j, i, outer, upper)
             sums[5] += mass * dr[i]
             sums[6] += mass * dz[j]
+            sums[7] += mass if vof[m, j, i] < 1.0 else 0.0
+            sums[8] += vof[m, j, i] * volume[j, i]

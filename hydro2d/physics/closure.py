@@ -31,6 +31,15 @@ def softness(f, modulus, tipton):
 
 
 @point
+def stiffness(modulus, pressure):
+    """Adiabatic bulk modulus of a fluid, Pa, at least the pressure of its cell: at that pressure no gas is softer.
+
+    explanation/mixed-cells, equation 2.
+    """
+    return max(modulus, pressure)
+
+
+@point
 def relaxation_strain(relaxation, p, target, modulus):
     """Relative change of a body's volume that moves its pressure towards the target by the share `relaxation`.
 
@@ -43,3 +52,12 @@ def relaxation_strain(relaxation, p, target, modulus):
 def relaxation_bound(strain):
     """Factor that keeps a relative change of volume by relaxation within a tenth (explanation/mixed-cells, equation 4)."""
     return 0.1 / max(abs(strain), 0.1)
+
+
+@point
+def own_work(p, modulus, strain):
+    """Work of a body's own pressure on a relative change of its volume, per its volume, J/m^3: p in the middle of the change.
+
+    explanation/mixed-cells, equation 6.
+    """
+    return (p - 0.5 * modulus * strain) * strain

@@ -84,6 +84,6 @@ def _fits(key: str, value, table: str) -> bool:
         return is_number
     if key in WORDS:
         return isinstance(value, str)
-    if key == "faults":
+    if key in ("faults", "notes"):
         return isinstance(value, list) and all(isinstance(each, str) for each in value)
     return key not in YES_OR_NO or isinstance(value, bool)

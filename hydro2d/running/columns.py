@@ -47,6 +47,7 @@ SUMMARY: dict[str, str] = {
     "stop_reason": "why the run ended",
     "trustworthy": "whether the state at the end has no faults",
     "faults": "the faults of that state, in sentences",
+    "notes": "what was beyond a bound and decides nothing, in sentences with the reason",
     "time_s": "time at the end",
     "cycles": "number of cycles",
     "wall_s": "wall-clock time of the run",

@@ -314,6 +314,7 @@ def result(summary: dict, theory: Sequence[str] = ()) -> list[str]:
     lines = [
         _how_it_ended(summary),
         *(f"NOT TRUSTWORTHY: {fault}" for fault in summary["faults"] if fault not in summary["stop_reason"]),
+        *(f"note: {note}" for note in summary.get("notes") or ()),
         _costs(summary),
     ]
     if summary["penetration_depth_m"] is not None:

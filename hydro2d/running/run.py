@@ -412,6 +412,7 @@ class Run:
             "stop_reason": reason,
             "trustworthy": not faults,
             "faults": faults,
+            "notes": sim.notes(),
             "time_s": sim.time,
             "cycles": sim.cycle,
             "wall_s": self.wall,

@@ -13,12 +13,18 @@ import numpy as np
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.grid import FACE_R
+from hydro2d.solver.doubt import Doubt
 
 #: cells by which the centre of mass of a body may be off, and the share of its way, the larger of both
 PARTED, PARTED_OF_WAY = 0.1, 0.02
+#: share of the mass of a body in cells that it does not fill from which it is a film or a spray, and times its specific volume
+#: at the start from which it is a cloud
+FILM, CLOUD = 0.5, 10.0
+FILM_SAID = "most of its mass is in cells that it does not fill"
+CLOUD_SAID = f"it has more than {CLOUD:g} times the volume of the start"
 AXES = "r", "z"
 #: attributes of `Courses` in a restart file
-KEPT = ("_start", "_moved", "_momentum", "_way", "_whole", "apart")
+KEPT = ("_start", "_moved", "_momentum", "_way", "_whole", "_thick", "_film", "_cloud", "_specific", "apart")
 
 
 class Courses:
@@ -37,6 +43,11 @@ class Courses:
     ----------
     apart : float64[m, 2], offset of the centre of mass along r and z, in cells of the mean size where the body is; of all the
         mass of the body that has been in the mesh
+    film, cloud : bool[m], which bodies have become a film or a spray, and a cloud
+
+    A body that began with most of its mass in cells that it fills, and has less than half of it there, has become a film or a
+    spray, and one with ten times its volume a cloud, for good: its place is that of its slivers, or of all that it has met, and
+    no depth or velocity of a projectile follows from it.
     """
 
     def __init__(self, state):
@@ -45,12 +56,14 @@ class Courses:
         inner, outer = grid.r[:-1], grid.r[1:]
         self._middle = 0.25 * (inner**2 + outer**2) if grid.cylindrical else grid.rc
         self._columns = np.sqrt(2.0 * self._middle) if grid.cylindrical else grid.rc
-        self._sums = np.zeros((n, 7))
+        self._sums = np.zeros((n, 9))
         self._shape = g, grid.nz, grid.nr, grid.cylindrical
         self._last = 0.0
         self._momentum = np.zeros((n, 2))
         self._start, self._moved, self._way, self.apart = (np.zeros((n, 2)) for _ in range(4))
         self._whole, self._begun = np.zeros(n), False
+        self._thick, self._film, self._cloud = (np.zeros(n, dtype=bool) for _ in range(3))
+        self.film, self.cloud, self._specific = self._film, self._cloud, np.zeros(n)
 
     def crossed(self, di: int, side: int, first: int, last: int, advance: float) -> None:
         """Books the material that crossed an edge of the mesh in a sweep, from place `first` to `last` along the edge.
@@ -74,8 +87,11 @@ class Courses:
             sums.body_course(*self._shape, m, self._middle, grid.vol_r, grid.zc, grid.dr, grid.dz, grid.cm_out,
                              grid.volume, s.vof, s.rho, s.centroid, s.u[b], s.v[b], self._sums[m])
         mass, moment, momentum, sizes = self._sums[:, :1], self._sums[:, 1:3], self._sums[:, 3:5], self._sums[:, 5:7]
+        shared = self._sums[:, 7] > FILM * mass[:, 0]
+        specific = np.divide(self._sums[:, 8], mass[:, 0], out=np.zeros(s.bodies), where=mass[:, 0] > 0.0)
         if not self._begun:
             self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
+            self._thick, self._specific = ~shared, specific
         else:
             step = 0.5 * (time - self._last) * (self._momentum + momentum)
             moved = self._moved + step
@@ -83,19 +99,22 @@ class Courses:
             way = self._way + np.divide(np.abs(step), sizes, out=np.zeros_like(step), where=there)
             scale = self._whole[:, None] * np.divide(sizes, mass, out=np.ones_like(sizes), where=there)
             np.divide(moment - self._start - moved, scale, out=self.apart, where=there)
+            self.film = self._film | (self._thick & shared)
+            self.cloud = self._cloud | (specific > CLOUD * self._specific)
             if not keep:
                 return
-            self._moved, self._way = moved, way
+            self._moved, self._way, self._film, self._cloud = moved, way, self.film, self.cloud
         self._last, self._momentum = time, momentum.copy()
 
-    def parted(self, names) -> Iterator[tuple[str, str]]:
-        """(what, sentence) for each body that is too far off its course."""
+    def parted(self, names) -> Iterator[Doubt]:
+        """A doubt for each body that is too far off its course, a note if it has become a film, a spray or a cloud."""
         for m, name in enumerate(names):
             for axis, off, way in zip(AXES, self.apart[m].tolist(), self._way[m].tolist(), strict=True):
                 if abs(off) > max(PARTED, PARTED_OF_WAY * way):
-                    yield f"{name} off", (
+                    yield Doubt(f"{name} off", (
                         f'body "{name}" is {abs(off):.2g} cells {"ahead of" if off > 0.0 else "behind"} where its momentum has '
-                        f"taken its centre of mass along {axis}, after a way of {way:.3g} cells")
+                        f"taken its centre of mass along {axis}, after a way of {way:.3g} cells"),
+                        FILM_SAID if self.film[m] else CLOUD_SAID if self.cloud[m] else "")
 
     def saved(self) -> dict:
         """Data for a restart file."""

@@ -7,7 +7,7 @@ velocities, work and strain (the Lagrangian step); then the remap, one sweep per
 
 from __future__ import annotations
 
-from hydro2d.kernels import lagrangian_step, remap_step, thermodynamics
+from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
 from hydro2d.solver.audit import Audit
@@ -33,6 +33,7 @@ class Cycle:
     method : Method
     mesh : the motion of the mesh; without it the mesh is fixed
     sources : Sources; without them no energy is added
+    speed : with which bodies may meet, m/s (`reach.speed_of_all`)
 
     Attributes
     ----------
@@ -40,11 +41,12 @@ class Cycle:
     cause : str, the cause of the last time step, and its place
     active : ActiveBox, the cells that are active;  box : its rows and columns [j0, j1, i0, i1]
     rows : int64[n + 1], first row of each part of the box and one past the last (`row_parts`)
+    sound_floor : float, least square of the speed of sound, m^2/s^2
     sound_speeds : float64[m], bulk sound speed of every body at rest, m/s
     audit : Audit
     """
 
-    def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None):
+    def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None, speed: float = 0.0):
         self.state, self.table, self.method = state, table, method
         self.mesh, self.sources = mesh or FixedMesh(), sources or Sources((), state, table, [])
         self.grid = state.grid
@@ -54,7 +56,8 @@ class Cycle:
         self.edges, self.active = EdgeLines(method.boundaries, state.grid), ActiveBox(state, table, method.boundaries, skips)
         self.parts, self.courses = Parts(state), Courses(state)
         self.mesh_box, self.rows = self.active.mesh, self.active.rows
-        self.sound_speeds = table.sound_speeds(thermodynamics.SOUND_FLOOR)
+        self.sound_floor = time_step.sound_floor(speed, table.sound_speeds())
+        self.sound_speeds = table.sound_speeds(self.sound_floor)
         self.speed_limit = 0.0
         self.audit: Audit | None = None
         self.books, self.refusals, self.given = Books(self), Refusals(self), Given(self, table)
@@ -104,7 +107,7 @@ class Cycle:
             self.speed_limit = time_step.speed_limit(s, self.sound_speeds)
         else:
             self.active.box = every
-        self.given.handle.update(speed_limit=self.speed_limit, dt=self.dt)
+        self.given.handle.update(speed_limit=self.speed_limit, sound_floor=self.sound_floor, dt=self.dt)
         if not self.active.is_all:  # beyond the box nothing has a range yet
             s.empty_ranges()
             self._in_one_part(remap_step.find_bodies, anew=True)

@@ -177,6 +177,11 @@ def closing_speed(deck, grid) -> float:
     return float(max([*between, *(max(each) - min(each) for each in along if each)], default=0.0))
 
 
+def speed_of_all(deck, table, grid) -> float:
+    """The largest speed in a shot by its deck, m/s: the closing speed, and that of the body that expands fastest."""
+    return closing_speed(deck, grid) + math.sqrt(2.0 * max(released(one) for one in _hottest(deck, table)))
+
+
 def _stands(deck) -> bool:
     """Whether there is an edge across z that bodies can meet: a wall, an anvil, dashpots, or one with its own velocity."""
     return any(edge.constrains() or edge.traction() != FREE for edge in _edges(deck)[2:])

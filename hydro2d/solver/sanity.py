@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hydro2d.solver.audit import CLIPS, REMEDIES, Audit, Totals, totals
+from hydro2d.solver.doubt import Doubt
 from hydro2d.solver.reach import MOST_STRAIN, Reach, drift
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
@@ -20,6 +21,8 @@ CLOSES = 1e-6
 TRUSTED = 0.02
 #: least energy in addition to that of the motion as a whole, as a share of it
 FLIGHT = 0.01
+#: shares of the energy of the shot and of the mass of a body: cells with less than both beyond their bounds decide nothing
+NOTED_ENERGY, NOTED_MASS = 1e-3, 1e-2
 #: cells of which a body fills less than this share are not checked individually
 SLIVER = 0.01
 #: multiple of the share of a clip that the remap of velocities may discard before that is a fault
@@ -72,14 +75,14 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
     return sentences
 
 
-def discards(audit: Audit, reach: Reach) -> Iterator[tuple[str, str]]:
-    """(what, sentence) if the remap of velocities has discarded more of the energy than a trusted run may lose.
+def discards(audit: Audit, reach: Reach) -> Iterator[Doubt]:
+    """A doubt if the remap of velocities has discarded more of the energy than a trusted run may lose.
 
     audit : of the run so far;  reach : bounds of the energies
     """
     share = audit.sinks["advection"].energy / _energy(audit, reach)[0]
     if share > TRUSTED:
-        yield "advection", _discarded(share, TRUSTED)
+        yield Doubt("advection", _discarded(share, TRUSTED))
 
 
 def _discarded(share: float, limit: float) -> str:
@@ -118,8 +121,8 @@ def _from(reach: Reach, m: int) -> str:
             f"{GAS_REMEDY if reach.gas[m] else ''}")
 
 
-def doubts(state, table, time: float, reach: Reach, given: np.ndarray) -> Iterator[tuple[str, str]]:
-    """(what, sentence) for each body that is hotter or colder in a cell than it can become.
+def doubts(state, table, time: float, reach: Reach, given: np.ndarray, audit: Audit) -> Iterator[Doubt]:
+    """A doubt for each body that is hotter or colder in a cell than it can become, a note if little of it is.
 
     Parameters
     ----------
@@ -128,23 +131,32 @@ def doubts(state, table, time: float, reach: Reach, given: np.ndarray) -> Iterat
     time : since the start, s
     reach : bounds of the energies
     given : the most energy that sources and the work of edges have given to a cell of each body, J/kg, float64[m]
+    audit : of the run so far
     """
     from hydro2d.kernels.thermodynamics import worst_energies  # no model can be added after this import
 
-    grid, worst = state.grid, np.zeros((2, 3))
+    grid, worst = state.grid, np.zeros((2, 5))
     for m, name in enumerate(table.names):
         high = reach.cell_highest[m] + reach.friction_heating[m] * time + given[m]
         worst_energies(grid.g, grid.nz, grid.nr, m, SLIVER, reach.cell_lowest[m], high, reach.plastic[m], MOST_STRAIN,
                        reach.shear[m], reach.warm[m], reach.chill[m], table.eos_model[m], table.memory[m], table.eos_par[m],
-                       state.vof, state.q, worst)
-        for what, (beyond, j, i) in zip(("hot", "cold"), worst.tolist(), strict=True):
+                       grid.volume, state.vof, state.q, worst)
+        for what, (beyond, j, i, energy, mass) in zip(("hot", "cold"), worst.tolist(), strict=True):
             if beyond > 0.0:
                 j, i = int(j) - grid.g, int(i) - grid.g
                 e, strain = grid.interior(state.e)[m, j, i], grid.interior(state.ep)[m, j, i]
                 most = high + reach.plastic[m] * min(strain, MOST_STRAIN)
-                yield f"{name} {what}", (
+                yield Doubt(f"{name} {what}", (
                     f'body "{name}" is too {what} with {e:.3g} J/kg in the cell {_place(grid, j, i)}, in which it can reach '
-                    f"{reach.cell_lowest[m]:.3g} to {most:.3g} J/kg and no temperature of zero, {_from(reach, m)}")
+                    f"{reach.cell_lowest[m]:.3g} to {most:.3g} J/kg and no temperature of zero, {_from(reach, m)}"),
+                    _harmless(energy / _energy(audit, reach)[0], mass / audit.start.mass[m]))
+
+
+def _harmless(energy: float, mass: float) -> str:
+    """Why cells beyond their bounds decide nothing, from their shares of the energy of the shot and of the mass of a body;
+    empty if they may."""
+    few = energy <= NOTED_ENERGY and mass <= NOTED_MASS
+    return f"such cells have {100 * mass:.2g} % of its mass, and {energy:.1g} of the energy of the shot too much" if few else ""
 
 
 def _least_energy(state, m: int) -> str:

@@ -89,10 +89,12 @@ class Simulation:
         self.sources = Sources(deck.source, self.state, self.table, [slots.index(entry.body) for entry in deck.source])
         #: warnings of the sources about the deck on its mesh, one sentence each
         self.warnings = self.sources.begin()
-        self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method), self.sources)
+        speed = reach.speed_of_all(deck, self.table, self.grid)
+        self.engine = Cycle(self.state, self.table, method, self._mesh(slots, method), self.sources, speed)
         self.engine.prepare()
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)
         self._doubts: dict[str, str] = {}
+        self._notes: dict[str, str] = {}
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
@@ -382,13 +384,21 @@ class Simulation:
         """Reasons not to trust the run: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
 
+    def notes(self) -> list[str]:
+        """What was beyond a bound and decides nothing, with the reason, as `doubts`."""
+        return [sentence for what, sentence in self._notes.items() if what not in self._doubts]
+
     def refuse_nonsense(self) -> None:
-        """Raises UnphysicalState with the first fault of the state, if it has any, and records doubts."""
+        """Raises UnphysicalState with the first fault of the state, if it has any, and records doubts and notes."""
         self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
         given = self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
-        doubtful = doubts(self.state, self.table, self.time, self._reach, given)
-        for what, sentence in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
-            self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
+        doubtful = doubts(self.state, self.table, self.time, self._reach, given, self.audit)
+        for doubt in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
+            said = f"cycle {self.cycle}, time {self.time:.6g} s: {doubt.sentence}"
+            if doubt.harmless:
+                self._notes.setdefault(doubt.what, f"{said}; {doubt.harmless}")
+            else:
+                self._doubts.setdefault(doubt.what, said)
         if faults := self.faults(self.deck.numerics.clip_limit):
             raise UnphysicalState(f"cycle {self.cycle}, time {self.time:.6g} s: {faults[0]}")
 
@@ -467,6 +477,7 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
+                "notes": self._notes,
                 "audit": self.audit.saved(), "courses": e.courses.saved(), "sources": self.sources.saved(),
                 "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
@@ -479,7 +490,7 @@ class Simulation:
         if scalars["watch"]["body"] == self.deck.stop.body:  # else a different one is watched from here on
             self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])
-        self._doubts = dict(scalars["doubts"])
+        self._doubts, self._notes = dict(scalars["doubts"]), dict(scalars["notes"])
         e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
         e.courses.resume(scalars["courses"])
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, without sources, lack it

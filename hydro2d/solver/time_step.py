@@ -1,4 +1,4 @@
-"""The length of the next step and its cause; the speed limit of a vertex."""
+"""The length of the next step and its cause; the least speed of sound, and the speed limit of a vertex."""
 
 from __future__ import annotations
 
@@ -8,6 +8,17 @@ from hydro2d.physics import waves
 
 #: vertices may be this many times faster than the fastest body at the start, or than the slowest wave
 SPEED_LIMIT_FACTOR = 5.0
+#: least speed of sound as a share of the speeds of a shot, and the largest square of it, (m/s)^2
+SOUND_SHARE, SOUND_MOST = 1e-2, 1.0
+
+
+def sound_floor(speed: float, sound_speeds) -> float:
+    """Least square of the speed of sound, m^2/s^2: that of a hundredth of the speeds of a shot, at most that of 1 m/s.
+
+    speed : with which its bodies may meet, m/s, 0 if they are at rest;  sound_speeds : of the bodies at rest, m/s
+    """
+    scale = max(speed, float(sound_speeds.max()))
+    return min((SOUND_SHARE * scale) ** 2, SOUND_MOST) if scale > 0.0 else SOUND_MOST
 
 
 def speed_limit(state, sound_speeds) -> float:

@@ -94,14 +94,24 @@ def test_the_unreacted_solid():
 def test_partly_burnt_material_has_a_share_of_both_pressures(burnt):
     for volume, energy in ((0.73, 9.8e9), (1.0, 7e9), (7.0, 0.9e9)):
         result = jwl.evaluate(1630.0 / volume, energy / 1630.0, np.array([burnt, 0.0, 1.0]), ROW)[0]
+        share = 1.0 - burnt if volume < 1.0 or burnt == 0.0 else 0.0  # what has begun to burn bears no tension
         solid = 1630.0 * 2500.0**2 * (1.0 / volume - 1.0)
-        assert result == pytest.approx((1.0 - burnt) * solid + burnt * pressure(volume, energy), rel=1e-12)
+        assert result == pytest.approx(share * solid + burnt * pressure(volume, energy), rel=1e-12)
+
+
+def test_tension_ends_within_the_first_hundredth_that_burns():
+    def tension(burnt):
+        p = jwl.evaluate(1500.0, 1e6, np.array([burnt, 0.0, 1.0]), ROW)[0]
+        return p - burnt * jwl.products(1500.0, 1e6, ROW)[0]
+
+    assert tension(0.005) == pytest.approx(0.5 * tension(0.0))
+    assert tension(0.01) == pytest.approx(0.0, abs=1.0)
 
 
 @pytest.mark.parametrize("burnt", [0.3, 1.0])
 def test_the_derivatives_of_burning_material(burnt):
     internal = np.array([burnt, 0.0, 1.0])
-    for rho, e in ((2200.0, 6e6), (1630.0, 4.3e6), (300.0, 1e6), (2.0, 2e5)):
+    for rho, e in ((2200.0, 6e6), (1640.0, 4.3e6), (1620.0, 4.3e6), (300.0, 1e6), (2.0, 2e5)):
         _, dpdrho, dpde, _ = jwl.evaluate(rho, e, internal, ROW)
         low, high = (jwl.evaluate(rho * (1.0 + step), e, internal, ROW)[0] for step in (-1e-5, 1e-5))
         assert dpdrho == pytest.approx((high - low) / (2e-5 * rho), rel=1e-6)

@@ -101,23 +101,25 @@ def test_a_cell_that_is_pressed_together_sets_the_step():
 
 def test_energies_that_are_farthest_beyond_reach():
     """A body may have -2 to 40 J/kg and 10 more for every unit of plastic strain."""
-    cells, farthest = Cells(), np.zeros((2, 3))
+    cells, farthest = Cells(), np.zeros((2, 5))
     cells.vof[0, 3, 2:6] = 1.0, 1.0, 1.0, 0.001
     cells.q[E, 0, 3, 2:6], cells.q[EP, 0, 3, 2:6] = (45.0, 50.0, -5.0, 1e9), (0.0, 2.0, 0.0, 0.0)
     gas = ideal_gas
     given = {"m": 0, "sliver": 0.01, "lowest": -2.0, "highest": 40.0, "plastic": 10.0, "most_strain": 0.8, "model": gas.ID,
              "memory": INTERNAL, "shear": 0.0, "chill": 1.0,
              "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "worst": farthest}  # fmt: skip
-    cells.q[RHO, 0, 3, 2:6] = 1.0
+    cells.q[RHO, 0, 3, 2:6], given["volume"] = 1.0, np.full(cells.vof.shape[1:], 0.5)
     cells.call(thermodynamics.worst_energies, warm=False, **given)
     elastic = 45.0 * 0.4 / (2 * 1.4)  # p^2/(2 K rho) of the gas, p = 0.4 rho e and K = 1.4 p
-    assert farthest.tolist() == [[pytest.approx(5.0 - elastic), 3, 2], [3.0, 3, 4]]
+    assert farthest.tolist() == [[pytest.approx(5.0 - elastic), 3, 2, 0.0, 0.0], [3.0, 3, 4, 1.5, 0.5]]
     cells.call(thermodynamics.worst_energies, warm=True, **given)
-    assert farthest[1].tolist() == [5.0, 3, 4]  # it was warm at the start, and is at 0 K
+    assert farthest[1, :3].tolist() == [5.0, 3, 4]  # it was warm at the start, and is at 0 K
     cells.q[E, 0, 3, 4] = -0.9
     cells.call(thermodynamics.worst_energies, warm=True, **given)
     assert farthest[1, 0] <= 0.0  # at most by `chill`
     cells.q[SRR, 0, 3, 3], given["shear"], cells.q[E, 0, 3, 2] = 20.0, 4.0, 0.0
     cells.q[E, 0, 3, 3] = 70.0  # 22 beyond, of which the stress in the cell is worth 10 + 50
+    cells.call(thermodynamics.worst_energies, warm=True, **{**given, "shear": 4e9})
+    assert farthest[0, 3:].tolist() == pytest.approx([0.5 * (22.0 - 10.0), 0.5])
     cells.call(thermodynamics.worst_energies, warm=True, **given)
     assert farthest[0, 0] == pytest.approx(22.0 - 70.0 * 0.4 / (2 * 1.4) - 3 * 20.0**2 / (6 * 4.0))

@@ -10,6 +10,7 @@ from hydro2d.physics import closure
 
 stiff_density = closure.stiff_density.py_func
 softness = closure.softness.py_func
+own_work, stiffness = closure.own_work.py_func, closure.stiffness.py_func
 relaxation_strain = closure.relaxation_strain.py_func
 relaxation_bound = closure.relaxation_bound.py_func
 
@@ -108,3 +109,15 @@ def test_a_small_relaxation_is_not_bounded(strain):
 @pytest.mark.parametrize("strain", [0.2, 3.0, -0.2, -3.0])
 def test_a_large_relaxation_is_a_tenth(strain):
     assert abs(strain) * relaxation_bound(strain) == pytest.approx(0.1)
+
+
+@given(st.floats(1e5, 1e10), st.floats(-0.02, 0.02))
+def test_the_work_of_a_body_is_that_along_its_isentrope(p, strain):
+    """A gas of p V^1.4: right to the third order in the change of its volume."""
+    exact = p * (1.0 - (1.0 + strain) ** -0.4) / 0.4
+    assert own_work(p, 1.4 * p, strain) == pytest.approx(exact, rel=2.0 * strain**2, abs=1e-12 * p)
+
+
+@pytest.mark.parametrize(("modulus", "pressure", "found"), [(1.4e5, 1e5, 1.4e5), (1.4e5, 1e9, 1e9), (7e10, -1e9, 7e10)])
+def test_a_thin_gas_is_as_stiff_as_its_cell_presses(modulus, pressure, found):
+    assert stiffness(modulus, pressure) == found

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.mesh.fields import RHO
 from hydro2d.solver.courses import PARTED, PARTED_OF_WAY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, mesh, stop, table, walls
@@ -84,10 +85,47 @@ def test_how_far_a_body_may_be_off():
     courses.apart[0] = 0.99 * PARTED, -0.99 * PARTED
     assert list(courses.parted(["foil"])) == []
     courses.apart[0, 1] = -1.01 * PARTED
-    assert [sentence for _, sentence in courses.parted(["foil"])] == [
+    assert [doubt.sentence for doubt in courses.parted(["foil"])] == [
         'body "foil" is 0.1 cells behind where its momentum has taken its centre of mass along z, after a way of 0 cells']
     courses._way[0, 1] = 1.1 * PARTED / PARTED_OF_WAY
     assert list(courses.parted(["foil"])) == []
+
+
+def squeezed(part: float) -> Simulation:
+    """A plate of 1.2 mm on cells of 0.1 mm, of which `part` of the length of a cell stays in each."""
+    simulation = shot(PLAIN[1], walls("r_max"), box("plate", "Al5083", z=["1 mm", "2.2 mm"]))
+    courses, s = simulation.engine.courses, simulation.state
+    s.vof[0] *= part
+    s.q[RHO, 0] *= 0.5 / part
+    courses.look(0.0)
+    courses.apart[0] = PARTED + 1.0, 0.0
+    return simulation
+
+
+def test_the_course_of_a_film_or_a_cloud_decides_nothing():
+    """A body that fills no cell any more, and one that has ten times its volume of the start."""
+    (doubt,) = squeezed(1.0).engine.courses.parted(["plate"])
+    assert not doubt.harmless
+    (note,) = squeezed(0.5).engine.courses.parted(["plate"])
+    assert note.harmless == "most of its mass is in cells that it does not fill"
+    simulation = shot(PLAIN[1], walls("r_max"), box("plate", "Al5083", z=["1 mm", "2.2 mm"]))
+    courses = simulation.engine.courses
+    for factor, harmless in ((0.11, False), (0.09, True)):
+        rho = simulation.state.q[RHO, 0].copy()
+        simulation.state.q[RHO, 0] *= factor
+        courses.look(0.0, keep=False)
+        courses.apart[0] = PARTED + 1.0, 0.0
+        (said,) = courses.parted(["plate"])
+        assert bool(said.harmless) == harmless
+        simulation.state.q[RHO, 0] = rho
+
+
+def test_a_foil_is_judged_though_it_fills_no_cell():
+    courses = shot(PLAIN[0], foil()).engine.courses
+    courses.look(0.0)
+    courses.apart[0] = 0.0, PARTED + 1.0
+    (doubt,) = courses.parted(["foil"])
+    assert not doubt.harmless
 
 
 def test_a_restart_goes_on_with_the_course():

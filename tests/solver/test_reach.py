@@ -7,7 +7,7 @@ import pytest
 from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
 from hydro2d.solver.audit import totals
-from hydro2d.solver.sanity import doubts
+from hydro2d.solver.sanity import _harmless, doubts
 from hydro2d.solver.simulation import Simulation
 from strength import SHEAR
 from tests.decks import box, entry, mesh, plate, stop, table, walls
@@ -77,8 +77,8 @@ def test_a_body_beyond_its_reach_is_a_fault(body):
 
 
 def doubted(simulation):
-    return [sentence for _, sentence in doubts(simulation.state, simulation.table, simulation.time, simulation._reach,
-                                       simulation.sources.given)]
+    return [doubt.sentence for doubt in doubts(simulation.state, simulation.table, simulation.time, simulation._reach,
+                                               simulation.sources.given, simulation.audit)]
 
 
 @pytest.mark.parametrize("body", [0, 2])
@@ -162,7 +162,8 @@ def test_an_elastic_element_that_a_piston_squeezes_is_sound():
     assert work == pytest.approx(89e3, rel=0.05)
     s = simulation.state
     s.e[0, 8, 3] = 1.5 * (simulation._reach.cell_highest[0] + 3.0 * work)
-    assert len(list(doubts(s, simulation.table, simulation.time, simulation._reach, np.array([3.0 * work])))) == 1
+    assert len(list(doubts(s, simulation.table, simulation.time, simulation._reach, np.array([3.0 * work]),
+                           simulation.audit))) == 1
 
 
 #: two gases that a piston or a source presses, in a closed tube of 40 mm
@@ -226,6 +227,33 @@ def test_a_velocity_added_to_all_bodies_changes_no_verdict(by, open_ends):
     assert clipped[1] == clipped[0]
     meets = max(abs(by), abs(by + 1000.0), 1000.0)
     assert reach(*open_ends, *moved, "boundaries.z_max=anvil").speed == pytest.approx(meets, abs=5.0)
+
+
+@pytest.mark.parametrize(("energy", "mass", "harmless"), [(0.9e-3, 0.9e-2, True), (1.1e-3, 0.9e-2, False),
+                                                          (0.9e-3, 1.1e-2, False)])
+def test_a_little_of_a_body_beyond_its_bounds_is_a_note(energy, mass, harmless):
+    """By its shares of the energy of the shot and of the mass of its body, a thousandth and a hundredth."""
+    assert bool(_harmless(energy, mass)) == harmless
+
+
+def test_a_note_becomes_a_doubt_when_more_of_the_body_follows():
+    """One cell in 441 of a plate, 30 J/kg too hot, decides nothing; forty of them do."""
+    simulation = Simulation(decks.loads(
+        mesh(("10 mm", 21), ("12 mm", 24)) + box("plate", "Al5083", z=["1 mm", "11.5 mm"], velocity="20 m/s")
+        + box("other", "Al5083", z=["11.5 mm", "12 mm"], join="plate") + stop("1 us")))  # fmt: skip
+    s, most = simulation.state, simulation._reach.cell_highest[0]
+    energy, audit = s.e[0].copy(), simulation.audit
+    cells = np.argwhere(s.vof[0] == 1.0)
+    for few, shown in ((cells[:1], "notes"), (cells[:40], "doubts")):
+        s.e[0] = energy
+        for j, i in few:
+            s.e[0, j, i] = most + 30.0
+        audit.sinks["outflow"].energy = audit.start.energy - totals(s).energy
+        simulation.refuse_nonsense()
+        assert (bool(simulation.notes()), bool(simulation.doubts())) == (shown == "notes", shown == "doubts")
+    (doubt,) = simulation.doubts()
+    assert "too hot" in doubt
+    assert simulation.notes() == []
 
 
 def test_a_doubt_is_not_forgotten(tmp_path):

@@ -142,3 +142,20 @@ def test_wish_cylindrical():
 @pytest.mark.parametrize("wedge", WEDGES)
 def test_wish_spherical(wedge):
     assert abs(sphere("both", 100, wedge).plateau()) < 0.05
+
+
+@pytest.mark.parametrize("speed", [1.0, 1e-2])
+def test_a_problem_in_units_of_one_is_as_accurate_as_at_a_kilometre_a_second(speed):
+    """The least speed of sound follows the speeds of the deck."""
+    densities = []
+    for each in (1000.0, speed):
+        size = 0.9 / 30
+        simulation = Simulation(decks.loads(
+            mesh((0.9, 30), (2 * size, 2), geometry="planar") + walls("z_min", "z_max")
+            + box("gas", "gas_5_3", r=[0.0, 0.9], z=[0.0, 2 * size], density=1.0, energy=0.0, velocity=[-each, 0.0])
+            + stop(0.5 / each)))  # fmt: skip
+        while simulation.stop_reason() is None:
+            simulation.step()
+        densities.append(simulation.array("density")[0].max())
+    assert densities[0] > 3.5
+    assert densities[1] == pytest.approx(densities[0], rel=1e-3)
