@@ -1,6 +1,6 @@
 """Problems with exact solutions: how each is run on three meshes, the quantities measured, and the curve that is drawn.
 
-`table.py` runs them and prints the tables, `figures.py` draws them. The problems of `gases.py` belong to them.
+`table.py` runs them and prints the tables, `figures.py` draws them. The problems of `gases.py` and `liquids.py` belong to them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from scipy.optimize import curve_fit
 
 import hydro2d
 from eos import jwl
-from problems.verification import gases
+from problems.verification import gases, liquids
 from problems.verification.cells import Cells, crossing
 from problems.verification.exact import blake, elastic_plastic, guderley, riemann_jwl, shell, vibration
 from problems.verification.exact.collapse import Collapse
@@ -551,5 +551,6 @@ PROBLEMS = (
             _detonation_refine, _detonation, _axial_pressure, _detonation_exact,
             ("z [mm]", "pressure [GPa]"), advection("both"), {"front_m": _lit}),
     *gases.PROBLEMS,
+    *liquids.PROBLEMS,
 )  # fmt: skip
 BY_NAME = {problem.name: problem for problem in PROBLEMS}
