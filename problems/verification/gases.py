@@ -1,4 +1,5 @@
-"""Problems with exact solutions of gases and compressed metal: a gun, products in vacuum, a shock at a wall, Noh's problem."""
+"""Problems with exact solutions of gases and compressed metal: a gun, products in vacuum, a shock at a wall, Noh's problem,
+and Coggeshall's flows."""
 
 from __future__ import annotations
 
@@ -10,11 +11,14 @@ import numpy as np
 import hydro2d
 from problems.verification.cells import crossing
 from problems.verification.exact import oblique
+from problems.verification.exact.coggeshall import Free, Slowed
 from problems.verification.exact.escape import Escape
 from problems.verification.exact.gun import Gun
 from problems.verification.exact.impact import AL_5083
 from problems.verification.exact.noh_solid import NohSolid
+from problems.verification.layers import override
 from problems.verification.measures import Curve, Problem, Quantity, advection, cells_of, column, lost, profile, square
+from problems.verification.shells import tubes
 
 # The gas gun
 
@@ -189,6 +193,43 @@ def _noh_metal(j: int) -> Problem:
                    ("distance [mm]", "pressure [GPa]"), advection("both"))  # fmt: skip
 
 
+# Coggeshall's flows
+
+COLLAPSES, EXPANDS = Free(1, 1.0, 5.0 / 3.0, 1.0, 1e5 / 3.0, 1e-3), Slowed(1, 1.0, 1.4, 1.0, 1e-3)
+
+
+def _coggeshall(flow: Free | Slowed, run: hydro2d.Results, cells: int) -> list[Quantity]:
+    state, time = cells_of(run), run.summary["time_s"]
+    here = state.r < (0.8 * flow.untouched(1.0, time) if isinstance(flow, Free) else 0.9)
+    rho, u, p = flow.sample(state.r, time)
+    exact, weight = (rho, np.abs(u), p), state.volume[here]
+    found = {"density": (state.density, "kg/m3", 1.0), "speed": (np.abs(state.u), "m/s", 1.0),
+             "pressure": (state.mean_pressure, "kPa", 1e-3)}  # fmt: skip
+    quantities = []
+    for (name, (values, unit, size)), right in zip(found.items(), exact, strict=True):
+        quantities.append(Quantity(f"mean {name}", unit, size * float(np.average(right[here], weights=weight)),
+                                   size * float(np.average(values[here], weights=weight))))  # fmt: skip
+    for (name, (values, *_)), right in zip(found.items(), exact, strict=True):
+        quantities.append(profile(name, values[here], right[here], weight))
+    return [*quantities, lost(run)]
+
+
+def _coggeshall_curve(run: hydro2d.Results) -> Curve:
+    state = cells_of(run)
+    x, y = state.along(state.density, "r")
+    return x[x < 0.9], y[x < 0.9]
+
+
+def _coggeshall_problem(number: int, flow: Free | Slowed, end: float, title: str) -> Problem:
+    def refine(cells: int) -> list[str]:
+        return [f"mesh.r=[{{to=1.0, cells={cells}}}]", f"mesh.z=[{{to={4 / cells}, cells=4}}]",
+                override(tubes(flow, 1.0, 1.0 / cells, 4.0 / cells))]  # fmt: skip
+
+    return Problem(f"coggeshall_{number}", title, f"coggeshall_{number}.toml", "on 1 m", (40, 80, 160), refine,
+                   partial(_coggeshall, flow), _coggeshall_curve, lambda x: flow.sample(x, end)[0],
+                   ("distance [m]", "density [kg/m$^3$]"), advection("both"))  # fmt: skip
+
+
 PROBLEMS = (
     _noh_metal(1),
     _noh_metal(2),
@@ -203,4 +244,6 @@ PROBLEMS = (
     Problem("escape", "Products that escape into vacuum", "escape.toml", "on 50 mm", (50, 100, 200), _escape_refine, _escape,
             _pressure_curve, lambda x: 1e-9 * ESCAPE.sample(1e-3 * x, 10e-6)[2], ("z [mm]", "pressure [GPa]"),
             advection("both")),
+    _coggeshall_problem(1, COLLAPSES, 0.4e-3, "Coggeshall's first flow, a collapse"),
+    _coggeshall_problem(2, EXPANDS, 1e-3, "Coggeshall's second flow, an expansion"),
 )  # fmt: skip

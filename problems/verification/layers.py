@@ -59,11 +59,14 @@ class Layers:
         above = [[0.0, high]] if ends[1] < 1.0 else []
         return {"shape": "polygon", "points": [[0.0, low], *below, *surface.tolist(), *above]}
 
-    def override(self, cell: float) -> str:
-        """The bodies as an override of a deck."""
-        return "body=[" + ", ".join(map(inline, self.bodies(cell))) + "]"
+
+def override(bodies: list[dict[str, object]]) -> str:
+    """Bodies as an override of a deck."""
+    return f"body=[{', '.join(map(inline, bodies))}]"
 
 
-def inline(body: dict[str, object]) -> str:
-    """A body as an inline table of TOML."""
-    return "{" + ", ".join(f"{key}={json.dumps(value)}" for key, value in body.items()) + "}"
+def inline(value: object) -> str:
+    """A table, a list, a text or a number of TOML on one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}={inline(each)}" for key, each in value.items()) + "}"
+    return json.dumps(value)

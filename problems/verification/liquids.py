@@ -11,7 +11,7 @@ import hydro2d
 from problems.verification.cells import Cells
 from problems.verification.exact import jets
 from problems.verification.exact.waves import Interface
-from problems.verification.layers import Layers
+from problems.verification.layers import Layers, override
 from problems.verification.measures import Curve, Problem, Quantity, advection, cells_of, extrema
 
 # Waves, half a wavelength wide
@@ -33,7 +33,7 @@ def _wave_refine(layers: Layers, high: float, cells: int) -> list[str]:
     """A mesh with this number of cells on a wavelength, and its rows of liquid."""
     size = 2.0 * WIDTH / cells
     return [f"mesh.r=[{{to={WIDTH}, cells={cells // 2}}}]", f"mesh.z=[{{to={high}, cells={round(high / size)}}}]",
-            layers.override(size)]  # fmt: skip
+            override(layers.bodies(size))]  # fmt: skip
 
 
 def nodes(time: np.ndarray, values: np.ndarray) -> np.ndarray:
