@@ -1,14 +1,11 @@
 """Problems with exact solutions: how each is run on three meshes, the quantities measured, and the curve that is drawn.
 
-`table.py` runs them and prints the tables, `figures.py` draws them. A measure takes the results of a run that has ended and
-returns quantities; the exact values are those of the modules in `exact`.
+`table.py` runs them and prints the tables, `figures.py` draws them. The problems of `gases.py` and `liquids.py` belong to them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -17,6 +14,7 @@ from scipy.optimize import curve_fit
 
 import hydro2d
 from eos import jwl
+from problems.verification import gases, liquids
 from problems.verification.cells import Cells, crossing
 from problems.verification.exact import blake, elastic_plastic, guderley, riemann_jwl, shell, vibration
 from problems.verification.exact.collapse import Collapse
@@ -24,99 +22,11 @@ from problems.verification.exact.detonation import Taylor
 from problems.verification.exact.impact import AL_5083
 from problems.verification.exact.noh import Noh
 from problems.verification.exact.sedov import Sedov
+from problems.verification.measures import Curve, Problem, Quantity, advection, cells_of, column, extrema, lost, profile, square
 
 FOLDER = Path(__file__).parent
-#: the choices of numerics.advection, the default of this folder first
-ADVECTION = ("both", "momentum", "ke")
 #: angles of rays from the axis, degrees
 RAYS = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0)
-
-Curve = tuple[np.ndarray, np.ndarray]
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A number of a run and its exact value; the error is given in per cent of `of`, or of the exact value where `of` is 0."""
-
-    name: str
-    unit: str
-    exact: float
-    found: float
-    of: float = 0.0
-
-    @property
-    def error(self) -> float:
-        """Per cent."""
-        return 100.0 * (self.found - self.exact) / abs(self.of or self.exact)
-
-
-@dataclass(frozen=True)
-class Problem:
-    """A problem, its deck and how its mesh is refined.
-
-    cells : number of cells of each mesh, in the sense of `resolution`
-    refine : cells -> overrides of the deck
-    variants : overrides by the name of the variant, the first of them drawn
-    measure : a run that has ended, its number of cells -> quantities
-    curve : a run that has ended -> the curve drawn; exact : x of the curve -> y, and labels of both axes
-    columns : further columns of the history
-    """
-
-    name: str
-    title: str
-    deck: str
-    resolution: str
-    cells: tuple[int, ...]
-    refine: Callable[[int], list[str]]
-    measure: Callable[[hydro2d.Results, int], list[Quantity]]
-    curve: Callable[[hydro2d.Results], Curve]
-    exact: Callable[[np.ndarray], np.ndarray]
-    axes: tuple[str, str]
-    variants: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"both": ('numerics.advection="both"',)})
-    columns: dict[str, Callable[[hydro2d.Simulation], float]] = field(default_factory=dict)
-
-    def overrides(self, variant: str, cells: int) -> list[str]:
-        """Overrides of the deck of a run, their numbers in SI units."""
-        return ["numbers=SI", *self.variants[variant], *self.refine(cells)]
-
-
-def cells_of(run: hydro2d.Results) -> Cells:
-    """The cells of a run at its end."""
-    return Cells(run.simulation())
-
-
-def advection(*choices: str) -> dict[str, tuple[str, ...]]:
-    """Variants by advection; a run by `momentum` goes on however much energy it discards, to see what comes of it."""
-    goes_on = {"momentum": ("numerics.clip_limit=1.0",)}
-    return {choice: (f'numerics.advection="{choice}"', *goes_on.get(choice, ())) for choice in choices or ADVECTION}
-
-
-def square(to: float, cells: int, z_start: float = 0.0) -> list[str]:
-    """A mesh of ``cells`` cells in each direction."""
-    return [f"mesh.r=[{{to={to}, cells={cells}}}]", f"mesh.z=[{{to={to}, cells={cells}}}]", f"mesh.z_start={z_start}"]
-
-
-def column(to: float, cells: int, start: float = 0.0) -> list[str]:
-    """Four columns of ``cells`` cells along z."""
-    size = (to - start) / cells
-    return [f"mesh.r=[{{to={4 * size}, cells=4}}]", f"mesh.z=[{{to={to}, cells={cells}}}]", f"mesh.z_start={start}"]
-
-
-def difference(computed: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> float:
-    """L1 of the difference over L1 of the exact values, in per cent."""
-    return float(100.0 * np.sum(weight * np.abs(computed - exact)) / np.sum(weight * np.abs(exact)))
-
-
-def profile(name: str, computed: np.ndarray, exact: np.ndarray, weight: np.ndarray | float = 1.0) -> Quantity:
-    """The L1 error of a profile."""
-    return Quantity(f"L1 error of {name}", "%", 0.0, difference(computed, exact, weight), 100.0)
-
-
-def lost(run: hydro2d.Results) -> Quantity:
-    """Energy that the advection of velocities discarded or clipped, of the energy at the start."""
-    conservation = run.summary["conservation"]
-    discarded = sum(conservation["sinks"][name]["energy_J"] for name in ("advection", "ke_bound"))
-    return Quantity("energy discarded", "%", 0.0, 100.0 * discarded / conservation["start_energy_J"], 100.0)
 
 
 def front_of(cells: Cells, values: np.ndarray, angle: float) -> float:
@@ -419,16 +329,6 @@ def _breathes(simulation: hydro2d.Simulation) -> float:
     return float(np.sum(mass * shape * cells.outward) / np.sum(mass * shape**2))
 
 
-def extrema(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Times and values of the extrema inside a record, by the parabola through three points."""
-    turns = np.nonzero((np.diff(values)[1:] * np.diff(values)[:-1]) < 0.0)[0] + 1
-    points = []
-    for k in turns:
-        a, b, _ = np.polyfit(time[k - 1 : k + 2] - time[k], values[k - 1 : k + 2], 2)
-        points.append((time[k] - 0.5 * b / a, np.polyval((a, b, values[k]), -0.5 * b / a)))
-    return tuple(np.array(points).T)
-
-
 def _sphere(run: hydro2d.Results, cells: int) -> list[Quantity]:
     period = vibration.period(SPHERE, SPHERE_RADIUS, vibration.sphere(SPHERE))
     times, values = extrema(run.history["time"], run.history["mode_m_s"])
@@ -601,7 +501,6 @@ def _detonation_exact(x: np.ndarray) -> np.ndarray:
     return np.where(1e-3 * x < flow.speed * time, 1e-9 * flow.at(1e-3 * x, time)[2], 0.0)
 
 
-
 PROBLEMS = (
     sedov(3),
     sedov(2),
@@ -651,5 +550,7 @@ PROBLEMS = (
     Problem("detonation", "Plane detonation of TNT", "../explosives/plane_charge.toml", "on 50 mm", (100, 200, 400),
             _detonation_refine, _detonation, _axial_pressure, _detonation_exact,
             ("z [mm]", "pressure [GPa]"), advection("both"), {"front_m": _lit}),
+    *gases.PROBLEMS,
+    *liquids.PROBLEMS,
 )  # fmt: skip
 BY_NAME = {problem.name: problem for problem in PROBLEMS}
