@@ -95,7 +95,7 @@ def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
     assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
     np.testing.assert_array_equal(v, -0.5 * u)
     assert mismatch_of_one_tie(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
-    assert mismatch_of_one_tie(number, where, weights, mass, u, v, np.array([2, -1, 3, -1])) == (-4.0 - 0.25 - 1.0, 0.0)
+    assert mismatch_of_one_tie(number, where, weights, mass, u, v, lines(2, -1, 3, -1)) == (-4.0 - 0.25 - 1.0, 0.0)
 
 
 def test_a_slave_is_as_heavy_as_it_and_its_masters():
