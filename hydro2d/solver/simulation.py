@@ -31,6 +31,7 @@ from hydro2d.solver.recorder import Recorder
 from hydro2d.solver.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.solver.sources import Sources
 from hydro2d.solver.targets import targets
+from hydro2d.solver.time_step import Steps
 
 if TYPE_CHECKING:
     import pandas
@@ -43,6 +44,8 @@ if TYPE_CHECKING:
 
 #: a body that is slower than this, m/s, has not moved yet
 MOVES = 1e-3
+#: share of the time in which the fastest possible wave crosses the smallest cell, below which no sound run has a time step
+SOUND_STEP = 0.01
 
 
 class Simulation:
@@ -93,6 +96,7 @@ class Simulation:
         self.engine.prepare()
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)
         self._doubts: dict[str, str] = {}
+        self._steps = Steps()
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
@@ -252,6 +256,7 @@ class Simulation:
     def step(self) -> None:
         """One cycle. Raises UnphysicalState."""
         self.engine.advance()
+        self._refuse_collapse()
         if self.cycle % WATCH_EVERY == 0:
             self.refuse_nonsense()
         self.stations.record()
@@ -378,15 +383,33 @@ class Simulation:
         """Reasons not to trust the state, see `sanity.faults`; empty if there are none."""
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
+    def not_finite(self) -> str | None:
+        """The first number of the state that is not finite and its place, in words; None if all are."""
+        return self.engine.refusals.not_finite()
+
     def doubts(self) -> list[str]:
         """Reasons not to trust the run: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
 
+    def _given(self) -> np.ndarray:
+        """The most energy that sources and the work of edges have given to a cell of each body so far, J/kg, float64[m]."""
+        return self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
+
+    def _refuse_collapse(self) -> None:
+        """Raises UnphysicalState if the time steps have collapsed, to what no motion that the shot can have explains."""
+        engine = self.engine
+        if engine.number <= engine.method.ramp_cycles or not self._steps.collapse(engine.dt, engine.cause):
+            return
+        size = min(widths[inside].min() for widths, inside in zip((self.grid.dz, self.grid.dr), self.grid.inside, strict=True))
+        hottest = float(np.max(self._reach.cell_highest + self._given()))
+        speed = self._reach.speed + float(engine.sound_speeds.max()) + (2.0 * hottest) ** 0.5
+        if engine.dt < SOUND_STEP * size / speed:
+            engine.refusals.collapsed_step(self._steps.median)
+
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and records doubts."""
         self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
-        given = self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
-        doubtful = doubts(self.state, self.table, self.time, self._reach, given)
+        doubtful = doubts(self.state, self.table, self.time, self._reach, self._given())
         for what, sentence in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
             self._doubts.setdefault(what, f"cycle {self.cycle}, time {self.time:.6g} s: {sentence}")
         if faults := self.faults(self.deck.numerics.clip_limit):
@@ -467,8 +490,8 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
-                "audit": self.audit.saved(), "courses": e.courses.saved(), "sources": self.sources.saved(),
-                "penetrator": self.penetrator and self.penetrator.saved(),
+                "audit": self.audit.saved(), "courses": e.courses.saved(), "steps": self._steps.saved(),
+                "sources": self.sources.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
@@ -483,6 +506,7 @@ class Simulation:
         e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
         e.courses.resume(scalars["courses"])
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, without sources, lack it
+        self._steps.resume(scalars.get("steps") or self._steps.saved())  # as do those before the steps were watched
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):
