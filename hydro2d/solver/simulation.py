@@ -20,9 +20,10 @@ from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
-from hydro2d.solver import body_measurements, debris, far_field, insertion, reach
+from hydro2d.solver import body_measurements, debris, far_field, insertion, reach, wall_damage
 from hydro2d.solver.audit import Audit, Totals, totals
 from hydro2d.solver.crater import Crater
+from hydro2d.solver.ejecta import Ejecta
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
 from hydro2d.solver.memory_needed import refuse_too_large
@@ -100,6 +101,8 @@ class Simulation:
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
+        self._ejecta = [Ejecta(self, crater, self.penetrator.m) for crater in self.craters]
+        self.engine.crossings += [each.crossed for each in self._ejecta]
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
         self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
@@ -328,13 +331,23 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------ results
 
     def of_targets(self) -> dict[str, dict]:
-        """The projectile as it went through each target, see `measured.PASSAGE`, the hole and the debris behind it, by name."""
+        """The projectile as it went through each target, see `measured.PASSAGE`, the damage, the hole, the debris behind it and
+        the ejecta before it, by name."""
         if not self.penetrator:
             return {}
-        debris = self.debris()
-        return {target.name: {**passage, "crater": crater.measure(), "debris": debris[target.name].totals}
-                for target, passage, crater in
-                zip(self.penetrator.targets, self.penetrator.passages(), self.craters, strict=True)}
+        results, debris = {}, self.debris()
+        for target, passage, crater, front in zip(self.penetrator.targets, self.penetrator.passages(), self.craters,
+                                                  self._ejecta, strict=True):  # fmt: skip
+            hole, behind = crater.measure(), debris[target.name].totals
+            damage = wall_damage.classify(self, crater, hole, front.lost)
+            results[target.name] = {
+                **passage, "damage_class": damage, "crater": hole, "debris": behind,
+                "ejecta": front.measure(damage, behind["momentum_N_s"])}
+        return results
+
+    def ejecta(self) -> dict[str, float | None]:
+        """What flies back from the first target, see `measured.EJECTA`; empty without projectile and target."""
+        return next((target["ejecta"] for target in self.of_targets().values()), {})
 
     def debris(self) -> dict[str, Debris]:
         """Debris behind each target, by the target's name; empty without projectile and target."""
@@ -492,7 +505,7 @@ class Simulation:
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
                 "audit": self.audit.saved(), "courses": e.courses.saved(), "steps": self._steps.saved(),
                 "sources": self.sources.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
-                "craters": [crater.saved() for crater in self.craters]}
+                "craters": [crater.saved() for crater in self.craters], "ejecta": [each.saved() for each in self._ejecta]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from the result of `restart_scalars`; after `load_restart_arrays`."""
@@ -511,4 +524,6 @@ class Simulation:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):
                 crater.resume(saved)
+            for front, saved in zip(self._ejecta, scalars.get("ejecta", ()), strict=False):  # likewise
+                front.resume(saved)
         e.prepare()
