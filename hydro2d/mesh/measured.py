@@ -118,8 +118,8 @@ PERFORATED, DETACHED_SPALL, ATTACHED_SPALL, NO_DAMAGE = "perforated", "detached 
 WALL = {
     "damage_class": "perforated: its hole is open right through; detached spall: a piece of four cells or more flies from its "
     "rear; attached spall: such a piece does not fly, void within is half a cell wide, or the rear bulges by half of the "
-    "thickness; none; null while its rear is beyond the mesh, and where no hole is open but a hundredth of the projectile's mass "
-    "of it has left the mesh behind it",
+    "thickness; none; null while its rear is beyond the mesh, and where no hole is open but a hundredth of the projectile's "
+    "mass of it has left the mesh behind it",
 }
 
 #: results of `ejecta.measure` for what flies back from each target, and their meanings
