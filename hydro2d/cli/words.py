@@ -58,9 +58,9 @@ WORDS = {
         "A [[source]] of kind = \"detonation\" whose points light an explosive, each [r, z, time].",
         ("source", "jwl", "TNT"), ("explanation/explosives.md",), "hydro2d new cylinder-test"),
     "ejecta": Word(
-        "Material that flies off a hit surface. Behind a plate it is debris, targets.NAME.debris in summary.json; no number is "
-        "kept of what flies back from the front face, which the fields and pictures show.",
-        ("penetration.targets", "debris"), ("how-to/results.md#debris-behind-a-plate",)),
+        "Material that flies off a hit surface. targets.NAME in summary.json has under ejecta the mass and momentum of what "
+        "flies back from the front face, with the momentum multiplication (beta), and under debris what flies behind a plate.",
+        ("penetration.targets", "debris"), ("how-to/results.md#ejecta-in-front-of-a-target",)),
     "erosion": Word(
         "No cell is ever deleted: material flows through the mesh, and a rod becomes shorter as its head is consumed. "
         '`regime` in summary.json says whether it was eroding; a search with of = "erosion" finds the velocity of the change.',
@@ -74,7 +74,7 @@ WORDS = {
         ("source",), ("how-to/write-a-deck.md",)),
     "hole": Word(
         "What a projectile leaves in a target: targets.NAME in summary.json has the diameters of its hole or crater at the "
-        "entrance and the exit, the mean one, its depth and its volume.",
+        "entrance and the exit, the narrowest and the mean one, its depth and its volume, and the damage_class of the wall.",
         ("penetration.targets",), ("how-to/perforate-a-plate.md#results",)),
     "plexiglas": Word("PMMA in the library, with its Hugoniot and no strength.", ("PMMA",)),
     "polycarbonate": Word(

@@ -416,8 +416,8 @@ def worst_energies(g, nz, nr, m, sliver, lowest, highest, plastic, most_strain, 
     in Pa, does not count as heat. A body that begins `warm` may be `chill` J/kg below 0 K; any other may be at 0 K.
 
     Reads    volume [j, i]; vof [m, j, i]; q [k, m, j, i]
-    Writes   worst [2, 5], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column; of all cells
-             beyond it: that energy, J per radian, and their mass of the body, kg per radian
+    Writes   worst [2, 5], of the hottest and the coldest: J/kg beyond the range (0 or less within it), row, column; of all
+             cells beyond it that energy, J per radian, and the mass of the body in them, kg per radian
     """
     for side in range(2):
         worst[side, 0] = -1e300

@@ -99,6 +99,8 @@ BODY = {
 CRATER = {
     "entrance_diameter_m": "in the first row below the surface from which the wall is steeper than 45 degrees; 0: no hole",
     "exit_diameter_m": "in the last such row, also beyond the rear face; null while the hole is not open at its end",
+    "hole_diameter_m": "in the narrowest such row of a hole that is open right through, whether the projectile went through or "
+    "not; null while it is closed",
     "mean_diameter_m": "of the cylinder with the volume and depth of the hole; null if there is no hole",
     "volume_m3": "of the hole, the whole circumference; in planar geometry of the meshed half, per metre",
     "volume_per_energy_m3_J": "that volume over the kinetic energy of the projectile at the start",
@@ -108,6 +110,26 @@ CRATER = {
     "thickness if it is perforated",
     "ejected_mass_kg": "mass of the target beyond its rear face that is no longer connected to it: plug and debris",
     "ejected_velocity_m_s": "mean axial velocity of that mass; null if there is none",
+}
+
+#: the damage of a target as that of a wall, the worst first
+PERFORATED, DETACHED_SPALL, ATTACHED_SPALL, NO_DAMAGE = "perforated", "detached spall", "attached spall", "none"
+#: result of `wall_damage.classify` for each target, and its meaning
+WALL = {
+    "damage_class": "perforated: its hole is open right through; detached spall: a piece of four cells or more flies from its "
+    "rear; attached spall: such a piece does not fly, void within is half a cell wide, or the rear bulges by half of the "
+    "thickness; none; null while its rear is beyond the mesh, and where no hole is open but a hundredth of the projectile's "
+    "mass of it has left the mesh behind it",
+}
+
+#: results of `ejecta.measure` for what flies back from each target, and their meanings
+EJECTA = {
+    "mass_kg": "mass of target and projectile before its original front face that moves away from it, or has left the mesh so",
+    "momentum_N_s": "axial momentum of that mass, against the flight of the projectile and relative to the undisturbed target",
+    "velocity_m_s": "mean axial velocity, in the same sense; null if there are no ejecta",
+    "momentum_multiplication": "beta: 1 + this momentum over that of the projectile at the start, relative to the target; null "
+    "before the impact, for later targets, with a hole or detached spall, where debris behind has over a hundredth of the "
+    "projectile's momentum, and once a travelling mesh has left the face behind",
 }
 
 #: results of `debris.measure` for everything that flies behind a target, including the projectile, and their meanings
@@ -141,7 +163,8 @@ WORDS = ("regime",)
 
 
 def names(bodies: Iterable[str], stations: Iterable[str], penetrates: bool) -> list[str]:
-    """Names that an expression in a deck can use: columns of its history, and with ``penetrates`` `crater_KEY` and SHORT.
+    """Names that an expression in a deck can use: columns of its history, and with ``penetrates`` SHORT, `crater_KEY` and
+    `ejecta_KEY`.
 
     bodies : of the deck;  stations : `tracer_NAME` and `gauge_NAME`;  penetrates : whether it has a projectile and a target
     """
@@ -150,7 +173,7 @@ def names(bodies: Iterable[str], stations: Iterable[str], penetrates: bool) -> l
     columns += [f"{station}_{key}" for station in stations for key in (*PLACES, *OF_STATIONS)]
     if penetrates:
         columns += [name for name in QUANTITIES if name not in WORDS]
-        columns += [f"crater_{key}" for key in CRATER]
+        columns += [f"crater_{key}" for key in CRATER] + [f"ejecta_{key}" for key in EJECTA]
     return columns
 
 

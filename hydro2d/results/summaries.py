@@ -14,13 +14,14 @@ from hydro2d.output.directory import DECK, PROGRESS, SUMMARY, deck_hash
 
 #: keys with words, lists of words, tables, and yes or no
 WORDS = ("deck", "title", "deck_sha256", "version", "method", "status", "stop_reason", "regime", "qualifier",
-         "source", "body", "host")
+         "source", "body", "host", "damage_class")
 TABLES = ("conservation", "experiment", "provenance", "packages", "crater", "mass", "sinks", "contact_transfers",
-          "bodies", "stations", "targets", "projectile", "debris", "derived", "off_course_cells")
+          "bodies", "stations", "targets", "projectile", "debris", "ejecta", "derived", "off_course_cells")
 YES_OR_NO = ("trustworthy", "git_dirty")
 #: keys with numbers, and endings of the names of other keys with numbers
 NUMBERS = ("cycles", "cells", "ns_per_cell_cycle", "axial_momentum", "total_energy", "rod_max_plastic_strain",
-           "max_plastic_strain", "penetration_over_length", "efficiency", "fragments", "fraction", "process")
+           "max_plastic_strain", "penetration_over_length", "efficiency", "momentum_multiplication", "fragments", "fraction",
+           "process")
 UNITS = ("_m", "_m_s", "_s", "_kg", "_J", "_N_s", "_m2", "_m3", "_K", "_Pa", "_rad")
 #: tables with only numbers, or only tables, under any keys
 OF_NUMBERS, OF_TABLES = ("mass", "derived", "off_course_cells"), ("sinks", "contact_transfers", "bodies", "stations", "targets")

@@ -64,9 +64,12 @@ SUMMARY: dict[str, str] = {
     **{old: f"old name of {new}, which later versions will not write" for old, new in OLD.items()},
     **{f"crater.{key}": f"hole in the first target: {meaning}" for key, meaning in measured.CRATER.items()},
     **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in measured.PASSAGE.items()},
+    **{f"targets.TARGET.{key}": f"of each target: {meaning}" for key, meaning in measured.WALL.items()},
     **{f"targets.TARGET.crater.{key}": f"of each target: {meaning}" for key, meaning in measured.CRATER.items()},
     **{f"targets.TARGET.debris.{key}": f"of the debris behind each target: {meaning}"
        for key, meaning in measured.DEBRIS.items()},
+    **{f"targets.TARGET.ejecta.{key}": f"of what flies back from each target: {meaning}"
+       for key, meaning in measured.EJECTA.items()},
     "derived.DERIVED": "a quantity that `[derived]` of the deck defines, at the end",
     **{f"bodies.BODY.{key}": f"of each body: {meaning}" for key, meaning in measured.BODY.items()},
     **{f"stations.STATION.{key}": f"of each tracer and gauge: {meaning}"

@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeVar
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, moment, number, one_line, say
-from hydro2d.mesh.measured import passed, unit
+from hydro2d.mesh.measured import NO_DAMAGE, passed, unit
 from hydro2d.output import ending
 from hydro2d.output.ending import End
 from hydro2d.output.history import Columns
@@ -424,6 +424,19 @@ def _unsettled(shape: dict) -> str:
     return f"; still changing, by {change:+.1f} m/s in the last {over * 1e6:.1f} us"
 
 
+def _of_targets(targets: dict) -> Iterator[str]:
+    """The ejecta of the first target, where they say how much momentum it has, and the damage of the last one."""
+    for back in [target["ejecta"] for target in targets.values()][:1]:
+        if back["momentum_multiplication"] is not None and back["mass_kg"] > 0.0:
+            yield (f"ejecta                {number(back['mass_kg'], 1e3, '.3g', 'g')}, {back['momentum_N_s']:.3g} N s; "
+                   f"momentum multiplication {back['momentum_multiplication']:.3f}")
+    for name, target in list(targets.items())[-1:]:
+        if target["damage_class"] not in (None, NO_DAMAGE):
+            hole = target["crater"]["hole_diameter_m"]
+            width = "" if hole is None else f", hole of {number(hole, 1e3, '.2f', 'mm')} at its narrowest"
+            yield f"{f'damage of {name}':<21} {target['damage_class']}{width}"
+
+
 def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     from hydro2d.mesh.regime import LEFT
 
@@ -455,6 +468,7 @@ def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
             lines.append(f"  through {name} at {moment(plate['exit_time_s'])}: {velocity}, {mass}")
     return [
         *lines,
+        *_of_targets(summary["targets"]),
         f"{f'{body} length':<21} {number(shape['length_m'], 1e2, '.2f', 'cm')}",
         f"largest plastic strain of the {body} {shape['max_plastic_strain']:.3g}",
         f"regime                {summary['regime']}",

@@ -153,6 +153,8 @@ class Run:
                 rows, dumps, self.wall_before = (saved.run[name] for name in ("rows", "dumps", "wall_s"))
                 self.spent |= saved.run.get("spent", {})  # files of earlier versions lack it
                 unwritten, self.lacking = saved.run["unwritten"], saved.run["lacking"]
+        #: number of doubts that have been reported
+        self._said = len(self.sim.doubts())
         self.history = self._history(rows, unwritten)
         self.series = Series(self.directory, deck.output.fields, dumps)
         if self.series.repaired:
@@ -223,10 +225,11 @@ class Run:
                     self._outputs()
                 reason = self.sim.stop_reason()
             self.sim.refuse_nonsense()
+            self._refuse_not_finite()
         except UnphysicalState as error:
             return self._finish("unphysical", str(error))
         except (OSError, ColumnError) as error:  # in an output: the state is intact
-            self._save_after(error, self._snapshot())
+            self._save_after(error, self.good if self.sim.not_finite() else self._snapshot())
         except MemoryError as error:
             self._save_after(error, self.good)
         finally:
@@ -257,15 +260,18 @@ class Run:
         sim, now = self.sim, clock.perf_counter()
         with self._due("history") as is_due:
             if is_due:
-                self.history.append(row(sim))
+                self._append(row(sim))
         with self._due("vtk") as is_due, writing(self.directory / FOLDER):
             if is_due:
+                self._refuse_not_finite()
                 self.series.dump(sim)
         if now - self.saved_at >= self.deck.output.restart_interval:
+            self._refuse_not_finite()
             attempts = Attempts()
             self._save(self._snapshot(), attempts)
             attempts.conclude()
         if sim.cycle % GOOD_EVERY == 0:
+            self._refuse_not_finite()
             self.good = self._snapshot(self.good)
         if now - self.flushed >= self.flush_every:
             with writing(self.directory / HISTORY):
@@ -274,7 +280,25 @@ class Run:
             with writing(self.directory / PROGRESS):
                 self._publish()
         with writing(self.directory / LOG):
+            self._say_doubts()
             self.report.update(self)
+
+    def _say_doubts(self) -> None:
+        """Reports each reason not to trust the run once, when it is found."""
+        for doubt in (doubts := self.sim.doubts())[self._said :]:
+            self.report.line(f"NOT TRUSTWORTHY from here on: {doubt}")
+        self._said = len(doubts)
+
+    def _append(self, values: dict) -> None:
+        """Adds a row to the history; its energies would show a state that is not finite."""
+        if not np.isfinite([values["internal_energy_J"], values["kinetic_energy_J"]]).all():
+            self._refuse_not_finite()
+        self.history.append(values)
+
+    def _refuse_not_finite(self) -> None:
+        """Raises UnphysicalState if the state, which is about to be written, has a number that is not finite."""
+        if wrong := self.sim.not_finite():
+            raise UnphysicalState(wrong)
 
     @contextmanager
     def _due(self, name: str) -> Iterator[bool]:
@@ -369,13 +393,18 @@ class Run:
         return summary
 
     def _last_outputs(self, status: str, attempts: Attempts) -> None:
-        """Writes the restart file, the last row and the last dump."""
-        with attempts.writing(self.directory / HISTORY):
-            self.history.craters, self.history.debris = self.sim.holes(), self.sim.debris()
+        """Writes the restart file, the last row and the last dump; nothing of a state that is not finite: the restart file is
+        of an earlier one."""
+        if wrong := self.sim.not_finite():
+            with attempts.writing(self.directory / LOG):
+                self.report.line(f"warning: the state at the end is not written: {wrong}")
+        else:
+            with attempts.writing(self.directory / HISTORY):
+                self.history.craters, self.history.debris = self.sim.holes(), self.sim.debris()
         state = self.good if status == "unphysical" else self._snapshot()
         if state is not None:
             self._save(state, attempts)
-        if status != "interrupted":
+        if status != "interrupted" and not wrong:
             if self.history.last_time != self.sim.time:
                 with attempts.writing(self.directory / HISTORY):
                     self._last_row(status)
@@ -402,6 +431,8 @@ class Run:
         last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
         settling = residual_velocity.change(self.history, list(targets.values()), measured, sim.time)
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
+        if (wrong := sim.not_finite()) and wrong not in faults:
+            faults.append(f"null stands for what could not be computed: {wrong}")
         return {
             "deck": self.deck.name,
             "title": self.deck.title,

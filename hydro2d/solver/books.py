@@ -58,6 +58,8 @@ class Books:
             if not opened:
                 continue
             cycle.courses.crossed(di, side, first, last, cycle.mesh.velocity * cycle.dt)
+            for crossed in cycle.crossings:
+                crossed(di, side, first, last)
             for name, (energy, *mass) in zip(("outflow", "inflow"), ways, strict=True):
                 if energy != 0.0 or any(mass):
                     self.audit.add(name, mass=np.array(mass), energy=energy)

@@ -123,6 +123,8 @@ class Courses:
     def resume(self, saved: dict) -> None:
         """Continues from the result of `saved`."""
         for name in KEPT:
-            setattr(self, name, np.array(saved[name]))
+            if name in saved:  # files of earlier versions do not know films and clouds
+                setattr(self, name, np.array(saved[name]))
+        self.film, self.cloud = self._film, self._cloud
         self._last, self._begun = saved["last"], True
 

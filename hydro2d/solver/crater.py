@@ -64,13 +64,17 @@ class Crater:
         """The target as it would be now if nothing had touched it."""
         return self._target.at(self.sim.time)
 
-    def _depth(self, z):
+    def depths(self) -> np.ndarray:
+        """Depths of the rows of cells below the original surface, m, [j, 1]."""
+        return self.depth(self.sim.grid.zc[self.sim.grid.inside[0]])[:, None]
+
+    def depth(self, z):
         """Depth below the original surface of an axial position, m."""
         return self.direction * (z - self.target.surface)
 
     def _trailing_edge(self) -> float:
         """The mesh's edge behind the rod, as depth below the original surface, m."""
-        return float(self._depth(self.sim.grid.z_edges[0 if self.direction > 0 else -1]))
+        return float(self.depth(self.sim.grid.z_edges[0 if self.direction > 0 else -1]))
 
     def _walls(self) -> tuple[np.ndarray, np.ndarray]:
         """The cells [j, i] of the target's pieces (bool), and the target's share of these and of the cells next to them."""
@@ -94,7 +98,22 @@ class Crater:
 
     def beyond(self) -> np.ndarray:
         """Which rows of cells are beyond the target's original rear face, [j, 1]."""
-        return (self._depth(self.sim.grid.zc[self.sim.grid.inside[0]]) > self.rear)[:, None]
+        return self.depths() > self.rear
+
+    def before(self) -> np.ndarray:
+        """Which rows of cells are before the target's original front face, [j, 1]."""
+        return self.depths() < 0.0
+
+    def has_rear(self) -> bool:
+        """Whether the target's original rear face lies within the mesh."""
+        return bool(self.depth(self.sim.grid.z_edges).max() > self.rear)
+
+    def masses(self, m: int, where: np.ndarray | bool) -> tuple[np.ndarray, np.ndarray]:
+        """Mass of body m in some cells, kg, whole circumference, and its axial velocity, m/s, the mean of the four vertices."""
+        grid, s = self.sim.grid, self.sim.state
+        fraction = grid.interior(s.vof)[m]
+        mass = np.where(where & (fraction > 0.0), fraction * grid.interior(s.rho)[m], 0.0) * grid.volume[grid.inside]
+        return mass * (2.0 * np.pi if grid.cylindrical else 1.0), grid.vertex_mean(s.v[s.group[m]])
 
     def _bends(self, wall: np.ndarray, filled: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """For every column of cells the depth of its face and the motion of its rear, m, and whether it is whole; (nr,) each.
@@ -123,10 +142,16 @@ class Crater:
         way[way <= (1.0 - FULL) * height[0]] = 0.0
         return face, way, whole
 
+    def bulge(self) -> float:
+        """How much further the rear of the target has moved in one column of cells than in another, m."""
+        order = slice(None, None, 1 if self.direction > 0 else -1)
+        _, way, _ = self._bends(*(cells[order] for cells in self._walls()), self.depth(self.sim.grid.z_edges)[order])
+        return float(np.ptp(way))
+
     def _unbent(self, walls: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         """Walls with every column of cells moved back by its motion with the plate: that of its rear."""
         order = slice(None, None, 1 if self.direction > 0 else -1)
-        edges = self._depth(self.sim.grid.z_edges)[order]
+        edges = self.depth(self.sim.grid.z_edges)[order]
         wall, filled = (cells[order].copy() for cells in walls)
         face, way, whole = self._bends(wall, filled, edges)
         for i in np.nonzero(way * np.where(whole, face, 1.0) > 0.0)[0]:
@@ -156,7 +181,7 @@ class Crater:
 
     def _rows(self, walls: tuple[np.ndarray, np.ndarray]) -> Rows:
         """The rows of the mesh, from the result of `_walls`."""
-        edges = self._depth(self.sim.grid.z_edges)
+        edges = self.depth(self.sim.grid.z_edges)
         hole = np.array([self._row(*row) for row in zip(*walls, strict=True)])
         if self.direction < 0:
             edges, hole = edges[::-1], hole[::-1]
@@ -193,8 +218,8 @@ class Crater:
         The radius is NaN if there is no wall, and while the row is no deeper than the plate has bent.
         """
         order = slice(None, None, 1 if self.direction > 0 else -1)
-        _, way, _ = self._bends(wall[order], filled[order], self._depth(self.sim.grid.z_edges)[order])
-        depth = float(self._depth(self.sim.grid.zc[self.sim.grid.inside[0]][last]))
+        _, way, _ = self._bends(wall[order], filled[order], self.depth(self.sim.grid.z_edges)[order])
+        depth = float(self.depth(self.sim.grid.zc[self.sim.grid.inside[0]][last]))
         if 0.0 < way.max() and depth <= way.max():
             return depth, np.nan
         radius, _ = self._row(wall[last], filled[last])
@@ -262,6 +287,7 @@ class Crater:
         return {
             "entrance_diameter_m": 2.0 * float(radius[mouth]) if len(radius) else 0.0,
             "exit_diameter_m": 2.0 * float(radius[end]) if len(radius) and through else None,
+            "hole_diameter_m": 2.0 * float(radius[mouth : end + 1].min()) if len(radius) and through else None,
             "mean_diameter_m": mean,
             "volume_m3": volume,
             "volume_per_energy_m3_J": volume / penetrator.impact_energy if penetrator.impact_energy > 0.0 else None,
@@ -272,10 +298,7 @@ class Crater:
 
     def _ejected(self, pieces: np.ndarray) -> dict[str, float | None]:
         """Mass and mean axial velocity of target material ejected through its rear; pieces : see `pieces`."""
-        grid, s = self.sim.grid, self.sim.state
-        mass = np.where(~pieces & self.beyond(), grid.interior(s.vof)[self.m] * grid.interior(s.rho)[self.m], 0.0)
-        mass *= grid.volume[grid.inside]
-        mean = grid.vertex_mean(s.v[s.group[self.m]])
+        mass, velocity = self.masses(self.m, ~pieces & self.beyond())
         total = float(mass.sum())
-        return {"ejected_mass_kg": total * (2.0 * np.pi if grid.cylindrical else 1.0),
-                "ejected_velocity_m_s": float((mass * mean).sum()) / total if total > 0.0 else None}
+        return {"ejected_mass_kg": total,
+                "ejected_velocity_m_s": float((mass * velocity).sum()) / total if total > 0.0 else None}

@@ -7,6 +7,8 @@ velocities, work and strain (the Lagrangian step); then the remap, one sweep per
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from hydro2d.kernels import lagrangian_step, remap_step
 from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
@@ -44,6 +46,8 @@ class Cycle:
     sound_floor : float, least square of the speed of sound, m^2/s^2
     sound_speeds : float64[m], bulk sound speed of every body at rest, m/s
     audit : Audit
+    crossings : functions of direction, edge, and first and last place along it, called after a sweep for every open edge that
+        the active box has reached, see `Courses.crossed`
     """
 
     def __init__(self, state, table, method: Method, mesh=None, sources: Sources | None = None, speed: float = 0.0):
@@ -60,6 +64,7 @@ class Cycle:
         self.sound_speeds = table.sound_speeds(self.sound_floor)
         self.speed_limit = 0.0
         self.audit: Audit | None = None
+        self.crossings: list[Callable[[int, int, int, int], None]] = []
         self.books, self.refusals, self.given = Books(self), Refusals(self), Given(self, table)
 
     @property

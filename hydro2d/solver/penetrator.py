@@ -82,6 +82,12 @@ class Penetrator:
     deck : its deck, which names the rod
     targets : those that the rod is to go through, in the order in which it meets them; depths are below the first one's face
     direction : of its flight along z, 1 or -1
+
+    Attributes
+    ----------
+    impact_energy, impact_momentum : kinetic energy, J, and momentum along its flight, N s, at the start, relative to the first
+        target
+    leaving : velocity relative to a target below which a core stays in it, m/s
     """
 
     def __init__(self, sim, deck, targets: list[Target], direction: float):
@@ -102,9 +108,10 @@ class Penetrator:
         _, momentum, self.energy, *_ = body_measurements.motion(sim, self.m)
         self._against = targets[0].velocity
         self.impact_energy = self.energy - self._against * momentum + 0.5 * self.mass * self._against**2
+        self.impact_momentum = direction * (momentum - self._against * self.mass)
         self._run = np.zeros(2, dtype=np.int64)
         speed = abs((sim.mean_velocity(self.m) or 0.0) - self._against)
-        self._slack, self._leaving = DEBRIS_SPEED * speed, LEAVING_SPEED * speed
+        self._slack, self.leaving = DEBRIS_SPEED * speed, LEAVING_SPEED * speed
         self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
         self.passed: list[Passage] = []
@@ -174,6 +181,11 @@ class Penetrator:
         rod that has left the mesh, the depth when it reached the edge.
         """
         return self.exit.depth if self.left else max(self._front(), 0.0)
+
+    @property
+    def has_struck(self) -> bool:
+        """Whether the rod has been deeper than the first target's face."""
+        return self._deepest > 0.0 or self.nose() > 0.0
 
     def _front(self) -> float:
         """Depth of the nose of a rod in the mesh, m; negative before impact."""
@@ -316,7 +328,7 @@ class Penetrator:
         """Whether the core moves away from a target, by the mean velocity of what is left of both; a rod in pieces does."""
         velocity, mass = self._whole_core()
         target = self.sim.mean_velocity(self._targets[number].m)
-        return mass == 0.0 or target is None or self.direction * (velocity - target) > self._leaving
+        return mass == 0.0 or target is None or self.direction * (velocity - target) > self.leaving
 
     def _watch_pieces(self) -> None:
         """Records a rod in pieces behind the last target, until the first of them flows out."""

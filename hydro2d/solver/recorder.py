@@ -15,6 +15,9 @@ from hydro2d.solver.due import Due
 if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
 
+#: prefix of the names of the ejecta of the first target in a formula
+EJECTA = "ejecta"
+
 
 class ColumnError(Error):
     """A column of the user's that has no name for a file, or fails."""
@@ -57,6 +60,8 @@ def derived(sim: Simulation, values: Mapping[str, Any]) -> dict[str, float | Non
     numbers = {short: values.get(column) for short, column in SHORT.items()} | dict(values)
     if sim.craters and any(name.startswith(CRATER) for name in wanted):
         numbers |= {f"{CRATER}_{key}": value for key, value in sim.craters[0].measure().items()}
+    if any(name.startswith(EJECTA) for name in wanted):
+        numbers |= {f"{EJECTA}_{key}": value for key, value in sim.ejecta().items()}
     return {name: formula.evaluate(numbers) for name, formula in formulas.items()}
 
 

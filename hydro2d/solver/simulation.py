@@ -20,9 +20,10 @@ from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
-from hydro2d.solver import body_measurements, debris, far_field, insertion, reach
+from hydro2d.solver import body_measurements, debris, far_field, insertion, reach, wall_damage
 from hydro2d.solver.audit import Audit, Totals, totals
 from hydro2d.solver.crater import Crater
+from hydro2d.solver.ejecta import Ejecta
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
 from hydro2d.solver.memory_needed import refuse_too_large
@@ -31,6 +32,7 @@ from hydro2d.solver.recorder import Recorder
 from hydro2d.solver.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.solver.sources import Sources
 from hydro2d.solver.targets import targets
+from hydro2d.solver.time_step import Steps
 
 if TYPE_CHECKING:
     import pandas
@@ -43,6 +45,8 @@ if TYPE_CHECKING:
 
 #: a body that is slower than this, m/s, has not moved yet
 MOVES = 1e-3
+#: share of the time in which the fastest possible wave crosses the smallest cell, below which no sound run has a time step
+SOUND_STEP = 0.01
 
 
 class Simulation:
@@ -95,9 +99,12 @@ class Simulation:
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)
         self._doubts: dict[str, str] = {}
         self._notes: dict[str, str] = {}
+        self._steps = Steps()
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
+        self._ejecta = [Ejecta(self, crater, self.penetrator.m) for crater in self.craters]
+        self.engine.crossings += [each.crossed for each in self._ejecta]
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
         self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
@@ -254,6 +261,7 @@ class Simulation:
     def step(self) -> None:
         """One cycle. Raises UnphysicalState."""
         self.engine.advance()
+        self._refuse_collapse()
         if self.cycle % WATCH_EVERY == 0:
             self.refuse_nonsense()
         self.stations.record()
@@ -325,13 +333,23 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------ results
 
     def of_targets(self) -> dict[str, dict]:
-        """The projectile as it went through each target, see `measured.PASSAGE`, the hole and the debris behind it, by name."""
+        """The projectile as it went through each target, see `measured.PASSAGE`, the damage, the hole, the debris behind it and
+        the ejecta before it, by name."""
         if not self.penetrator:
             return {}
-        debris = self.debris()
-        return {target.name: {**passage, "crater": crater.measure(), "debris": debris[target.name].totals}
-                for target, passage, crater in
-                zip(self.penetrator.targets, self.penetrator.passages(), self.craters, strict=True)}
+        results, debris = {}, self.debris()
+        for target, passage, crater, front in zip(self.penetrator.targets, self.penetrator.passages(), self.craters,
+                                                  self._ejecta, strict=True):  # fmt: skip
+            hole, behind = crater.measure(), debris[target.name].totals
+            damage = wall_damage.classify(self, crater, hole, front.lost)
+            results[target.name] = {
+                **passage, "damage_class": damage, "crater": hole, "debris": behind,
+                "ejecta": front.measure(damage, behind["momentum_N_s"])}
+        return results
+
+    def ejecta(self) -> dict[str, float | None]:
+        """What flies back from the first target, see `measured.EJECTA`; empty without projectile and target."""
+        return next((target["ejecta"] for target in self.of_targets().values()), {})
 
     def debris(self) -> dict[str, Debris]:
         """Debris behind each target, by the target's name; empty without projectile and target."""
@@ -380,6 +398,10 @@ class Simulation:
         """Reasons not to trust the state, see `sanity.faults`; empty if there are none."""
         return faults(self.state, self.audit, self.table.names, self._reach, share)
 
+    def not_finite(self) -> str | None:
+        """The first number of the state that is not finite and its place, in words; None if all are."""
+        return self.engine.refusals.not_finite()
+
     def doubts(self) -> list[str]:
         """Reasons not to trust the run: when a body was first too hot or too cold in some cell, or off its course."""
         return list(self._doubts.values())
@@ -388,11 +410,25 @@ class Simulation:
         """What was beyond a bound and decides nothing, with the reason, as `doubts`."""
         return [sentence for what, sentence in self._notes.items() if what not in self._doubts]
 
+    def _given(self) -> np.ndarray:
+        """The most energy that sources and the work of edges have given to a cell of each body so far, J/kg, float64[m]."""
+        return self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
+
+    def _refuse_collapse(self) -> None:
+        """Raises UnphysicalState if the time steps have collapsed, to what no motion that the shot can have explains."""
+        engine = self.engine
+        if engine.number <= engine.method.ramp_cycles or not self._steps.collapse(engine.dt, engine.cause):
+            return
+        size = min(widths[inside].min() for widths, inside in zip((self.grid.dz, self.grid.dr), self.grid.inside, strict=True))
+        hottest = float(np.max(self._reach.cell_highest + self._given()))
+        speed = self._reach.speed + float(engine.sound_speeds.max()) + (2.0 * hottest) ** 0.5
+        if engine.dt < SOUND_STEP * size / speed:
+            engine.refusals.collapsed_step(self._steps.median)
+
     def refuse_nonsense(self) -> None:
         """Raises UnphysicalState with the first fault of the state, if it has any, and records doubts and notes."""
         self.engine.courses.look(self.time, keep=self.cycle % WATCH_EVERY == 0)
-        given = self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
-        doubtful = doubts(self.state, self.table, self.time, self._reach, given, self.audit)
+        doubtful = doubts(self.state, self.table, self.time, self._reach, self._given(), self.audit)
         for doubt in (*doubtful, *discards(self.audit, self._reach), *self.engine.courses.parted(self.table.names)):
             said = f"cycle {self.cycle}, time {self.time:.6g} s: {doubt.sentence}"
             if doubt.harmless:
@@ -477,10 +513,10 @@ class Simulation:
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
                 "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
-                "notes": self._notes,
-                "audit": self.audit.saved(), "courses": e.courses.saved(), "sources": self.sources.saved(),
-                "penetrator": self.penetrator and self.penetrator.saved(),
-                "craters": [crater.saved() for crater in self.craters]}
+                "notes": self._notes, "audit": self.audit.saved(), "courses": e.courses.saved(),
+                "steps": self._steps.saved(),
+                "sources": self.sources.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
+                "craters": [crater.saved() for crater in self.craters], "ejecta": [each.saved() for each in self._ejecta]}
 
     def load_restart_scalars(self, scalars: dict) -> None:
         """Continues from the result of `restart_scalars`; after `load_restart_arrays`."""
@@ -490,12 +526,15 @@ class Simulation:
         if scalars["watch"]["body"] == self.deck.stop.body:  # else a different one is watched from here on
             self._watch = dict(scalars["watch"])
         self.grid.move(scalars["mesh_offset"])
-        self._doubts, self._notes = dict(scalars["doubts"]), dict(scalars["notes"])
+        self._doubts, self._notes = dict(scalars["doubts"]), dict(scalars.get("notes", {}))  # files of earlier versions lack it
         e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
         e.courses.resume(scalars["courses"])
         self.sources.resume(scalars.get("sources", 0.0))  # files of earlier versions, without sources, lack it
+        self._steps.resume(scalars.get("steps") or self._steps.saved())  # as do those before the steps were watched
         if self.penetrator:
             self.penetrator.resume(scalars["penetrator"])
             for crater, saved in zip(self.craters, scalars["craters"], strict=True):
                 crater.resume(saved)
+            for front, saved in zip(self._ejecta, scalars.get("ejecta", ()), strict=False):  # likewise
+                front.resume(saved)
         e.prepare()

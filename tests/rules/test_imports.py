@@ -172,7 +172,7 @@ def users(library: str) -> set[str]:
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.base.units",)),
         ("scipy", ("hydro2d.penetration", "hydro2d.materials.fitting", "hydro2d.solver.crater", "hydro2d.solver.debris",
-                   "hydro2d.solver.reach", "hydro2d.output.outlines",
+                   "hydro2d.solver.wall_damage", "hydro2d.solver.reach", "hydro2d.output.outlines",
                    "hydro2d.deck.mesh", "hydro2d.study.ensemble.chance", "hydro2d.study.ensemble.extrapolation",
                    "hydro2d.study.plan.distributions", "hydro2d.study.plan.sampling", "hydro2d.study.samples",
                    "hydro2d.study.search.logit")),

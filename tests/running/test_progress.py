@@ -225,10 +225,12 @@ def test_the_last_lines_give_the_length_and_the_ends_of_a_bar():
 
 def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     """P/D of a ball, P/L of a rod; behind the last target no depth is given."""
+    back = {"mass_kg": 2e-3, "momentum_N_s": 0.42, "momentum_multiplication": 1.21}
+    stopped = {"exit_time_s": None, "damage_class": "none", "crater": {"hole_diameter_m": None}, "ejecta": back}
     ball = {"body": "ball", "length_m": 9e-3, "initial_length_m": 9.98e-3, "initial_radius_m": 5e-3, "max_plastic_strain": 0.4}
     shot = {"penetration_depth_m": 14.7e-3, "nose_depth_m": 14.7e-3, "penetration_over_length": 1.473, "experiment": None,
             "regime": "deforming", "projectile": ball | {"tail_velocity_m_s": None},
-            "targets": {"first": {"exit_time_s": None}}}  # fmt: skip
+            "targets": {"first": stopped}}  # fmt: skip
     assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
     assert "penetration depth     1.47 cm, P/D 1.473; 0.81 cm at the end" in closing(**shot | {"nose_depth_m": 8.1e-3})
     theory = "analytic, at rest     Tate 1.83 cm"
@@ -236,12 +238,22 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     assert said[said.index(theory) - 1].startswith("penetration depth")
     rod = shot | {"projectile": shot["projectile"] | {"initial_length_m": 50e-3}}
     assert "penetration depth     1.47 cm, P/L 1.473" in closing(**rod)
-    through = {"exit_time_s": 1e-6, "exit_velocity_m_s": 9.0, "exit_mass_kg": 1e-3}
-    one = closing(**shot | {"targets": {"first": through, "second": {"exit_time_s": None}}})
+    through = stopped | {"exit_time_s": 1e-6, "exit_velocity_m_s": 9.0, "exit_mass_kg": 1e-3}
+    one = closing(**shot | {"targets": {"first": through, "second": stopped}})
     assert any(line.startswith("penetration depth") for line in one)
     both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through}})
     assert "perforated            first, second; nose 1.46 cm behind the first face" in both
     assert not any(line.startswith("penetration depth") for line in both)
+    assert "ejecta                2 g, 0.42 N s; momentum multiplication 1.210" in said
+    assert not any(line.startswith("damage") for line in said)
+    opened = stopped | {"damage_class": "perforated", "crater": {"hole_diameter_m": 6.4e-3},
+                        "ejecta": back | {"momentum_multiplication": None}}
+    holed = closing(**shot | {"targets": {"first": opened}})
+    assert "damage of first       perforated, hole of 6.40 mm at its narrowest" in holed
+    assert not any(line.startswith("ejecta") for line in holed)
+    assert any(line.startswith("penetration depth") for line in holed)
+    spalled = closing(**shot | {"targets": {"first": stopped | {"damage_class": "attached spall"}}})
+    assert "damage of first       attached spall" in spalled
 
 
 def test_the_last_lines_give_peaks_and_derived_quantities():

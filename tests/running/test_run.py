@@ -60,6 +60,18 @@ def test_a_run_begins_with_the_warnings(simulation, tmp_path, capsys):
         assert text.index("warning") < text.index("done: ")
 
 
+def test_a_doubt_is_reported_when_it_is_found(simulation, tmp_path, capsys):
+    """Once, also where the run is continued, and again at the end."""
+    found = {10: 'cycle 10, time 1e-06 s: body "rod" is too hot', 120: 'cycle 120, time 1e-05 s: body "plate" is too cold'}
+    simulation.doubts = lambda self: [doubt for cycle, doubt in found.items() if self.cycle >= cycle]
+    run(fake.FakeDeck(), tmp_path, interrupt=interrupt_after(50, simulation))
+    run(fake.FakeDeck(), tmp_path, restart=True)
+    for text in (capsys.readouterr().out, (tmp_path / "log.txt").read_text()):
+        for doubt in found.values():
+            assert text.count(f"NOT TRUSTWORTHY from here on: {doubt}") == 1
+        assert text.index(found[10]) < text.index("interrupted at") < text.index(found[120]) < text.index("done: ")
+
+
 def test_existing_run_is_kept_without_overwrite(simulation, tmp_path):
     run(fake.FakeDeck(), tmp_path, quiet=True)
     with pytest.raises(RunError, match="--restart"):

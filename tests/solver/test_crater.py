@@ -57,7 +57,8 @@ def depths(sim, z):
 def test_before_impact():
     sim = simulation()
     assert sim.craters[0].measure() == {"entrance_diameter_m": 0.0, "exit_diameter_m": None, "mean_diameter_m": None,
-                                    "volume_m3": 0.0, "depth_m": 0.0, "ejected_mass_kg": 0.0, "ejected_velocity_m_s": None,
+                                    "hole_diameter_m": None, "volume_m3": 0.0, "depth_m": 0.0, "ejected_mass_kg": 0.0,
+                                    "ejected_velocity_m_s": None,
                                     "volume_per_energy_m3_J": 0.0, "efficiency": 0.0}
     assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
 
@@ -97,6 +98,7 @@ def test_a_hole_right_through(options):
     assert hole["depth_m"] == 24e-3
     assert hole["entrance_diameter_m"] == pytest.approx(5e-3, rel=0.02)
     assert hole["exit_diameter_m"] == pytest.approx(8e-3, rel=0.02)
+    assert hole["hole_diameter_m"] == pytest.approx(5e-3, rel=0.02)
     assert hole["ejected_mass_kg"] == pytest.approx(np.pi * 3e-3**2 * 2e-3 * 2660.0, rel=1e-9)
     assert hole["ejected_velocity_m_s"] == pytest.approx(sign * 300.0, rel=1e-9)
 

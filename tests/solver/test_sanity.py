@@ -2,12 +2,14 @@
 
 import dataclasses
 import json
+import re
 
 import numpy as np
 import pytest
 
 from hydro2d.base.errors import DeckError, UnphysicalState
 from hydro2d.deck import deck
+from hydro2d.output import history, snapshot, vtk
 from hydro2d.running.run import exit_status, run
 from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import Simulation
@@ -107,6 +109,23 @@ def test_a_nan_is_a_fault(shot):
     assert shot.faults()
 
 
+@pytest.mark.parametrize(("name", "at", "said"), [
+    ("vof", (1, 25, 3), r'volume fraction of body "wall" is nan at \(r, z\) = \(\S+, \S+\) m'),
+    ("e", (1, 25, 3), r'energy of body "wall" is nan at \(r, z\) = \(\S+, \S+\) m'),
+    ("srz", (1, 25, 3), r'deviator rz of body "wall" is nan at '),
+    ("v", (0, 25, 3), r"axial velocity is nan at ")])
+def test_a_number_that_is_not_finite_has_a_place(shot, name, at, said):
+    assert shot.not_finite() is None
+    getattr(shot.state, name)[at] = np.nan
+    assert re.search(said, shot.not_finite())
+
+
+def test_a_cell_without_a_body_has_no_numbers_of_it(shot):
+    shot.state.e[0, 35, 3] = np.nan
+    assert shot.state.vof[0, 35, 3] == 0.0
+    assert shot.not_finite() is None
+
+
 def test_energy_put_in_by_edges_counts(shot):
     """A piston may bring any energy."""
     work = 10.0 * shot.audit.start.energy
@@ -149,6 +168,36 @@ def test_a_run_that_clips_is_unphysical_and_keeps_an_earlier_state(tmp_path, mon
     assert json.loads((tmp_path / "run" / "summary.json").read_text())["faults"] == [fault]
     again = run(deck.loads(TEXT, ["stop.time=1", "stop.cycles=110"]), tmp_path / "run", restart=True, quiet=True)
     assert (again["status"], again["cycles"], again["trustworthy"]) == ("done", 110, True)
+
+
+@pytest.mark.parametrize("cycle", [115, 117, 120])
+def test_no_nan_is_written(tmp_path, monkeypatch, cycle):
+    """Neither in the cycle in which it comes, with a row, a dump and a restart file due, nor at the end."""
+    step = Simulation.step
+
+    def spoiled(self):
+        step(self)
+        if self.cycle == cycle:
+            self.state.srz[1, 25, 3] = np.nan
+            self.state.e[1, 25, 3] = np.nan
+
+    monkeypatch.setattr(Simulation, "step", spoiled)
+    every = ["stop.time=1", "stop.cycles=200", "output.history_interval=1e-9", "output.vtk_interval=1e-9",
+             "output.restart_interval=1e-9"]
+    summary = run(deck.loads(TEXT, every), tmp_path / "run", quiet=True)
+    assert (summary["status"], summary["cycles"], summary["trustworthy"]) == ("unphysical", cycle, False)
+    assert re.search(r'the energy of body "wall" is nan at \(r, z\) = ', summary["stop_reason"])
+    rows = history.read(tmp_path / "run" / "history.h5")
+    kept = ("time", "internal_energy_J", "kinetic_energy_J", "total_energy_change", "body_wall_mass_kg")
+    assert all(np.isfinite(rows[name]).all() for name in kept)
+    dumps = vtk.read_series(tmp_path / "run" / "series.pvd")
+    assert max(time for time, _ in dumps) == rows["time"][-1] < summary["time_s"]
+    saved = snapshot.read(tmp_path / "run" / "restart.h5")
+    assert all(np.isfinite(array).all() for name, array in saved.arrays.items() if name in ("q", "vof", "u", "v"))
+    stored = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert stored["conservation"]["total_energy"] is None
+    assert any("is nan at (r, z) = " in fault for fault in stored["faults"])
+    assert "the state at the end is not written: " in (tmp_path / "run" / "log.txt").read_text()
 
 
 def test_a_collapsed_time_step_names_its_body(shot):

@@ -1,0 +1,92 @@
+"""Ejecta: what flies back from the front face of a target, and how much more momentum the target has from it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydro2d.mesh.fields import RHO
+from hydro2d.mesh.measured import DETACHED_SPALL, EJECTA, PERFORATED
+
+#: share of the projectile's momentum that may fly behind the target without a momentum multiplication taking account of it
+IGNORED = 0.01
+
+
+class Ejecta:
+    """Measures what flies back from a target.
+
+    It consists of the material of the target and of the projectile in cells whose middle is before the target's original front
+    face, where it moves away from the target as it would be if nothing had touched it: crater lip and rebounding projectile
+    included. Material that has left the mesh there in such motion counts as well. Each cell has the velocity of its body group,
+    the mean of its four vertices. The momentum counts against the flight of the projectile.
+
+    Parameters
+    ----------
+    sim : Simulation
+    crater : Crater of the target
+    m : index of the projectile
+    """
+
+    def __init__(self, sim, crater, m: int):
+        self.sim, self._crater = sim, crater
+        self._bodies = (crater.m, m)
+        self._gone = np.zeros(3)
+
+    @property
+    def lost(self) -> float:
+        """Mass of the target that has left the mesh beyond its original rear face, kg, whole circumference."""
+        return float(self._gone[2]) * self._around
+
+    @property
+    def _around(self) -> float:
+        return 2.0 * np.pi if self.sim.grid.cylindrical else 1.0
+
+    def crossed(self, di: int, side: int, first: int, last: int) -> None:
+        """Books what leaves before or behind the target through an edge of the mesh in a sweep; arguments as for
+        `Courses.crossed`."""
+        s, grid, crater = self.sim.state, self.sim.grid, self._crater
+        at = grid.g + side * ((grid.nr if di else grid.nz) - 1)
+        depth = crater.depth(grid.zc[first:last] if di else grid.zc[at])
+        for m in self._bodies:
+            out = s.edge_flux[side, RHO, m, first:last]
+            if not out.any():
+                continue
+            out = np.maximum(out if side else -out, 0.0)
+            if m == crater.m:
+                self._gone[2] += np.where(depth > crater.rear, out, 0.0).sum()
+            v = s.v[s.group[m]]
+            v = v[first : last + 1, at : at + 2] if di else v[at : at + 2, first : last + 1].T
+            away = crater.direction * (crater.target.velocity - 0.25 * (v[1:] + v[:-1]).sum(axis=1))
+            mass = np.where((depth < 0.0) & (away > 0.0), out, 0.0)
+            self._gone[:2] += mass.sum(), (mass * away).sum()
+
+    def measure(self, damage: str | None, behind: float) -> dict[str, float | None]:
+        """EJECTA; SI, whole circumference.
+
+        damage : class of the target's damage;  behind : axial momentum of the debris behind it, N s
+        """
+        crater, totals = self._crater, self._gone[:2] * self._around
+        for m in self._bodies:
+            mass, velocity = crater.masses(m, crater.before())
+            away = crater.direction * (crater.target.velocity - velocity)
+            mass = np.where(away > 0.0, mass, 0.0)
+            totals += mass.sum(), (mass * away).sum()
+        mass, momentum = totals.tolist()
+        whole = self._is_all(behind) and damage not in (PERFORATED, DETACHED_SPALL)
+        multiplication = 1.0 + momentum / self.sim.penetrator.impact_momentum if whole else None
+        return dict(zip(EJECTA, (mass, momentum, momentum / mass if mass > 0.0 else None, multiplication), strict=True))
+
+    def _is_all(self, behind: float) -> bool:
+        """Whether the target has received the momentum of the projectile and that of the ejecta, and nothing else."""
+        penetrator, crater = self.sim.penetrator, self._crater
+        start, shows_face = penetrator.impact_momentum, crater.depth(self.sim.grid.z_edges).min() < 0.0
+        if not (start > 0.0 and shows_face and penetrator.has_struck) or crater.m != penetrator.targets[0].m:
+            return False
+        return abs(behind) <= IGNORED * start
+
+    def saved(self) -> list[float]:
+        """Data for a restart file."""
+        return self._gone.tolist()
+
+    def resume(self, saved: list[float]) -> None:
+        """Continues from the result of `saved`."""
+        self._gone[:] = saved
