@@ -189,7 +189,8 @@ def test_liquids_that_bear_any_tension_are_reported():
     def told(material, **failure):
         text = MESH + box_of("a", (0, 3), (0, 3), material=material) + (table("failure", **failure) if failure else "")
         text += table("materials.melt", eos={"model": "stiffened-gas", "reference_density": "1000 kg/m^3",
-                                             "adiabatic_index": 4.4, "sound_speed": "1483 m/s", "specific_heat": "4180 J/kg/K"})  # fmt: skip
+                                             "adiabatic_index": 4.4, "sound_speed": "1483 m/s",
+                                             "specific_heat": "4180 J/kg/K"})  # fmt: skip
         return [text for text in warnings(deck.loads(text)) if "bears any tension" in text]
 
     assert told("melt") == [
