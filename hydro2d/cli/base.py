@@ -67,12 +67,22 @@ def quantity(text: str, unit: str, option: str) -> float:
         raise UsageError(f"{option}: {error}") from None
 
 
+def refuse_environment() -> None:
+    """Refuses a value of an environment variable that stops a package that hydro2d stands on. Raises UsageError."""
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "0")
+    if not epoch.strip().isdigit():
+        raise UsageError(f'SOURCE_DATE_EPOCH = "{epoch}" is no number of seconds: unset it, or give it one')
+
+
 def import_matplotlib() -> None:
     """Imports matplotlib without the `matplotlibrc` of the current directory, which may name programs to run as ffmpeg."""
     here = os.open(".", os.O_RDONLY)
     os.chdir(Path(__file__).parent)
     try:
         import_module("matplotlib")
+    except ValueError as error:  # of a setting in the environment
+        backend = os.environ.get("MPLBACKEND")
+        raise UsageError(f'MPLBACKEND = "{backend}" is not a backend of matplotlib: unset it') from error
     finally:
         os.fchdir(here)
         os.close(here)

@@ -14,7 +14,7 @@ from hydro2d.base.errors import Error
 from hydro2d.base.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
 from hydro2d.base.terminal import flush, say, wrapped
 from hydro2d.base.version import __version__
-from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_old_names
+from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_environment, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.compile import compile_kernels
 from hydro2d.cli.curve import curve
@@ -299,6 +299,7 @@ def call(arguments: list[str]) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a terminal without UTF-8 gets question marks, not a traceback
     try:
+        refuse_environment()
         refuse_old_names(arguments)
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         flush()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterator
 
 import numpy as np
@@ -14,6 +15,7 @@ from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.materials.material import Material
 from hydro2d.mesh.edges.base import EDGES, PRESSURE, PUSH, Edge
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made
+from hydro2d.mesh.measured import BODY, OF_STATIONS, PLACES
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.sources.detonation import EXPLOSIVES
 
@@ -37,9 +39,13 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
     if too_many := list(_too_many(deck)):
         yield from too_many
         return
+    written = [unicodedata.normalize("NFC", name) for name in names]
     for number, entry in enumerate(deck.body):
         if entry.name in names[:number]:
             yield ("body", number, "name"), f'the name "{entry.name}" is already used by an earlier body'
+        elif written[number] in written[:number]:
+            yield ("body", number, "name"), (f'the name "{entry.name}" looks like that of an earlier body, but its accents are '
+                                             "other characters")
         if entry.join is not None:
             yield from _bad_join(deck, number)
     for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
@@ -50,6 +56,7 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
             if twice := used.intersection(own):
                 yield (kind, number, "name"), f'the name "{min(twice)}" is already used by an earlier {kind}'
             used.update(own)
+    yield from _colliding_names(deck)
     yield from _bad_names(deck, names)
     yield from _bad_mesh(deck)
     if bad_edges := list(_bad_edges(deck)):
@@ -66,6 +73,22 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
         yield from _bad_contact(deck)
     elif deck.sliding.friction > 0 and deck.sliding.shear != "shear":
         yield ("sliding", "friction"), 'friction needs shear = "shear"; a fluid slip layer has no friction'
+
+
+def _colliding_names(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Bodies, tracers and gauges of which a column of the history would have the name of another one's."""
+    named = [("body", number, "body", entry.name, BODY) for number, entry in enumerate(deck.body)]
+    for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
+                           ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge])):
+        named += [(kind, number, kind, name, (*PLACES, *OF_STATIONS)) for number, own in enumerate(names_of) for name in own]
+    owners: dict[str, str] = {}
+    for kind, number, prefix, name, keys in named:
+        for column in (f"{prefix}_{name}_{key}" for key in keys):
+            other = owners.setdefault(column, name)
+            if other != name:
+                yield (kind, number, "name"), (f'the history would have the column {column} for "{other}" and for "{name}"; '
+                                               "give one of them another name")
+                break
 
 
 def _too_many(deck: Deck) -> Iterator[tuple[tuple, str]]:

@@ -80,7 +80,8 @@ class Numerics(Section):
         "the largest, or that of each material"
     )
     cutoff: Fraction = Field(
-        1e-8, lt=0.01, description="volume fractions below this are removed and listed in the conservation audit",
+        1e-8, ge=1e-12, lt=0.01,
+        description="volume fractions below this are removed and listed in the conservation audit; below 1e-12 is round-off",
         examples=[1e-09],
     )
     mass_floor: Fraction = Field(

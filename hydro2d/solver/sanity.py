@@ -53,7 +53,8 @@ def faults(state, audit: Audit, names, reach: Reach, share: float = TRUSTED) -> 
         if not abs(error) <= CLOSES:
             sentences.append(f"the {kind} does not add up: {error:.2g} of it is not explained by the audit")
     for m, internal in enumerate(now.internal_of):
-        if not internal - min(start.internal_of[m], 0.0) >= -share * energy:
+        first = min(start.internal_of[m] / max(start.mass[m], 1e-300), 0.0)  # a body that comes in may be colder than e = 0
+        if not internal - first * now.mass[m] >= -share * energy:
             sentences.append(f'body "{names[m]}" as a whole has {internal / energy:.2g} times the energy of the start as '
                              f"internal energy{_least_energy(state, m)}")
         if now.mass[m] > LEFT * start.mass[m]:

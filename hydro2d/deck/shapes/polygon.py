@@ -11,6 +11,10 @@ from hydro2d.base.keys import Point
 from hydro2d.deck.shapes.body import Body
 from hydro2d.deck.shapes.outlines import Line, Outline, Slab
 
+#: heights of two corners that differ by less than this share of the largest one are the same
+ROUND_OFF = 1e-14
+#: a coordinate below this, in its unit, is 0
+LEAST = 1e-13
 #: most corners of a polygon
 MOST_CORNERS = 5000
 
@@ -20,7 +24,16 @@ def _points(value):
         raise ValueError("a polygon needs at least three points [r, z]")
     if len(value) > MOST_CORNERS:
         raise ValueError(f"has {len(value)} corners; at most {MOST_CORNERS} are allowed")
-    return value
+    return [[_rounded(each) for each in point] if isinstance(point, (list, tuple)) else point for point in value]
+
+
+def _rounded(coordinate):
+    """A coordinate, 0 where a program has left round-off of it: 3e-19, "1.2e-16 mm"."""
+    number = coordinate.split(maxsplit=1)[0] if isinstance(coordinate, str) and coordinate.strip() else coordinate
+    try:
+        return 0.0 if abs(float(number)) < LEAST else coordinate
+    except (TypeError, ValueError):
+        return coordinate
 
 
 class Polygon(Body):
@@ -55,8 +68,11 @@ def polygon_outline(points) -> Outline:
     sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
     bottom, top = (choice([[a[1], b[1]] for a, b in sides], axis=1) for choice in (np.min, np.max))
     levels = sorted({z for _, z in corners})
+    thin = ROUND_OFF * max(map(abs, (levels[0], levels[-1], levels[-1] - levels[0])))
     slabs = []
     for low, high in zip(levels, levels[1:], strict=False):
+        if high - low <= thin:  # two corners at one height but for round-off
+            continue
         middle = 0.5 * (low + high)
         spanning = [_side(*sides[n]) for n in np.flatnonzero((bottom <= low) & (top >= high))]
         spanning.sort(key=lambda line: line.r(middle))
