@@ -138,6 +138,9 @@ class Simulation:
     def doubts(self) -> list[str]:
         return []
 
+    def notes(self) -> list[str]:
+        return []
+
     def not_finite(self) -> str | None:
         return None
 

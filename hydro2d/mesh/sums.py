@@ -196,6 +196,31 @@ def edge_course(di, first, last, at, entering, advance, columns, r, z, zc, dz, f
 
 
 @serial
+def edge_ejecta(di, first, last, at, outward, direction, surface, rear, rest, is_target, zc, v, flux, gone):
+    """Adds what of a body leaves through an edge before a target's face, away from it, and, of the target, behind its rear.
+
+    di : direction of the sweep, 1 along r;  first, last : places along the edge;  at : its cells;  outward : 1.0 at the high
+    edge, -1.0 at the low one;  direction : of the flight, 1 or -1;  surface : axial place of the face, m;  rear : depth of the
+    target's rear below it, m;  rest : velocity of the undisturbed target, m/s;  is_target : whether the body is the target
+
+    Reads    zc [j]; v [j-1/2, i-1/2] of the body's group; flux [place], kg
+    Updates  gone [3], mass and momentum before the face, mass behind the rear
+    """
+    for k in range(first, last):
+        mass = max(outward * flux[k], 0.0)
+        if mass == 0.0:
+            continue
+        j, i = (k, at) if di == 1 else (at, k)
+        depth = direction * (zc[j] - surface)
+        if is_target and depth > rear:
+            gone[2] += mass
+        away = direction * (rest - 0.25 * ((v[j, i] + v[j, i + 1]) + (v[j + 1, i] + v[j + 1, i + 1])))
+        if depth < 0.0 and away > 0.0:
+            gone[0] += mass
+            gone[1] += mass * away
+
+
+@serial
 def body_course(g, nz, nr, cylindrical, m, middle, width, zc, dr, dz, cm_out, volume, vof, rho, centroid, u, v, sums):
     """Mass of body m, its first moments and momenta along r and z, sums of mass times cell size along r and z, its mass in
     cells that it does not fill, and its volume.

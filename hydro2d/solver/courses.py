@@ -45,8 +45,8 @@ class Courses:
         mass of the body that has been in the mesh
     film, cloud : bool[m], which bodies have become a film or a spray, and a cloud
 
-    A body that began with most of its mass in cells that it fills, and has less than half of it there, has become a film or a
-    spray, and one with ten times its volume a cloud, for good: its place is that of its slivers, or of all that it has met, and
+    A body that began at least three cells thick, and has less than half of its mass in cells that it fills, has become a film
+    or a spray, and one with ten times its volume a cloud, for good: its place is that of its slivers, or of all that it has met, and
     no depth or velocity of a projectile follows from it.
     """
 
@@ -91,7 +91,7 @@ class Courses:
         specific = np.divide(self._sums[:, 8], mass[:, 0], out=np.zeros(s.bodies), where=mass[:, 0] > 0.0)
         if not self._begun:
             self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
-            self._thick, self._specific = ~shared, specific
+            self._thick, self._specific = np.array([self._has_core(m) for m in range(s.bodies)]), specific
         else:
             step = 0.5 * (time - self._last) * (self._momentum + momentum)
             moved = self._moved + step
@@ -105,6 +105,11 @@ class Courses:
                 return
             self._moved, self._way, self._film, self._cloud = moved, way, self.film, self.cloud
         self._last, self._momentum = time, momentum.copy()
+
+    def _has_core(self, m: int) -> bool:
+        """Whether body m fills a cell and its four neighbours, those beyond the mesh included: it is three cells thick."""
+        full = np.pad(self.state.grid.interior(self.state.vof)[m] == 1.0, 1, mode="edge")
+        return bool((full[1:-1, 1:-1] & full[:-2, 1:-1] & full[2:, 1:-1] & full[1:-1, :-2] & full[1:-1, 2:]).any())
 
     def parted(self, names) -> Iterator[Doubt]:
         """A doubt for each body that is too far off its course, a note if it has become a film, a spray or a cloud."""

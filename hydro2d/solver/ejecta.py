@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.measured import DETACHED_SPALL, EJECTA, PERFORATED
 
@@ -45,19 +46,10 @@ class Ejecta:
         `Courses.crossed`."""
         s, grid, crater = self.sim.state, self.sim.grid, self._crater
         at = grid.g + side * ((grid.nr if di else grid.nz) - 1)
-        depth = crater.depth(grid.zc[first:last] if di else grid.zc[at])
         for m in self._bodies:
-            out = s.edge_flux[side, RHO, m, first:last]
-            if not out.any():
-                continue
-            out = np.maximum(out if side else -out, 0.0)
-            if m == crater.m:
-                self._gone[2] += np.where(depth > crater.rear, out, 0.0).sum()
-            v = s.v[s.group[m]]
-            v = v[first : last + 1, at : at + 2] if di else v[at : at + 2, first : last + 1].T
-            away = crater.direction * (crater.target.velocity - 0.25 * (v[1:] + v[:-1]).sum(axis=1))
-            mass = np.where((depth < 0.0) & (away > 0.0), out, 0.0)
-            self._gone[:2] += mass.sum(), (mass * away).sum()
+            sums.edge_ejecta(di, first, last, at, 1.0 if side else -1.0, crater.direction, crater.target.surface, crater.rear,
+                             crater.target.velocity, m == crater.m, grid.zc, s.v[s.group[m]], s.edge_flux[side, RHO, m],
+                             self._gone)
 
     def measure(self, damage: str | None, behind: float) -> dict[str, float | None]:
         """EJECTA; SI, whole circumference.

@@ -178,7 +178,10 @@ def closing_speed(deck, grid) -> float:
 
 
 def speed_of_all(deck, table, grid) -> float:
-    """The largest speed in a shot by its deck, m/s: the closing speed, and that of the body that expands fastest."""
+    """The largest speed in a shot by its deck, m/s: the closing speed, and that of the body that expands fastest; infinite if
+    sources or edges with a pressure give energy."""
+    if deck.source or any(edge.presses() for edge in _edges(deck)):
+        return math.inf
     return closing_speed(deck, grid) + math.sqrt(2.0 * max(released(one) for one in _hottest(deck, table)))
 
 

@@ -48,6 +48,7 @@ class Cells:
         self.known = {"part": 0, "parts": np.array([first, past_z]), "i0": first, "i1": past_r, "j0": first, "j1": past_z,
                       "g": GHOSTS, "nr": nr, "nz": nz, "b": 0, "mesh_box": self.mesh_box, "constrained": lines(),
                       "pushing": none, "loaded": none, "edge_pressure": np.zeros(4), "dj": 0, "di": 1, "steepness": 2.0,
+                      "sound_floor": 1.0,
                       "gases": np.zeros(bodies, dtype=bool),
                       "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
 
