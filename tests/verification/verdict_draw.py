@@ -230,9 +230,9 @@ def against_a_wall(gamma: float, speed: float, choice: str, what: str = "pressur
     p = brentq(lambda p: first.velocity_change(p) - speed, 1.0, 10.0 * (1.0 + speed) ** 2 * (gamma + 1.0))
     rho = first.density_behind(p)
     shock = speed / (rho - 1.0)
-    time = 0.4 / (shock + speed)
-    text = (tube(cells, 0.0, 1.0, "z_min") + gas("gas", 0.0, 1.0, 1.0, "own", pressure=1.0, velocity=-speed)
-            + ideal("own", gamma) + numerics(choice) + stop(time))
+    text = (tube(cells, 0.0, 1.0, "z_min", z_max="velocity", z_max_velocity=-speed)
+            + gas("gas", 0.0, 2.0, 1.0, "own", pressure=1.0, velocity=-speed) + ideal("own", gamma) + numerics(choice)
+            + stop(0.4 / shock))
 
     def error(simulation: Simulation) -> float:
         line = Line(simulation)
