@@ -157,12 +157,12 @@ def free_surface(solid: Solid, speed: float, cells: int = 40) -> Row:
     arrives, gained = thick / exact.target.speed, impact.free_surface_velocity(solid, exact.target)
     size = thick / cells
     text = (tube(6 * cells, -3 * thick, 3 * thick) + box("flyer", NAMES[solid], z=[-2.5 * thick, 0.0], velocity=speed)
-            + box("target", NAMES[solid], z=[0.0, thick]) + fluid(solid) + NO_FRACTURE + stop(1.4 * arrives))
+            + box("target", NAMES[solid], z=[0.0, thick]) + fluid(solid) + NO_FRACTURE + stop(1.5 * arrives))
 
     def error(simulation: Simulation) -> float:
         line = Line(simulation)
         rear = thick + gained * (simulation.time - arrives)
-        near = (line.xv > rear - 0.25 * thick) & (line.xv < rear - 2.0 * size)
+        near = (line.xv > rear - 0.4 * thick) & (line.xv < rear - 2.0 * size)
         return line.velocity[near].mean() / gained - 1.0
 
     return Row("shocks of metals and liquids", f"rear of {NAMES[solid]} after {speed:g} m/s, {cells} cells", text, error, 0.03)
@@ -343,18 +343,17 @@ def corner(mach: float = 2.0, cells: int = 40) -> Row:
 def wedge(degrees: float, mach: float = 3.0) -> Row:
     """Gas flows along a wedge of steel: the pressure behind the oblique shock, above the surface, within 5 %."""
     c, rise = math.sqrt(1.4 * 1e5 / 1.2), math.tan(math.radians(degrees))
-    exact = oblique.weak(mach, math.radians(degrees)).pressure if degrees else 1.0
-    text = (mesh((0.3, 45), (0.6, 90), geometry="planar")
+    exact = oblique.weak(mach, math.radians(degrees)).pressure
+    text = (mesh((0.3, 30), (0.6, 60), geometry="planar")
             + walls("r_max", z_min="velocity", z_min_velocity=mach * c)
-            + body("wedge", "steel_4340", "polygon", points=[[0.0, 0.0], [0.05, 0.0], [0.05, 0.1], [0.05 + 0.5 * rise, 0.6],
-                                                             [0.0, 0.6]])
+            + body("wedge", "steel_4340", "polygon", points=[[0.0, 0.1], [0.5 * rise, 0.6], [0.0, 0.6]])
             + box("gas", "air", z=[0.0, 0.6], density=1.2, pressure=1e5, velocity=mach * c) + ideal("air", 1.4)
             + stop(0.9 / (mach * c)))  # fmt: skip
 
     def error(simulation: Simulation) -> float:
         grid = simulation.grid
         z, r = grid.zc[grid.inside[0]], grid.rc[grid.inside[1]]
-        surface = 0.05 + rise * (z[:, None] - 0.1)
+        surface = rise * (z[:, None] - 0.1)
         size = r[1] - r[0]
         near = (z[:, None] > 0.3) & (z[:, None] < 0.45) & (r > surface + size) & (r < surface + 4.0 * size)
         return grid.interior(simulation.state.p)[near].mean() / (1e5 * exact) - 1.0
@@ -364,7 +363,7 @@ def wedge(degrees: float, mach: float = 3.0) -> Row:
 
 def along_a_plate(speed: float) -> Row:
     """Gas flows along a smooth plate at rest: its mean velocity within 2 %."""
-    text = (mesh((0.1, 20), (0.4, 40), geometry="planar") + walls("r_max", z_min="velocity", z_min_velocity=speed)
+    text = (mesh((0.1, 20), (0.4, 40), geometry="planar") + walls("r_max")
             + box("plate", "steel_4340", r=[0.0, 0.0225], z=[0.0, 0.4])
             + box("gas", "air", z=[0.0, 0.4], density=1.2, pressure=1e5, velocity=speed) + ideal("air", 1.4)
             + stop(0.3 / speed))
@@ -612,7 +611,7 @@ WRONG = [
     collide(AL_5083, AL_5083, 3000.0, what="energy", viscosity_linear=0.0, viscosity_quadratic=0.0),
     collide(AL_5083, AL_5083, 3000.0, what="greatest pressure", courant=1.0, shock_courant=1.0),
     collide(COPPER, COPPER, 8000.0, what="greatest pressure", courant=1.0, shock_courant=1.0, viscosity_linear=0.0),
-    interface_energy(6000.0), interface_energy(2000.0), free_surface(COPPER, 4000.0, 5), noh_metal(2, 3000.0, "ke"),
+    interface_energy(6000.0), interface_energy(2000.0), free_surface(COPPER, 4000.0, 8), noh_metal(2, 3000.0, "ke"),
     # gases: 14
     against_a_wall(1.4, 100.0, "ke"), against_a_wall(1.1, 50.0, "ke"), against_a_wall(5 / 3, 100.0, "momentum"),
     against_a_wall(1.4, 3.0, "both", "energy at the wall"), noh_sphere("ke"), noh_sphere("momentum"),
