@@ -162,7 +162,7 @@ def free_surface(solid: Solid, speed: float, cells: int = 40) -> Row:
     def error(simulation: Simulation) -> float:
         line = Line(simulation)
         rear = thick + gained * (simulation.time - arrives)
-        near = (line.xv > rear - 0.4 * thick) & (line.xv < rear - 2.0 * size)
+        near = (line.xv > rear - 0.2 * thick) & (line.xv < rear - size)
         return line.velocity[near].mean() / gained - 1.0
 
     return Row("shocks of metals and liquids", f"rear of {NAMES[solid]} after {speed:g} m/s, {cells} cells", text, error, 0.03)
@@ -205,8 +205,7 @@ def noh_metal(j: int, speed: float, choice: str = "both") -> Row:
 def two_fluids(name: str, left: riemann.Gas, right: riemann.Gas, time: float, choice: str = "both", cells: int = 100) -> Row:
     """The Riemann problem of two fluids, a liquid if it has p_inf: the mean error of the density within 2 % of the greatest."""
     exact = riemann.solve(left, right)
-    speed = max(abs(left.u), abs(right.u), 1.0)
-    text = tube(cells, 0.0, 1.0, *(() if left.u else ("z_min", "z_max")))
+    text = tube(cells, 0.0, 1.0, z_min="transmit", z_max="transmit")
     for side, reach, each in (("left", [0.0, 0.5], left), ("right", [0.5, 1.0], right)):
         text += gas(side, *reach, each.rho, side, pressure=each.p, velocity=[0.0, each.u])
         text += ideal(side, each.gamma) if each.p_inf == 0.0 else table(f"materials.{side}", eos={
@@ -217,9 +216,8 @@ def two_fluids(name: str, left: riemann.Gas, right: riemann.Gas, time: float, ch
     def error(simulation: Simulation) -> float:
         line = Line(simulation)
         rho, _, _ = exact.sample((line.x - 0.5) / simulation.time)
-        known = (line.x > speed * simulation.time) & (line.x < 1.0 - speed * simulation.time) if left.u else rho > 0.0
         density = np.sum([line.body("vof", m) * line.body("rho", m) for m in (0, 1)], axis=0)
-        return np.abs(density - rho)[known].mean() / rho.max()
+        return np.abs(density - rho).mean() / rho.max()
 
     return Row("gases", f"{name}, {choice}, {cells} cells", text, error, 0.02)
 
@@ -306,7 +304,7 @@ def noh_sphere(choice: str, cells: int = 40) -> Row:
 
 def bubble(density: float, speed: float) -> Row:
     """A ball of gas of 8 cells moves with the gas around it at one pressure: its density within 2 %, after 10 cells."""
-    text = (mesh((0.12, 12), (0.48, 48)) + walls("r_max", z_min="velocity", z_min_velocity=speed)
+    text = (mesh((0.12, 12), (0.48, 48)) + walls("r_max", z_min="transmit", z_max="transmit")
             + body("ball", "light", "sphere", centre=0.15, radius=0.08, density=density, pressure=1e5, velocity=speed)
             + box("around", "air", z=[0.0, 0.48], density=1.2, pressure=1e5, velocity=speed) + ideal("light", 5 / 3)
             + ideal("air", 1.4) + stop(0.1 / speed))
@@ -363,8 +361,8 @@ def wedge(degrees: float, mach: float = 3.0) -> Row:
 
 def along_a_plate(speed: float) -> Row:
     """Gas flows along a smooth plate at rest: its mean velocity within 2 %."""
-    text = (mesh((0.1, 20), (0.4, 40), geometry="planar") + walls("r_max")
-            + box("plate", "steel_4340", r=[0.0, 0.0225], z=[0.0, 0.4])
+    text = (mesh((0.1, 20), (0.4, 40), geometry="planar")
+            + walls("r_max", z_min="transmit", z_max="transmit") + box("plate", "steel_4340", r=[0.0, 0.0225], z=[0.0, 0.4])
             + box("gas", "air", z=[0.0, 0.4], density=1.2, pressure=1e5, velocity=speed) + ideal("air", 1.4)
             + stop(0.3 / speed))
     return Row("gases", f"air along a plate of steel at {speed:g} m/s", text,
@@ -611,7 +609,7 @@ WRONG = [
     collide(AL_5083, AL_5083, 3000.0, what="energy", viscosity_linear=0.0, viscosity_quadratic=0.0),
     collide(AL_5083, AL_5083, 3000.0, what="greatest pressure", courant=1.0, shock_courant=1.0),
     collide(COPPER, COPPER, 8000.0, what="greatest pressure", courant=1.0, shock_courant=1.0, viscosity_linear=0.0),
-    interface_energy(6000.0), interface_energy(2000.0), free_surface(COPPER, 4000.0, 8), noh_metal(2, 3000.0, "ke"),
+    interface_energy(6000.0), interface_energy(2000.0), free_surface(COPPER, 4000.0, 12), noh_metal(2, 3000.0, "ke"),
     # gases: 14
     against_a_wall(1.4, 100.0, "ke"), against_a_wall(1.1, 50.0, "ke"), against_a_wall(5 / 3, 100.0, "momentum"),
     against_a_wall(1.4, 3.0, "both", "energy at the wall"), noh_sphere("ke"), noh_sphere("momentum"),
