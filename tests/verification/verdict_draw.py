@@ -1,7 +1,7 @@
 """Runs drawn before any of them had run, of kinds that users do: 60 whose answer should be right, 30 whose answer should not.
 
-Each has an exact answer and a bound, as in `verdicts`. ``python -m tests.verification.verdict_draw`` prints them with their
-results, and the table of the page explanation/sanity.
+Each has an exact answer and a bound, as in `verdicts`. A row is declared as it came out, not as it was drawn.
+``python -m tests.verification.verdict_draw`` prints them with their results, and the table of the page explanation/sanity.
 """
 
 from __future__ import annotations
@@ -24,9 +24,13 @@ from tests.decks import body, box, contact, material, mesh, stop, table, walls
 from tests.verification.running import Line, between, crossing
 from tests.verification.verdicts import (
     CHARGE,
+    DISCARDS,
+    GAINS,
     LONGITUDINAL,
+    MESH,
     NO_FRACTURE,
     STEEL,
+    THIN,
     Row,
     ball,
     elastic,
@@ -511,7 +515,7 @@ def lets_pass(speed: float) -> Row:
 # -------------------------------------------------------------------------------------------------------------- explosives
 
 
-def front(what: str, density: float, speed: float, choice: str, cells: int = 150) -> Row:
+def front(what: str, speed: float, choice: str, cells: int = 150) -> Row:
     """An explosive of the library, lit at a wall: the place of its front within 2 %."""
     length = 60e-3
     text = (tube(cells, 0.0, length, "z_min", "z_max") + box("charge", what, z=[0.0, length]) + fuse(length / cells, 2)
@@ -569,17 +573,32 @@ def gas_gun(choice: str, cells: int = 80, thickness: float = 0.05) -> Row:
 
 def renamed(row: Row, more: str) -> Row:
     """A row of `verdicts` with other numbers, under a name of its own."""
-    return row._replace(name=f"{row.name}, {more}")
+    return row._replace(name=f"{row.family}: {row.name}, {more}")
 
+
+#: why a verdict is not as it should be
+SPIKE = ("one cell before the shock is 0.3 MJ/kg too cold, where 28 MJ/kg are behind it: 6e-5 of the energy, but 1.3 % of the "
+         "mass of a body of 80 cells, of which 1 % makes a doubt; with 120 cells it is a note")
+STARTS = "overheating where a shock begins, of the method: no more heat than the deck can reach"
+STICKS = ("gas and metal share the velocities at their surface, as thick as a cell: along the plate 15, 6 and 0.8 % with 10, "
+          "20 and 40 cells, at the wedge 6 and 4 % with 30 and 60")
+TIED = ("without contact bodies have one velocity, so that they do not slide or, with fracture off, part: 50 to 97 % wrong, "
+        "but all that they do is computed rightly")
+BRIDGED = ("two plates share vertices across a gap of less than two cells: the second has 20 % of the speed before they can "
+           "meet, with contact nothing")
+FLAT = ("a plate of 1 to 2 cells that leaves the faces on which it began fills none of its cells, and is taken for a film: "
+        "that it is 0.14 to 0.19 cells off after 2 to 2.7 cells is but a note")
 
 G = riemann.Gas
+#: of which the answer should be right
 RIGHT = [
     # shocks of metals and liquids: 22
     collide(TUNGSTEN, AL_5083, 1000.0), collide(AL_5083, TUNGSTEN, 3000.0, "ke"), collide(COPPER, AL_5083, 6000.0),
     collide(WATER, COPPER, 500.0), collide(AL_5083, AL_5083, 10000.0, hard=True),
     collide(TUNGSTEN, AL_5083, 2000.0, "momentum"), collide(PLASTIC, AL_5083, 300.0),
     collide(COPPER, COPPER, 2000.0, hard=True), collide(COPPER, COPPER, 4000.0, what="energy"),
-    vaporising("Al_tillotson", 3000.0), vaporising("Al_tillotson", 10000.0), vaporising("Al_tillotson", 15000.0),
+    vaporising("Al_tillotson", 3000.0), vaporising("Al_tillotson", 10000.0),
+    vaporising("Al_tillotson", 15000.0)._replace(missed=SPIKE),
     vaporising("Fe_tillotson", 8000.0, "ke"), vaporising("Cu_tillotson", 6000.0),
     free_surface(AL_5083, 2000.0), free_surface(COPPER, 4000.0), free_surface(TUNGSTEN, 1000.0),
     water_hammer(1.0, "both"), water_hammer(10.0, "momentum"), water_hammer(100.0, "ke"),
@@ -587,44 +606,54 @@ RIGHT = [
     # gases: 15
     two_fluids("compressed air and helium", G(12.0, 0.0, 1e6, 1.4), G(0.166, 0.0, 1e5, 5 / 3), 3.5e-4),
     two_fluids("heavy and light gas", G(100.0, 0.0, 1e7, 1.4), G(1.0, 0.0, 1e5, 5 / 3), 4e-4),
-    two_fluids("hot light and cold heavy gas", G(0.1, 0.0, 1e6, 5 / 3), G(10.0, 0.0, 1e5, 1.1), 1e-4, "ke"),
+    wrong(two_fluids("hot light and cold heavy gas", G(0.1, 0.0, 1e6, 5 / 3), G(10.0, 0.0, 1e5, 1.1), 1e-4, "ke"), MESH),
     two_fluids("an interface that only moves", G(1.0, 100.0, 1e5, 1.4), G(100.0, 100.0, 1e5, 1.1), 1e-3),
     two_fluids("water and gas", G(1000.0, 0.0, 1e9, 4.4, 6e8), G(50.0, 0.0, 1e5, 1.4), 1.8e-4),
-    against_a_wall(1.4, 3.0, "ke"), against_a_wall(5 / 3, 10.0, "both"), against_a_wall(1.1, 5.0, "both"),
-    reflected(2.0, "both"), reflected(5.0, "momentum"), collapse(2, "both"), collapse(3, "ke"), bubble(0.1, 100.0), corner(),
-    renamed(sedov(3, "both", 40), "40 cells"),
+    wrong(against_a_wall(1.4, 3.0, "ke"), GAINS), against_a_wall(5 / 3, 10.0, "both"), against_a_wall(1.1, 5.0, "both"),
+    reflected(2.0, "both"), reflected(5.0, "momentum"), collapse(2, "both"), wrong(collapse(3, "ke"), MESH),
+    bubble(0.1, 100.0), corner(), renamed(sedov(3, "both", 40), "40 cells"),
     # flight and contact: 12
     in_flight(0.6, 5000.0), in_flight(1.7, 2000.0, "momentum"), in_flight(2.5, 400.0, "ke"), in_flight(4.0, 7000.0),
     film_in_water(0.4, 300.0), film_in_water(3.0, 1000.0), gap(0.5, 1000.0, 1000.0), gap(2.0, 500.0, 500.0, hard=True),
     slides(100.0, True), strikes(10.0, True), knocked(200.0, True), spalls(300.0),
     # edges and elastic waves: 6
     under_pressure(1e8, 0.7), under_pressure(1e7, 3.0), clamped(20.0, "held"), lets_pass(200.0),
-    renamed(precursor("both", 200.0), "200 m/s"), renamed(ball(20.0, 12), "12 cells"),
-    # explosives and work: 5
-    front("TNT", 1630.0, 6930.0, "both"), gurney("TNT", 1630.0, 2440.0, 2.0), plate_push(8.0, 2.0, "ke"), escapes("both"),
+    renamed(precursor("both", 200.0), "200 m/s"), wrong(renamed(ball(20.0, 12), "12 cells")),
+    # explosives: 5
+    front("TNT", 6930.0, "both"), gurney("TNT", 1630.0, 2440.0, 2.0), wrong(plate_push(8.0, 2.0, "ke"), GAINS), escapes("both"),
     gas_gun("both"),
 ]
+#: of which the answer should be wrong: too few cells, `ke` and `momentum` in strong shocks, no viscosity, the longest steps,
+#: tied bodies, gas beside metal, plates thinner than a cell
 WRONG = [
     # shocks of metals and liquids: 7
     collide(AL_5083, AL_5083, 3000.0, what="energy", viscosity_linear=0.0, viscosity_quadratic=0.0),
     collide(AL_5083, AL_5083, 3000.0, what="greatest pressure", courant=1.0, shock_courant=1.0),
     collide(COPPER, COPPER, 8000.0, what="greatest pressure", courant=1.0, shock_courant=1.0, viscosity_linear=0.0),
-    interface_energy(6000.0), interface_energy(2000.0), free_surface(COPPER, 4000.0, 12), noh_metal(2, 3000.0, "ke"),
+    wrong(interface_energy(6000.0), STARTS), wrong(interface_energy(2000.0), STARTS), free_surface(COPPER, 4000.0, 12),
+    noh_metal(2, 3000.0, "ke"),
     # gases: 14
-    against_a_wall(1.4, 100.0, "ke"), against_a_wall(1.1, 50.0, "ke"), against_a_wall(5 / 3, 100.0, "momentum"),
-    against_a_wall(1.4, 3.0, "both", "energy at the wall"), noh_sphere("ke"), noh_sphere("momentum"),
-    renamed(noh(2, "both", 30), "30 cells"), renamed(sedov(3, "both", 10), "10 cells"),
-    renamed(shock_tube("Sod's tube", "both", 15), "15 cells"),
-    two_fluids("heavy and light gas", G(100.0, 0.0, 1e7, 1.4), G(1.0, 0.0, 1e5, 5 / 3), 4e-4, cells=12),
-    wedge(10.0), wedge(20.0), along_a_plate(300.0), renamed(limited(2e8), "200 MPa"),
+    wrong(against_a_wall(1.4, 100.0, "ke"), GAINS), wrong(against_a_wall(1.1, 50.0, "ke")),
+    against_a_wall(5 / 3, 100.0, "momentum")._replace(missed=DISCARDS),
+    against_a_wall(1.4, 3.0, "both", "energy at the wall"), noh_sphere("ke"), noh_sphere("momentum")._replace(missed=DISCARDS),
+    wrong(renamed(noh(2, "both", 30), "30 cells"), MESH), renamed(sedov(3, "both", 10), "10 cells"),
+    wrong(renamed(shock_tube("Sod's tube", "both", 15), "15 cells"), MESH),
+    wrong(two_fluids("heavy and light gas", G(100.0, 0.0, 1e7, 1.4), G(1.0, 0.0, 1e5, 5 / 3), 4e-4, cells=12), MESH),
+    wedge(10.0), wrong(wedge(20.0), STICKS), wrong(along_a_plate(300.0), STICKS), wrong(renamed(limited(2e8), "200 MPa"), THIN),
     # flight and contact: 6
-    slides(100.0, False), strikes(10.0, False), knocked(200.0, False), gap(0.6, 100.0, 0.0), spalls(300.0, 6),
-    slides(1000.0, False),
-    # edges, elastic waves and explosives: 3
-    renamed(precursor("both", 400.0, 12), "12 cells"), plate_push(0.3, 1.0, "momentum"),
-    front("TNT", 1630.0, 6930.0, "both", 15),
+    wrong(slides(100.0, False), TIED), wrong(strikes(10.0, False), TIED), wrong(knocked(200.0, False), TIED),
+    wrong(gap(0.6, 100.0, 0.0), BRIDGED), wrong(spalls(300.0, 6), MESH), wrong(slides(1000.0, False), TIED),
+    # elastic waves and explosives: 3
+    wrong(renamed(precursor("both", 400.0, 12), "12 cells"), MESH), wrong(plate_push(0.3, 1.0, "momentum")),
+    front("TNT", 6930.0, "both", 15),
 ]
-DRAWN = [*RIGHT, *map(wrong, WRONG)]
+#: where the families of `verdicts` belong here
+FAMILIES = {"Sedov's blast": "gases", "Noh's problem": "gases", "tubes of gas": "gases",
+            "at rest and in flight": "flight and contact", "elastic waves": "edges and elastic waves"}
+DRAWN = [row._replace(family=FAMILIES.get(row.family, row.family)) for row in [*RIGHT, *WRONG]]
+#: not of the draw: found afterwards by looking for wrong runs of which a note is all that is said
+NOTED = [wrong(plate_push(1.0, 1.0, "momentum"), FLAT), wrong(plate_push(1.2, 1.0), FLAT),
+         wrong(plate_push(1.4, 1.0, "momentum"), FLAT)]
 
 
 if __name__ == "__main__":

@@ -623,13 +623,14 @@ def gas_leaves(choice: str) -> Row:
 
 #: why a verdict is not as it should be
 MESH = "the error is that of the mesh and falls with its cells, which no bound on an energy shows"
-DISCARDS = "`momentum` has discarded 2.1 % of the energy, of which 2 % are allowed, and is 2.9 % wrong of 4"
+DISCARDS = "`momentum` has discarded 2 to 10 % of the energy, of which 2 % are allowed, and is within its bound"
 GAINS = "`ke` gains momentum where the shock is: along r without a total of it, along z booked but not judged"
 THIN = ("what the speed limit takes of the first, thin cells of a front is 0.4 % of the energy, but it dams up what follows; "
         "a share of the energy that rests says nothing of the motion")
 LOST = "the course of a gas that weighs next to nothing is off by more than a tenth of a cell, while its energy is right"
 WEAK = "what `momentum` discards, 1.4 % of an energy that is chemical for the most part, is missing in the front alone"
-HOT = "overheating where two rarefactions begin, of the method: no more heat than the deck can reach"
+SKIPS = ("the first step is 34 s long, as gas at rest with a speed of sound of 2e-5 m/s allows; no source limits it, and it "
+         "passes over the pulse of 1e-4 s and the end of the run at 1 s, without a flow that could be off")
 TOUCHES = ("an elastic energy of 44 v^2/2 passes through the cell that touches first, and what the viscosity keeps of it, 4 K, "
            "is more than the deck can reach; the cell does not know what it has borne")
 
@@ -642,17 +643,18 @@ def wrong(row: Row, missed: str = "") -> Row:
 ROWS = [
     sedov(1, "ke"), sedov(1, "both"), sedov(2, "ke"), sedov(2, "both"), sedov(3, "ke"),
     sedov(3, "both"), *(wrong(blast_energy(j)) for j in (1, 2, 3)),
-    wrong(noh(1, "ke"), GAINS), wrong(noh(1, "momentum")), noh(1, "both"), wrong(noh(2, "ke")), wrong(noh(2, "momentum")),
-    wrong(noh(2, "both"), MESH), wrong(streams(0.0, "momentum")), streams(3.0, "momentum")._replace(missed=DISCARDS),
-    *(streams(frame, "both") for frame in (0.0, 3.0)), wrong(streams(0.0, "ke"), GAINS), streams(3.0, "ke"),
+    wrong(noh(1, "ke"), GAINS), wrong(noh(1, "momentum")), noh(1, "both"), wrong(noh(2, "ke"), GAINS),
+    noh(2, "momentum")._replace(missed=DISCARDS), wrong(noh(2, "both"), MESH), wrong(streams(0.0, "momentum")),
+    streams(3.0, "momentum")._replace(missed=DISCARDS), *(streams(frame, "both") for frame in (0.0, 3.0)),
+    *(wrong(streams(frame, "ke"), GAINS) for frame in (0.0, 3.0)),
     *(shock_tube(name, choice) for name, choice in itertools.product(("Sod's tube", "two rarefactions"), ADVECTION)),
     wrong(shock_tube("a strong shock", "ke"), GAINS), shock_tube("a strong shock", "momentum"),
-    shock_tube("a strong shock", "both"), middle("ke"), middle("momentum"), wrong(middle("both"), HOT),
+    shock_tube("a strong shock", "both"), middle("ke"), middle("momentum"), middle("both"),
     *(expansion(choice) for choice in ADVECTION), wrong(limited(), THIN),
     *(pressed_gas(by) for by in (1.5, 3.0, 10.0)), pressed_gas_and_plug(1.5), pressed_gases(10.0),
     *(pressed_bar(strain) for strain in (0.005, 0.02)),
-    heated("everywhere", 10.0), heated("everywhere", 100.0), heated("in two cells", 0.0), heated_neighbour(10.0, 0.05),
-    heated_neighbour(50.0, 1.0), accelerated(1e6), accelerated(1e8),
+    heated("everywhere", 10.0), heated("everywhere", 100.0), wrong(heated("in two cells", 0.0), SKIPS),
+    heated_neighbour(10.0, 0.05), heated_neighbour(50.0, 1.0), accelerated(1e6), accelerated(1e8),
     at_rest(298.0), at_rest(718.0), in_flight(10.0, 0.0), in_flight(10.0, 3000.0), in_flight(0.9, 3000.0),
     *(in_flight(0.3, 1000.0, choice) for choice in ADVECTION),
     *(plane_impact(1000.0, frame) for frame in (0.0, 1000.0, 3000.0)),
