@@ -1,6 +1,7 @@
 """Runs drawn before any of them had run, of kinds that users do: 60 whose answer should be right, 30 whose answer should not.
 
 Each has an exact answer and a bound, as in `verdicts`. A row is declared as it came out, not as it was drawn.
+Edges of the gases and the places where plates are read were corrected after the first run (explanation/sanity).
 ``python -m tests.verification.verdict_draw`` prints them with their results, and the table of the page explanation/sanity.
 """
 
