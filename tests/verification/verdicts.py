@@ -97,11 +97,12 @@ NO_FRACTURE = table("failure", tensile="none")
 SEDOV = {1: (0.0673185, 0.5), 2: (0.311357, 0.75), 3: (0.851072, 1.0)}
 
 
-def sedov(j: int, choice: str) -> Row:
+def sedov(j: int, choice: str, cells: int | None = None) -> Row:
     """The radius of the shock, at half of the highest pressure, within 5 %."""
     energy, radius = SEDOV[j]
     name = ("plane", "cylindrical", "r-z")[j - 1]
     n, end = (30, 1.2) if j == 3 else (60, 1.4 * radius)
+    n = cells or n
     size = end / n
     hot = 2.5 * size if j == 3 else 2 * size
     specific = energy / (hot, math.pi * hot**2, 4 / 3 * math.pi * hot**3)[j - 1]
@@ -230,9 +231,9 @@ def expansion(choice: str) -> Row:
     return Row("tubes of gas", f"into the void, {choice}", text, error, 0.05)
 
 
-def limited() -> Row:
+def limited(pressure: float = 2e7) -> Row:
     """The expansion next to tungsten, far away, which counts for the speed limit: the kinetic energy within 5 %."""
-    rho, length, pressure = 1.2, 0.1, 2e7
+    rho, length = 1.2, 0.1
     c = math.sqrt(1.4 * pressure / rho)
     time = 0.3 * length / c
     y = np.linspace(-1.0, 5.0, 20001)
@@ -449,11 +450,11 @@ def plane_impact(speed: float, frame: float, choice: str = "both", geometry: str
     return Row("plane impact", f"{speed:g} m/s, {frame:g} m/s more, {choice}, {geometry}", text, error, 0.02)
 
 
-def precursor(choice: str, speed: float = 400.0) -> Row:
+def precursor(choice: str, speed: float = 400.0, cells: int = 100) -> Row:
     """Wilkins' aluminium before a piston: the stress behind the plastic shock within 2 %."""
     exact = piston(*ALUMINIUM, speed)
     time = 2e-6
-    text = (tube(100, 0.0, 15e-3, z_min="velocity", z_min_velocity=speed) + box("bar", "aluminium", z=["-5 mm", "30 mm"])
+    text = (tube(cells, 0.0, 15e-3, z_min="velocity", z_min_velocity=speed) + box("bar", "aluminium", z=["-5 mm", "30 mm"])
             + table("materials.aluminium", eos={
                 "model": "mie-grueneisen", "reference_density": "2785 kg/m^3", "sound_speed": "5328 m/s",
                 "hugoniot_slope": 1.338, "grueneisen": 2.0, "specific_heat": "863 J/kg/K"}, strength={
@@ -475,9 +476,12 @@ def rebound(speed: float, choice: str = "both", cells: int = 120) -> Row:
                lambda simulation: (simulation.mean_velocity(0) or 0.0) / speed - 1.0, 0.05)
 
 
-def ball(speed: float) -> Row:
-    """A ball of steel that does not yield leaves an anvil as fast as it came, except for 1 % left as vibration, within 5 %."""
-    text = (mesh(("6 mm", 12), ("12 mm", 24)) + table("boundaries", z_min="anvil")
+def ball(speed: float, cells: int = 8) -> Row:
+    """A ball of steel that does not yield leaves an anvil as fast as it came, except for 1 % left as vibration, within 5 %.
+
+    cells : across the radius
+    """
+    text = (mesh(("6 mm", 3 * cells // 2), ("12 mm", 3 * cells)) + table("boundaries", z_min="anvil")
             + body("ball", "elastic", "sphere", centre="4.0 mm", radius="4 mm", velocity=-speed) + elastic()
             + NO_FRACTURE + stop("60 us"))
     return Row("elastic waves", f"a ball meets an anvil at {speed:g} m/s", text,
@@ -619,13 +623,14 @@ def gas_leaves(choice: str) -> Row:
 
 #: why a verdict is not as it should be
 MESH = "the error is that of the mesh and falls with its cells, which no bound on an energy shows"
-DISCARDS = "`momentum` has discarded 2.1 % of the energy, of which 2 % are allowed, and is 2.9 % wrong of 4"
+DISCARDS = "`momentum` has discarded 2 to 10 % of the energy, of which 2 % are allowed, and is within its bound"
 GAINS = "`ke` gains momentum where the shock is: along r without a total of it, along z booked but not judged"
 THIN = ("what the speed limit takes of the first, thin cells of a front is 0.4 % of the energy, but it dams up what follows; "
         "a share of the energy that rests says nothing of the motion")
 LOST = "the course of a gas that weighs next to nothing is off by more than a tenth of a cell, while its energy is right"
 WEAK = "what `momentum` discards, 1.4 % of an energy that is chemical for the most part, is missing in the front alone"
-HOT = "overheating where two rarefactions begin, of the method: no more heat than the deck can reach"
+SKIPS = ("the first step is 34 s long, as gas at rest with a speed of sound of 2e-5 m/s allows; no source limits it, and it "
+         "passes over the pulse of 1e-4 s and the end of the run at 1 s, without a flow that could be off")
 TOUCHES = ("an elastic energy of 44 v^2/2 passes through the cell that touches first, and what the viscosity keeps of it, 4 K, "
            "is more than the deck can reach; the cell does not know what it has borne")
 
@@ -638,17 +643,18 @@ def wrong(row: Row, missed: str = "") -> Row:
 ROWS = [
     sedov(1, "ke"), sedov(1, "both"), sedov(2, "ke"), sedov(2, "both"), sedov(3, "ke"),
     sedov(3, "both"), *(wrong(blast_energy(j)) for j in (1, 2, 3)),
-    wrong(noh(1, "ke"), GAINS), wrong(noh(1, "momentum")), noh(1, "both"), wrong(noh(2, "ke")), wrong(noh(2, "momentum")),
-    wrong(noh(2, "both"), MESH), wrong(streams(0.0, "momentum")), streams(3.0, "momentum")._replace(missed=DISCARDS),
-    *(streams(frame, "both") for frame in (0.0, 3.0)), wrong(streams(0.0, "ke"), GAINS), streams(3.0, "ke"),
+    wrong(noh(1, "ke"), GAINS), wrong(noh(1, "momentum")), noh(1, "both"), wrong(noh(2, "ke"), GAINS),
+    noh(2, "momentum")._replace(missed=DISCARDS), wrong(noh(2, "both"), MESH), wrong(streams(0.0, "momentum")),
+    streams(3.0, "momentum")._replace(missed=DISCARDS), *(streams(frame, "both") for frame in (0.0, 3.0)),
+    *(wrong(streams(frame, "ke"), GAINS) for frame in (0.0, 3.0)),
     *(shock_tube(name, choice) for name, choice in itertools.product(("Sod's tube", "two rarefactions"), ADVECTION)),
     wrong(shock_tube("a strong shock", "ke"), GAINS), shock_tube("a strong shock", "momentum"),
-    shock_tube("a strong shock", "both"), middle("ke"), middle("momentum"), wrong(middle("both"), HOT),
+    shock_tube("a strong shock", "both"), middle("ke"), middle("momentum"), middle("both"),
     *(expansion(choice) for choice in ADVECTION), wrong(limited(), THIN),
     *(pressed_gas(by) for by in (1.5, 3.0, 10.0)), pressed_gas_and_plug(1.5), pressed_gases(10.0),
     *(pressed_bar(strain) for strain in (0.005, 0.02)),
-    heated("everywhere", 10.0), heated("everywhere", 100.0), heated("in two cells", 0.0), heated_neighbour(10.0, 0.05),
-    heated_neighbour(50.0, 1.0), accelerated(1e6), accelerated(1e8),
+    heated("everywhere", 10.0), heated("everywhere", 100.0), wrong(heated("in two cells", 0.0), SKIPS),
+    heated_neighbour(10.0, 0.05), heated_neighbour(50.0, 1.0), accelerated(1e6), accelerated(1e8),
     at_rest(298.0), at_rest(718.0), in_flight(10.0, 0.0), in_flight(10.0, 3000.0), in_flight(0.9, 3000.0),
     *(in_flight(0.3, 1000.0, choice) for choice in ADVECTION),
     *(plane_impact(1000.0, frame) for frame in (0.0, 1000.0, 3000.0)),
@@ -676,9 +682,14 @@ def table_of(rows: list[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-if __name__ == "__main__":
-    for row in ROWS:
+def print_results(rows: list[Row]) -> None:
+    """The rows with their results, and their table."""
+    for row in rows:
         found = judged(row)
         verdict = "not trusted" if found.said else "trusted"
         print(f"| {row.family} | {row.name} | {found.error:.2g} | {row.bound:g} | {verdict} |", flush=True)
-    print(table_of(ROWS))
+    print(table_of(rows))
+
+
+if __name__ == "__main__":
+    print_results(ROWS)
