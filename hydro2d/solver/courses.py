@@ -46,8 +46,8 @@ class Courses:
     film, cloud : bool[m], which bodies have become a film or a spray, and a cloud
 
     A body that began at least three cells thick, and has less than half of its mass in cells that it fills, has become a film
-    or a spray, and one with ten times its volume a cloud, for good: its place is that of its slivers, or of all that it has met, and
-    no depth or velocity of a projectile follows from it.
+    or a spray, and one with ten times its volume a cloud, for good: its place is that of its slivers, or of all that it has
+    met, and no depth or velocity of a projectile follows from it.
     """
 
     def __init__(self, state):

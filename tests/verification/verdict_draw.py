@@ -650,8 +650,8 @@ WRONG = [
 FAMILIES = {"Sedov's blast": "gases", "Noh's problem": "gases", "tubes of gas": "gases",
             "at rest and in flight": "flight and contact", "elastic waves": "edges and elastic waves"}
 DRAWN = [row._replace(family=FAMILIES.get(row.family, row.family)) for row in [*RIGHT, *WRONG]]
-#: not of the draw: plates of one to two cells, which fill none of them as soon as they leave the faces on which they began; by a
-#: rule for films that did not ask how thick a body was, they were trusted, with a note
+#: not of the draw: plates of one to two cells, which fill none of them as soon as they leave the faces on which they began; a
+#: rule for films that did not ask how thick a body had been gave them a note
 NOTED = [wrong(plate_push(1.0, 1.0, "momentum")), wrong(plate_push(1.2, 1.0)), wrong(plate_push(1.4, 1.0, "momentum"))]
 
 
