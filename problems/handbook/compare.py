@@ -2,12 +2,11 @@
 
     python -m problems.handbook.compare RUNS [DECK ...]
 
-RUNS is the folder of the runs; runs that are there are not made again. Prints a row for each quantity, as the README shows them.
+RUNS is the folder of the runs; runs that are there are not made again. Prints a row for each quantity, as the README has them.
 """
 
 from __future__ import annotations
 
-import csv
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -17,24 +16,26 @@ import h5py
 import numpy as np
 
 import hydro2d
+from problems import kept
 
 FOLDER = Path(__file__).parent
 EXPECTED, OBTAINED = FOLDER / "results" / "expected.csv", FOLDER / "results" / "obtained.csv"
-#: density of water, kg/m^3, and speeds of the bodies of the decks, m/s
+COLUMNS = ("deck", "quantity", "obtained", "trusted")
+#: density of water, kg/m^3, and speed of the wedge, m/s
 WATER, SLAM = 998.2, 100.0
+#: decks that were changed after their first run; the README says how
+CHANGED = ("bubble", "water_hammer", "slam")
 History = dict[str, Any]
 
 
 def expected() -> list[dict[str, str]]:
     """Rows of the file of what is expected, without its comment."""
-    with EXPECTED.open(encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return kept.rows(EXPECTED, ("deck", "quantity", "unit", "expected", "bound", "source"))
 
 
 def obtained() -> dict[tuple[str, str], dict[str, str]]:
     """The kept rows by deck and quantity."""
-    with OBTAINED.open(encoding="utf-8") as file:
-        return {(row["deck"], row["quantity"]): row for row in csv.DictReader(file)}
+    return {(row["deck"], row["quantity"]): row for row in kept.rows(OBTAINED, COLUMNS)}
 
 
 def swing(time: np.ndarray, moved: np.ndarray, guess: float) -> tuple[float, float]:
@@ -134,14 +135,14 @@ def largest(simulation: hydro2d.Simulation) -> float:
 
 
 #: further columns of a history
-COLUMNS = {"bubble": {"cavity": cavity}, "slam": {"largest": largest}}
+OF_HISTORY = {"bubble": {"cavity": cavity}, "slam": {"largest": largest}}
 
 
 def rows_of(name: str, runs: Path) -> list[dict[str, str]]:
     """The rows of a deck, which is run unless it has been."""
     place = runs / name
     if not (place / "summary.json").exists():
-        hydro2d.run(FOLDER / f"{name}.toml", place, threads=1, overwrite=True, quiet=True, columns=COLUMNS.get(name))
+        hydro2d.run(FOLDER / f"{name}.toml", place, threads=1, overwrite=True, quiet=True, columns=OF_HISTORY.get(name))
     results = hydro2d.open_run(place)
     trusted = "yes" if results.summary["trustworthy"] else "no"
     with h5py.File(place / "history.h5") as file:
@@ -160,16 +161,17 @@ def line(row: dict[str, str], found: dict[str, str]) -> str:
             f"{100.0 * (value / target - 1.0):+.1f} % | {row['bound']} % | {found['trusted']} |")
 
 
+def table(found: dict[tuple[str, str], dict[str, str]]) -> list[str]:
+    """Lines of the table of the README for these rows, by deck and quantity."""
+    return [line(row, found[key]) for row in expected() if (key := (row["deck"], row["quantity"])) in found]
+
+
 def main(arguments: list[str]) -> int:
     runs, names = Path(arguments[0]), arguments[1:] or list(READ)
     rows = [row for name in names for row in rows_of(name, runs)]
     if names == list(READ):
-        with OBTAINED.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, ("deck", "quantity", "obtained", "trusted"), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
-    by = {(row["deck"], row["quantity"]): row for row in rows}
-    print("\n".join(line(row, by[key]) for row in expected() if (key := (row["deck"], row["quantity"])) in by))
+        kept.write(OBTAINED, COLUMNS, rows)
+    print("\n".join(table({(row["deck"], row["quantity"]): row for row in rows})))
     return 0
 
 
