@@ -204,13 +204,15 @@ def _closing_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
         if edge.slide() and beside:
             yield ("boundaries", name), f"a held edge that moves along itself has no corner with an anvil, here {beside[0]}"
     for low, high in (("r_min", "r_max"), ("z_min", "z_max")):
-        inward = {name: sign * (of[name].constrain(0.0) or 0.0) for name, sign in ((low, 1.0), (high, -1.0)) if name in of}
-        held = [name for name, speed in inward.items() if of[name].slide() is not None and speed > 0.0]
-        if held and len(inward) == 2 and of[low].constrains() and of[high].constrains():
-            closing = sum(inward.values())
-            if closing > 0.0:
-                yield ("boundaries", held[0]), (f"{low} and {high} move the bodies between them into each other, at "
-                                                f'{closing:g} m/s; an edge with a "velocity" may compress them')
+        pair = {name: (sign, of.get(name)) for name, sign in ((low, 1.0), (high, -1.0))}  # r_min left out: an axis or a wall
+        if not all(edge is None or edge.constrains() for _, edge in pair.values()):
+            continue
+        inward = {name: max((sign * speed for speed in edge.speeds()), default=0.0) if edge else 0.0
+                  for name, (sign, edge) in pair.items()}  # fmt: skip
+        held = [name for name, (_, edge) in pair.items() if edge and edge.slide() is not None and inward[name] > 0.0]
+        if held and sum(inward.values()) > 0.0:
+            yield ("boundaries", held[0]), (f"{low} and {high} move the bodies between them into each other, at "
+                                            f'{sum(inward.values()):g} m/s; an edge with a "velocity" may compress them')
 
 
 def share_filled(deck: Deck, edge: str) -> float:

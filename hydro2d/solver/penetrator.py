@@ -110,7 +110,7 @@ class Penetrator:
         self.impact_energy = self.energy - self._against * momentum + 0.5 * self.mass * self._against**2
         self.impact_momentum = direction * (momentum - self._against * self.mass)
         self._run = np.zeros(2, dtype=np.int64)
-        speed = abs((sim.mean_velocity(self.m) or 0.0) - self._against)
+        speed = self._speed = abs((sim.mean_velocity(self.m) or 0.0) - self._against)
         self._slack, self.leaving = DEBRIS_SPEED * speed, LEAVING_SPEED * speed
         self._ringing = _ringing(sim, self.m)
         self.exit: Exit | None = None
@@ -184,8 +184,12 @@ class Penetrator:
 
     @property
     def has_struck(self) -> bool:
-        """Whether the rod has been deeper than the first target's face."""
-        return self._deepest > 0.0 or self.nose() > 0.0
+        """Whether the rod has been deeper than the first target's face, or has lost half of its velocity: one that rebounds
+        without a dent may never be seen below the face."""
+        if self._deepest > 0.0 or self.nose() > 0.0:
+            return True
+        velocity = self.sim.mean_velocity(self.m)
+        return velocity is not None and self.direction * (velocity - self._against) < 0.5 * self._speed
 
     def _front(self) -> float:
         """Depth of the nose of a rod in the mesh, m; negative before impact."""

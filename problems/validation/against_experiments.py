@@ -16,8 +16,10 @@ from pathlib import Path
 from statistics import median
 
 import hydro2d
+from problems import kept
 from problems.cth_nose_shape import heads, members, rigid_rod
 from problems.explosives import read as of_explosives
+from problems.handbook import compare
 from problems.long_rods import depths
 
 HERE = Path(__file__).parent
@@ -26,13 +28,15 @@ PROBLEMS = HERE.parent
 
 @dataclass(frozen=True)
 class Set:
-    """Experiments of one kind: name, source, the choices made, the command, and whether nothing was chosen."""
+    """Experiments of one kind: name, source, the choices made, the command, whether nothing was chosen, and whether its runs
+    count in experience.py."""
 
     name: str
     source: str
     chosen: str
     command: str
     predicted: bool = True
+    studied: bool = True
 
 
 SETS = (
@@ -59,7 +63,25 @@ SETS = (
     Set("cylinder test", "Dobratz & Crawford, UCRL-52997 (1985), recalled", "nothing", "run problems/explosives/cylinder.toml"),
     Set("driven by an explosive", "Gurney's formula with the energies of the same handbook, recalled: a fit to many shots",
         "nothing", "run problems/explosives/sandwich.toml"),
+    Set("blast in air", "Kingery and Bulmash's fit to many blasts in Swisdak's form, recalled",
+        "nothing: cells of 25 mm, one run", "run problems/explosives/air_blast.toml", studied=False),
+    Set("craters of aluminium balls", "NASA's equation, a fit to many shots (Cour-Palais 1987), with a Brinell hardness of 95",
+        "nothing that is recorded: laws of the library, 8.5 cells, one run each", "run problems/hypervelocity/crater.toml",
+        studied=False),
+    Set("cone through 20 mm", "Borvik and others 2004, recalled: a limit of 249 m/s, with Recht and Ipson's formula",
+        "nothing that is recorded: laws of the library, 10.5 cells, one run each", "run problems/perforation/cone.toml",
+        studied=False),
+    Set("striker bar", "elastic waves, exact", "nothing: contact, 5 cells, one run",
+        "run problems/verification/striker_bar.toml", studied=False),
+    Set("handbooks", "fits to experiments and theories: problems/handbook/results/expected.csv, written before the first run",
+        "nothing: one run each", "run problems/handbook/bumper.toml", studied=False),
+    Set("handbooks, decks changed", "the same",
+        "after the first run: an empty bubble, four cells across the tube, a heavier wedge",
+        "run problems/handbook/slam.toml", predicted=False, studied=False),
 )  # fmt: skip
+
+#: sets of which single_runs.csv has the shots
+SINGLE = ("blast in air", "craters of aluminium balls", "cone through 20 mm", "striker bar")
 
 #: metal that an explosive drives, by the deck of problems/explosives
 DRIVEN = {"cylinder": "tube", "plate_push": "plate on a charge", "sandwich": "two plates around a charge"}
@@ -79,9 +101,9 @@ class Row:
 
     def __str__(self) -> str:
         values = [f"{value:.{self.digits}f}" for value in (min(self.computed), max(self.computed))] if self.computed else []
-        middle = f"{median(self.computed):.{self.digits}f} {self.unit}" if self.computed else ""
+        middle = f"{median(self.computed):.{self.digits}f} {self.unit}".rstrip() if self.computed else ""
         spread = f" ({values[0]} to {values[1]}, {len(self.computed)} runs)" if len(self.computed) > 1 else ""
-        given = "perforated" if self.measured is None else f"{self.measured:.{self.digits}f} {self.unit}"
+        given = "perforated" if self.measured is None else f"{self.measured:.{self.digits}f} {self.unit}".rstrip()
         difference = ""
         if self.measured is not None and self.computed and not self.said:
             difference = f"{round(100.0 * (median(self.computed) / self.measured - 1.0)):+d} %"
@@ -147,6 +169,21 @@ def _of_explosive(row: dict[str, str]) -> tuple[float, str, tuple[float]]:
     return float(row["expected"]), row["unit"], (float(row["obtained"]),)
 
 
+def single(name: str) -> list[Row]:
+    """Shots that were run once."""
+    columns = ("set", "shot", "unit", "measured", "computed", "digits")
+    return [Row(name, row["shot"], float(row["measured"]), row["unit"], (float(row["computed"]),), digits=int(row["digits"]))
+            for row in kept.rows(HERE / "single_runs.csv", columns) if row["set"] == name]  # fmt: skip
+
+
+def handbooks(name: str, changed: bool) -> list[Row]:
+    """The ten problems from handbooks: those whose deck was changed after the first run, or the others."""
+    found = compare.obtained()
+    return [Row(name, f"{row['deck']}, {row['quantity']}".replace("_", " "), float(row["expected"]), row["unit"],
+                (float(found[row["deck"], row["quantity"]]["obtained"]),), digits=2)
+            for row in compare.expected() if (row["deck"] in compare.CHANGED) == changed]  # fmt: skip
+
+
 def rows() -> dict[str, list[Row]]:
     """The shots by set, in the order of SETS."""
     names = [each.name for each in SETS]
@@ -155,7 +192,7 @@ def rows() -> dict[str, list[Row]]:
     sets = (*map(twelve, names, laws), eroding(others[0]),
             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
             steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
-            gurney(others[5]))  # fmt: skip
+            gurney(others[5]), *map(single, SINGLE), *map(handbooks, names[-2:], (False, True)))  # fmt: skip
     return dict(zip(names, sets, strict=True))
 
 

@@ -106,6 +106,11 @@ def test_matter_that_moves_with_an_edge_crosses_the_cell_next_to_it():
     (["boundaries.z_min_axial=1 m/s"], 'has no meaning without z_min = "held"'),
     (['boundaries.z_min="held"', "boundaries.z_min_axial=30 m/s", 'boundaries.z_max="wall"'],
      "z_min and z_max move the bodies between them into each other, at 30 m/s"),
+    (['boundaries.r_max="held"', "boundaries.r_max_radial=-30 m/s"],  # r_min is left out: a wall
+     "r_min and r_max move the bodies between them into each other, at 30 m/s"),
+    (['boundaries.z_min="held"', "boundaries.z_min_axial=30 m/s", 'boundaries.z_max="piston"',
+      'boundaries.z_max_piston=[[0, "30 m/s"], ["1 us", "20 m/s"]]'],
+     "z_min and z_max move the bodies between them into each other, at 10 m/s"),
     (['boundaries.z_min="held"', "boundaries.z_min_radial=30 m/s", 'boundaries.r_max="anvil"'],
      "a held edge that moves along itself has no corner with an anvil, here r_max"),
 ])  # fmt: skip

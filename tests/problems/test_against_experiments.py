@@ -1,5 +1,6 @@
 """The page of all experiments shows the kept results."""
 
+from problems import kept
 from problems.validation import against_experiments as against
 from problems.validation.against_experiments import Row
 from tests.rules import source
@@ -33,3 +34,14 @@ def test_a_row_has_the_median_the_spread_and_the_difference():
     assert str(Row("a", "b", 10.0, "cm", (9.0,))) == "| a | b | 10.0 cm | 9.0 cm | -10 % |"
     assert str(Row("a", "b", None, "cm", (53.3,), "perforated in 1 of 1 runs")) == (
         "| a | b | perforated | perforated in 1 of 1 runs |  |")  # fmt: skip
+
+
+def test_shots_that_were_run_once_are_those_of_the_folders():
+    """Each value stands in the README beside the deck of its set."""
+    commands = {each.name: each.command for each in against.SETS}
+    rows = kept.rows(against.HERE / "single_runs.csv", ("set", "measured", "computed", "unit"))
+    assert {row["set"] for row in rows} == set(against.SINGLE)
+    for row in rows:
+        page = (source.ROOT / commands[row["set"]].split()[1]).with_name("README.md").read_text(encoding="utf-8")
+        assert row["measured"] in page
+        assert f"{row['computed']} " in page

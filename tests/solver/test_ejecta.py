@@ -53,6 +53,16 @@ def test_a_ball_that_rebounds_gives_its_momentum_twice(options):
     assert back["momentum_multiplication"] == pytest.approx(2.0, rel=1e-6)
 
 
+@pytest.mark.parametrize("options", [[], BACK], ids=["to +z", "to -z"])
+def test_a_ball_that_rebounds_without_a_dent_has_struck(options):
+    """Its nose was never seen below the face, and the multiplication stayed null."""
+    sim = Simulation(decks.loads(TEXT, [*options, "body.chip=", "body.other="]))
+    sim.state.v *= 0.6
+    assert sim.ejecta()["momentum_multiplication"] is None
+    sim.state.v *= -0.5
+    assert sim.ejecta()["momentum_multiplication"] == pytest.approx(1.3, rel=1e-6)
+
+
 def test_no_multiplication_without_all_of_the_momentum():
     """With debris behind the target that has a hundredth of the projectile's momentum, or a hole."""
     sim = Simulation(decks.loads(TEXT))

@@ -85,6 +85,42 @@ def test_mirrored_in_z(geometry, options):
             np.testing.assert_array_equal(mine, other, err_msg=name)
 
 
+PULSE = '[["0 us", 0], ["0.3 us", "1 GPa"], ["1 us", "-100 MPa"]]'
+#: edges at the rim and behind the cover: the word of each, and other keys by what follows the name of the edge
+EDGES = {
+    "held": ("held", "held", {}),
+    "held and moved along z": ("held", "outflow", {"r_max_axial": "{sign}20 m/s"}),
+    "held and moved along r": ("outflow", "held", {"{far}_radial": "20 m/s"}),
+    "pressure behind": ("transmit", "pressure", {"{far}_pressure": PULSE}),
+    "pressure around": ("pressure", "transmit", {"r_max_pressure": "500 MPa"}),
+    "held at a pressure": ("held", "pressure", {"{far}_pressure": "-50 MPa"}),
+}  # fmt: skip
+
+
+def at_edges(case: str, sign: int) -> list[str]:
+    """Options for edges, with a cover that goes on beyond the mesh."""
+    (rim, behind, keys), far = EDGES[case], "z_max" if sign > 0 else "z_min"
+    named = {key.format(far=far): value if value == PULSE else value.format(sign="" if sign > 0 else "-")
+             for key, value in keys.items()}  # fmt: skip
+    ends = '["5 mm", "1 m"]' if sign > 0 else '["-1 m", "-5 mm"]'
+    return [f'boundaries.r_max="{rim}"', f'boundaries.{far}="{behind}"', f"body.cover.z={ends}",
+            *(f"boundaries.{key}={value}" for key, value in named.items())]  # fmt: skip
+
+
+@pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
+@pytest.mark.parametrize("case", EDGES)
+def test_mirrored_edges(case, geometry):
+    """Held edges, edges with a pressure and edges that transmit: from mirrored bits, mirrored bits, and the audit closes."""
+    up, down = (impact(sign=sign, geometry=geometry, options=at_edges(case, sign)) for sign in (1, -1))
+    take_mirror_image(down, up)
+    to_the_end(up), to_the_end(down)
+    for name in (*BODY_FIELDS, "u", "v"):
+        sign = -1.0 if name in ("srz", "v") else 1.0
+        np.testing.assert_array_equal(inside(down, name), sign * inside(up, name)[..., ::-1, :], err_msg=name)
+    balance = up.conservation()
+    assert max(map(abs, (*balance["mass"].values(), balance["axial_momentum"], balance["total_energy"]))) < 1e-12
+
+
 CONTACT = ('sliding.method="contact"', 'sliding.hard=["rod"]', 'sliding.yield_factor="off"', "stop.cycles=320")
 
 
