@@ -15,6 +15,7 @@ from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.records import keeping, sample_table, study_directory
 from hydro2d.study.report.report import report
+from hydro2d.study.report.uncertain import file_names
 from hydro2d.study.run import cluster, sweep
 from hydro2d.study.run.case import Outcome
 from hydro2d.study.run.choice import Choice
@@ -354,3 +355,11 @@ def test_real_runs_by_one_worker_by_two_and_after_a_kill(tmp_path):
     tables.append((tmp_path / "killed" / sample_table.FILE).read_bytes())
     assert tables[0] == tables[1] == tables[2]
     assert b"bodies." in tables[0]
+
+
+def test_names_of_results_make_names_of_files():
+    """With every printable character, and none twice."""
+    every = "".join(map(chr, range(32, 127)))
+    names = file_names(["depth_m", "derived.P/L", "derived.P_L", f"derived.{every}"])
+    assert names[:3] == ["depth_m", "derived_P_L", "derived_P_L_2"]
+    assert re.fullmatch(r"\w+", names[3])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -53,10 +54,18 @@ def _part(number: int, samples: Samples, folder: Path) -> Part:
     for caption, (heads, rows) in (("Results", text.spreads(samples)), ("Outcomes", text.fractions(samples))):
         if rows:
             part.tables.append(Table(caption, _capital(heads), rows))
-    for result in samples.usual:
-        name = f"sample_{number:02d}_{result.replace('.', '_')}"
-        part.pictures += _pictures(samples, result, folder / name, part)
+    for result, name in zip(samples.usual, file_names(samples.usual), strict=True):
+        part.pictures += _pictures(samples, result, folder / f"sample_{number:02d}_{name}", part)
     return part
+
+
+def file_names(results: Sequence[str]) -> list[str]:
+    """Names of results as parts of the names of files: of letters, digits and _, and none twice ("derived.P/L")."""
+    names: list[str] = []
+    for result in results:
+        name = re.sub(r"[^A-Za-z0-9]", "_", result)
+        names.append(name if name not in names else f"{name}_{len(names)}")
+    return names
 
 
 def _pictures(samples: Samples, result: str, stem: Path, part: Part) -> Iterator[Picture]:
