@@ -60,7 +60,7 @@ WORDS = {
     "ejecta": Word(
         "Material that flies off a hit surface. targets.NAME in summary.json has under ejecta the mass and momentum of what "
         "flies back from the front face, with the momentum multiplication (beta), and under debris what flies behind a plate.",
-        ("penetration.targets", "debris"), ("how-to/results.md#ejecta-in-front-of-a-target",)),
+        ("penetration.targets",), ("how-to/results.md#ejecta-in-front-of-a-target",)),
     "erosion": Word(
         "No cell is ever deleted: material flows through the mesh, and a rod becomes shorter as its head is consumed. "
         '`regime` in summary.json says whether it was eroding; a search with of = "erosion" finds the velocity of the change.',
