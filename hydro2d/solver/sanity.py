@@ -150,7 +150,7 @@ def doubts(state, table, time: float, reach: Reach, given: np.ndarray, audit: Au
                 yield Doubt(f"{name} {what}", (
                     f'body "{name}" is too {what} with {e:.3g} J/kg in the cell {_place(grid, j, i)}, in which it can reach '
                     f"{reach.cell_lowest[m]:.3g} to {most:.3g} J/kg and no temperature of zero, {_from(reach, m)}"),
-                    _harmless(energy / _energy(audit, reach)[0], mass / audit.start.mass[m]))
+                    _harmless(energy / _energy(audit, reach)[0], mass / max(audit.start.mass[m], 1e-300)))
 
 
 def _harmless(energy: float, mass: float) -> str:
