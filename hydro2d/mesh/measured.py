@@ -196,6 +196,11 @@ class Debris(NamedTuple):
     kinds: np.ndarray
     totals: dict[str, float | int | None]
 
+    @property
+    def momentum(self) -> float:
+        """Axial momentum along the flight, N s, whole circumference."""
+        return float(self.totals["momentum_N_s"] or 0.0)
+
 
 def passed(summary: dict) -> list[str]:
     """Names of the targets if the projectile has perforated all of them, else none."""

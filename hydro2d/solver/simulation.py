@@ -103,7 +103,7 @@ class Simulation:
         self.stations = Stations(self, deck)
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
-        self._ejecta = [Ejecta(self, crater, self.penetrator.m) for crater in self.craters]
+        self._ejecta = [Ejecta(self, crater, self.penetrator.m) for crater in self.craters] if self.penetrator else []
         self.engine.crossings += [each.crossed for each in self._ejecta]
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
@@ -340,11 +340,11 @@ class Simulation:
         results, debris = {}, self.debris()
         for target, passage, crater, front in zip(self.penetrator.targets, self.penetrator.passages(), self.craters,
                                                   self._ejecta, strict=True):  # fmt: skip
-            hole, behind = crater.measure(), debris[target.name].totals
+            hole, behind = crater.measure(), debris[target.name]
             damage = wall_damage.classify(self, crater, hole, front.lost)
             results[target.name] = {
-                **passage, "damage_class": damage, "crater": hole, "debris": behind,
-                "ejecta": front.measure(damage, behind["momentum_N_s"])}
+                **passage, "damage_class": damage, "crater": hole, "debris": behind.totals,
+                "ejecta": front.measure(damage, behind.momentum)}
         return results
 
     def ejecta(self) -> dict[str, float | None]:
