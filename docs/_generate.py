@@ -140,10 +140,10 @@ def draw_models(folder: Path) -> None:
 
 def results_page() -> str:
     """Columns of the history and keys of the summary."""
+    from hydro2d.measure import audit
     from hydro2d.mesh.sinks import SINKS
     from hydro2d.output.history import unit
     from hydro2d.running import columns
-    from hydro2d.solver import audit
 
     def rows(names: dict[str, str]):
         return ((f"`{name}`", "" if unit(name) == "1" else unit(name), meaning) for name, meaning in names.items())

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
-    from hydro2d.mesh.regime import LEAST_KEPT_LENGTH
+    from hydro2d.measure.regime import LEAST_KEPT_LENGTH
     from hydro2d.output.directory import RunError
     from hydro2d.results.figures import new_figure, save_figure
     from hydro2d.results.reading import Results, ResultsError
@@ -75,7 +75,7 @@ _PLACES = {
     "Impact": "hydro2d.analytic.experience",
     "impact_of": "hydro2d.analytic.experience",
     "to_si": "hydro2d.base.units",
-    "LEAST_KEPT_LENGTH": "hydro2d.mesh.regime",
+    "LEAST_KEPT_LENGTH": "hydro2d.measure.regime",
     "new_figure": "hydro2d.results.figures",
     "save_figure": "hydro2d.results.figures",
     "register": "hydro2d.materials.outside",

@@ -20,7 +20,7 @@ from hydro2d.deck.shapes.rod import Rod
 from hydro2d.files.shipped import problems_folder
 from hydro2d.materials import library
 from hydro2d.materials.material import Material
-from hydro2d.mesh.regime import GROWING, LEFT
+from hydro2d.measure.regime import GROWING, LEFT
 from hydro2d.penetration.model import Model
 
 FILE = "validation/results/experience.csv"

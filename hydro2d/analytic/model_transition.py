@@ -17,7 +17,7 @@ from hydro2d.analytic.model_materials import Given
 from hydro2d.analytic.model_text import columns, given_data, shown
 from hydro2d.files.shipped import problems_folder
 from hydro2d.materials import library
-from hydro2d.mesh.regime import LEFT
+from hydro2d.measure.regime import LEFT
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.model import InputError, Model
 from hydro2d.results import reading

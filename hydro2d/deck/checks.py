@@ -13,9 +13,9 @@ from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import MeshError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.materials.material import Material
+from hydro2d.measure.measured import BODY, OF_STATIONS, PLACES
 from hydro2d.mesh.edges.base import EDGES, PRESSURE, PUSH, Edge
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made
-from hydro2d.mesh.measured import BODY, OF_STATIONS, PLACES
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.sources.detonation import EXPLOSIVES
 

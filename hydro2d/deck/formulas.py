@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from hydro2d.deck.expressions import PURE, Expression, ExpressionError, in_words, parse
 from hydro2d.deck.sections import Deck
-from hydro2d.mesh import measured
-from hydro2d.mesh.measured import SHORT, in_file, unit
+from hydro2d.measure import measured
+from hydro2d.measure.measured import SHORT, in_file, unit
 
 #: characters of a name
 LONGEST = 60

@@ -94,3 +94,9 @@ def slots(deck: Deck) -> list[str]:
 def body_groups(deck: Deck) -> list[int]:
     """Body group of every slot, that is, its velocity field: 1 for the hard bodies of a contact, else 0."""
     return list(layout(deck).groups)
+
+
+def body_at(deck: Deck, r: float, z: float) -> str | None:
+    """Name of the body that has a point at the start, of the first one of those that are joined; None for void."""
+    return next((placed.body.join or placed.body.name for placed in layout(deck).bodies
+                 if any(low <= z <= high for low, high in placed.outline.chords("z", r))), None)

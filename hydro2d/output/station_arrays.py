@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from hydro2d.mesh.station_columns import QUANTITIES
+from hydro2d.measure.station_columns import QUANTITIES
 
 #: kinds of stations, also names of the dimension scales that hold their names, and the quantities of each in the history
 KINDS = ("tracer", "gauge")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.base.terminal import duration, moment, number
-from hydro2d.mesh.measured import passed
-from hydro2d.mesh.regime import REGIMES
+from hydro2d.measure.measured import passed
+from hydro2d.measure.regime import REGIMES
 from hydro2d.output import ending
 from hydro2d.output.directory import HISTORY
 

@@ -6,9 +6,9 @@ In a name, BODY, TARGET, STATION, DERIVED, SINK and TRANSFER stand for the names
 
 from __future__ import annotations
 
-from hydro2d.mesh import measured
-from hydro2d.mesh.measured import PLACES
-from hydro2d.mesh.station_columns import PEAKS, QUANTITIES
+from hydro2d.measure import measured
+from hydro2d.measure.measured import PLACES
+from hydro2d.measure.station_columns import PEAKS, QUANTITIES
 from hydro2d.running import residual_velocity
 
 #: amounts of a sink, and of a contact transfer

@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeVar
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, moment, number, one_line, say
-from hydro2d.mesh.measured import NO_DAMAGE, passed, unit
+from hydro2d.measure.measured import NO_DAMAGE, passed, unit
 from hydro2d.output import ending
 from hydro2d.output.ending import End
 from hydro2d.output.history import Columns
@@ -438,7 +438,7 @@ def _of_targets(targets: dict) -> Iterator[str]:
 
 
 def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
-    from hydro2d.mesh.regime import LEFT
+    from hydro2d.measure.regime import LEFT
 
     depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
     body = shape["body"]

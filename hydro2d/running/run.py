@@ -484,7 +484,7 @@ def experiment(deck) -> dict | None:
 
 def projectile(body: str | None, measured: dict, settling: dict) -> dict | None:
     """Entries of a summary for the projectile, in addition to those for every body; None without one."""
-    from hydro2d.mesh.measured import PROJECTILE
+    from hydro2d.measure.measured import PROJECTILE
 
     if not body:
         return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.solver.audit import Audit
+from hydro2d.measure.audit import Audit
 
 
 class Books:

@@ -8,7 +8,7 @@ import numpy as np
 
 from hydro2d.kernels import lagrangian_step
 from hydro2d.kernels.contact import extension
-from hydro2d.solver.audit import Audit
+from hydro2d.measure.audit import Audit
 
 
 class Ties(NamedTuple):

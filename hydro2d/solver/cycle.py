@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from hydro2d.kernels import lagrangian_step, remap_step
+from hydro2d.measure.audit import Audit
+from hydro2d.measure.courses import Courses
 from hydro2d.solver import time_step
 from hydro2d.solver.active import ActiveBox
-from hydro2d.solver.audit import Audit
 from hydro2d.solver.books import Books
 from hydro2d.solver.contact_ties import Contact, NoContact
-from hydro2d.solver.courses import Courses
 from hydro2d.solver.edge_lines import EdgeLines
 from hydro2d.solver.following import FixedMesh
 from hydro2d.solver.given import Given

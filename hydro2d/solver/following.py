@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.deck.layout import layout
+from hydro2d.materials.starts import slot_of
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import Grid
@@ -54,7 +55,7 @@ class UndisturbedSpace:
 
     def __init__(self, deck, table, grid: Grid):
         self.deck, self.table, self.grid = deck, table, grid
-        slots = insertion.slot_of(deck, table)
+        slots = slot_of(deck, table)
         outlines = [placed.outline for placed in layout(deck).bodies]
         slabs = [slab for entry in outlines for slab in entry.slabs]
         self._levels = np.array(sorted({z for slab in slabs for z in (slab.low, slab.high)}))

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from hydro2d.base.errors import Error
-from hydro2d.mesh.measured import SHORT
-from hydro2d.mesh.station_columns import PEAKS
+from hydro2d.measure.measured import SHORT
+from hydro2d.measure.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns
 from hydro2d.output.station_arrays import RESERVED
 from hydro2d.solver.due import Due

@@ -11,27 +11,28 @@ from hydro2d.base import units
 from hydro2d.base.errors import UnphysicalState, unknown
 from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.deck import deck as decks
-from hydro2d.deck import formulas
+from hydro2d.deck import formulas, targets
+from hydro2d.deck.layout import body_at
 from hydro2d.jit import compilation
 from hydro2d.materials import library
+from hydro2d.measure import bodies, debris, reach, wall_damage
+from hydro2d.measure.audit import Audit, Totals, totals
+from hydro2d.measure.crater import Crater
+from hydro2d.measure.ejecta import Ejecta
+from hydro2d.measure.measured import Debris
+from hydro2d.measure.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
+from hydro2d.measure.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
-from hydro2d.mesh.measured import Debris
 from hydro2d.mesh.state import State
-from hydro2d.solver import body_measurements, debris, far_field, insertion, reach, wall_damage
-from hydro2d.solver.audit import Audit, Totals, totals
-from hydro2d.solver.crater import Crater
-from hydro2d.solver.ejecta import Ejecta
+from hydro2d.solver import far_field, insertion
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
 from hydro2d.solver.memory_needed import refuse_too_large
-from hydro2d.solver.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.solver.recorder import Recorder
-from hydro2d.solver.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.solver.sources import Sources
-from hydro2d.solver.targets import targets
 from hydro2d.solver.time_step import Steps
 
 if TYPE_CHECKING:
@@ -75,9 +76,9 @@ class Simulation:
     """
 
     def __init__(self, deck: decks.Deck):
+        from hydro2d.measure.stations import Stations
         from hydro2d.solver.cycle import Cycle  # these load kernels, after which no model can be added
         from hydro2d.solver.method import Method
-        from hydro2d.solver.stations import Stations
 
         refuse_too_large(deck)
         compilation.expect(kernels(deck), lambda: calls_of_a_cycle(lambda: Simulation(deck)))
@@ -100,7 +101,7 @@ class Simulation:
         self._doubts: dict[str, str] = {}
         self._notes: dict[str, str] = {}
         self._steps = Steps()
-        self.stations = Stations(self, deck)
+        self.stations = Stations(self, deck, [body_at(deck, entry.r, entry.z) for entry in deck.tracer])
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
         self._ejecta = [Ejecta(self, crater, self.penetrator.m) for crater in self.craters] if self.penetrator else []
@@ -109,7 +110,7 @@ class Simulation:
         #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
         self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
         self.columns: dict[str, Callable[[Simulation], float]] = {}
-        self.lengths = body_measurements.lengths(self)
+        self.lengths = bodies.lengths(self)
         self.formulas = formulas.expressions(deck)
         assert deck.output.history_interval is not None, "a resolved deck has one"
         self._recorder = Recorder(deck.output.history_interval)
@@ -118,11 +119,8 @@ class Simulation:
         """The measurements of the projectile and of the holes in its targets."""
         if self.deck.penetration is None:
             return None, []
-        rod = self.deck.penetration.rod
-        first = decks.body(self.deck, self.deck.penetration.targets[0])
-        direction = float(decks.heading(decks.body(self.deck, rod), first))
-        penetrated = targets(self.deck, direction)
-        return Penetrator(self, self.deck, penetrated, direction), [Crater(self, target, direction) for target in penetrated]
+        penetrated, flying = targets.targets(self.deck), targets.projectile(self.deck)
+        return Penetrator(self, flying, penetrated), [Crater(self, target, flying.direction) for target in penetrated]
 
     def _mesh(self, slots: list[str], method: Method) -> FixedMesh | FollowingMesh:
         """The motion of the mesh."""
@@ -275,7 +273,7 @@ class Simulation:
 
         Raises ValueError for points of another shape.
         """
-        from hydro2d.solver import tracers
+        from hydro2d.measure import tracers
 
         return tracers.velocity_at(self.grid, self.state, points, group)
 
@@ -372,8 +370,8 @@ class Simulation:
         return self.table.names[self.penetrator.m] if self.penetrator else None
 
     def of_bodies(self) -> dict[str, dict[str, float | None]]:
-        """Mass, motion and extent of every body, see `body_measurements.measure`."""
-        return body_measurements.measure(self)
+        """Mass, motion and extent of every body, see `bodies.measure`."""
+        return bodies.measure(self)
 
     def conservation(self) -> dict:
         """Relative changes that no sink explains: mass per body, axial momentum, total energy; and every sink by name.

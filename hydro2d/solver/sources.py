@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hydro2d.measure.audit import Audit
 from hydro2d.mesh.fields import INTERNAL
 from hydro2d.mesh.grid import CM_IN, CM_OUT
-from hydro2d.solver.audit import Audit
 from hydro2d.sources.base import Reached, Source
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hydro2d.materials import library
-from hydro2d.solver import reach
+from hydro2d.measure import reach
 from problems import kept
 from strength import melting
 

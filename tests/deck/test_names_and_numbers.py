@@ -11,7 +11,7 @@ from hydro2d.cli.main import call
 from hydro2d.deck import deck
 from hydro2d.running import run
 from hydro2d.study.plan import definition
-from tests.solver.test_sanity import TEXT
+from tests.measure.test_sanity import TEXT
 
 TRACED = TEXT + '''
 [[tracer]]

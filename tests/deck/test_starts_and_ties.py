@@ -11,9 +11,8 @@ from hydro2d.deck import deck
 from hydro2d.deck.shapes.outlines import rectangle, shared_volume
 from hydro2d.deck.shapes.sphere import sphere_outline
 from hydro2d.deck.warnings import warnings
-from hydro2d.materials import library
+from hydro2d.materials import library, starts
 from hydro2d.running import check
-from hydro2d.solver import insertion
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, entry, mesh, plate, rod, stop, table
 
@@ -60,7 +59,7 @@ def state(**keys):
     """Density, pressure and temperature of copper."""
     loaded = deck.loads(MESH + COPPER + box_of("bar", (0, 3), (0, 10), material="copper", **keys))
     slots = library.resolve(loaded)
-    rho, e = insertion.body_state(loaded.body[0], slots, 0)
+    rho, e = starts.body_state(loaded.body[0], slots, 0)
     return rho, *(slots.evaluate(0, rho, e)[n] for n in (0, 3))
 
 
@@ -89,7 +88,7 @@ def test_a_gas_has_its_own_density():
     text = MESH + box_of("air", (0, 3), (0, 10), material="air", temperature="400 K") + (
         '[materials.air.eos]\nmodel = "ideal-gas"\nreference_density = 1.2\nadiabatic_index = 1.4\n')
     loaded = deck.loads(text)
-    assert insertion.body_state(loaded.body[0], library.resolve(loaded), 0)[0] == 1.2
+    assert starts.body_state(loaded.body[0], library.resolve(loaded), 0)[0] == 1.2
 
 
 def test_a_hot_bar_at_rest_stays_at_rest():

@@ -92,7 +92,7 @@ def test_all_functions_that_a_kernel_can_call_are_sources_of_its_cache(file):
 
 def test_constants_of_any_folder_are_among_the_sources():
     """A kernel of the solver once kept old columns: their file next to it was not in the hash."""
-    assert "hydro2d/mesh/station_columns.py" in seen_by("hydro2d/solver/tracers.py")
+    assert "hydro2d/measure/station_columns.py" in seen_by("hydro2d/measure/tracers.py")
     assert "hydro2d/mesh/fields.py" in seen_by("hydro2d/kernels/remap.py")
     assert not {"hydro2d/__init__.py", "hydro2d/files/whole.py", "hydro2d/api.py"} & seen_by("hydro2d/kernels/mixed.py")
 

@@ -9,7 +9,7 @@ from numba.core.runtime import _nrt_python, rtsys
 
 from hydro2d import jit
 from hydro2d.deck import deck
-from hydro2d.solver.penetrator import WATCH_EVERY
+from hydro2d.measure.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import entry, mesh, plate, rod, stop, table
 

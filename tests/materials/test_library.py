@@ -11,7 +11,7 @@ import strength
 from hydro2d.cli import info
 from hydro2d.deck import deck
 from hydro2d.materials import library, rows
-from hydro2d.solver.reach import Material, stagnation
+from hydro2d.measure.reach import Material, stagnation
 from strength.layout import SHEAR, YIELD
 
 TEXT = """\

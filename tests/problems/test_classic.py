@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck.sections import Numerics, Sliding
-from hydro2d.solver.audit import CLIPS, REMEDIES
+from hydro2d.measure.audit import CLIPS, REMEDIES
 from hydro2d.study.plan import cases
 from problems.classic import table
 from tests.rules import source

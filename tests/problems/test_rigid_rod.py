@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from hydro2d.base.method_version import METHOD
-from hydro2d.mesh.regime import DEFORMING, ERODING, RIGID, regime
+from hydro2d.measure.regime import DEFORMING, ERODING, RIGID, regime
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.scaling import Size
 from hydro2d.study.records import keeping, study_directory

@@ -5,11 +5,11 @@ import re
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.measure import audit
 from hydro2d.mesh.sinks import SINKS
 from hydro2d.output import history
 from hydro2d.output.directory import HISTORY
 from hydro2d.running import columns, run
-from hydro2d.solver import audit
 from tests.decks import contact, entry, mesh, plate, rod, table
 
 DECK = (

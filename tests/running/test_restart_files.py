@@ -8,7 +8,7 @@ from hydro2d.deck import deck
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.output.snapshot import Snapshot, SnapshotError
 from hydro2d.running.run import run
-from tests.solver.test_sanity import TEXT
+from tests.measure.test_sanity import TEXT
 
 FIRST = ["stop.cycles=40", "stop.time=1 s", 'output.history_interval="50 ns"', 'output.vtk_interval="100 ns"']
 FURTHER = ["stop.cycles=60", *FIRST[1:]]

@@ -1,1 +1,1 @@
-"""hydro2d/solver: the simulation and its measurements."""
+"""hydro2d/solver: the simulation."""

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.measure import tracers
 from hydro2d.mesh import quantities
 from hydro2d.output import derived_quantities, snapshot
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures, scales
 from hydro2d.running import check
-from hydro2d.solver import tracers
 from hydro2d.solver.method import Method
 from hydro2d.solver.simulation import Simulation
 from tests.decks import entry, mesh, plate, rod, stop, table, walls

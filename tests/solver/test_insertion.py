@@ -13,7 +13,7 @@ from hydro2d.deck.shapes.outlines import rectangle
 from hydro2d.deck.shapes.polygon import polygon_outline
 from hydro2d.deck.shapes.rod import rod_outline
 from hydro2d.deck.shapes.sphere import sphere_outline
-from hydro2d.materials import library
+from hydro2d.materials import library, starts
 from hydro2d.mesh.grid import Grid
 from hydro2d.noses.registry import shaped
 from hydro2d.running.check import check
@@ -380,10 +380,10 @@ def test_a_temperature_without_an_energy_is_an_error():
     text = deck_text_of("verification/noh_spherical.toml").replace("energy = 0.0", "pressure = -1.0")
     d = deck.loads(text)
     table = library.resolve(d)
-    assert insertion.body_state(d.body[0], table, 0)[1] < 0  # a gas under tension
+    assert starts.body_state(d.body[0], table, 0)[1] < 0  # a gas under tension
     cold = SimpleNamespace(name="x", density=1e-3, energy=None, pressure=None, temperature=-5.0)
     with pytest.raises(deck.DeckError, match='body "x": no energy gives a temperature of -5'):
-        insertion.body_state(cold, table, 0)
+        starts.body_state(cold, table, 0)
 
 
 def test_centroids_of_the_initial_state_are_moments_over_shares_in_cells_that_a_body_shares():
@@ -440,7 +440,7 @@ def test_joined_bodies_are_one():
 def test_flows(flow, r, z, expected):
     fields = {"centre": 0.0, "radius": 1.0, "exponent": 0.0, **flow}
     body = SimpleNamespace(velocity=(0.0, 0.0), flow=SimpleNamespace(**fields))
-    assert np.allclose(insertion.body_velocity(body, r, z), expected, rtol=1e-14, atol=0)
+    assert np.allclose(starts.body_velocity(body, r, z), expected, rtol=1e-14, atol=0)
 
 
 @pytest.mark.parametrize(("name", "old", "new", "said"), [

@@ -13,7 +13,7 @@ from hydro2d.mesh.state import State, bytes_needed
 from hydro2d.running import check
 from hydro2d.solver import memory_needed
 from hydro2d.solver.simulation import Simulation
-from tests.solver.test_sanity import TEXT
+from tests.measure.test_sanity import TEXT
 
 
 @pytest.mark.parametrize("groups", [1, 2])

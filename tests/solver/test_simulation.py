@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.solver.audit import totals
+from hydro2d.measure.audit import totals
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
 from tests.decks import box, entry, mesh, plate, rod, stop
 from tests.restarts import restarted

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hydro2d.mesh.regime import GROWING
+from hydro2d.measure.regime import GROWING
 from hydro2d.study.search.bisection import MOST_FAILED, Search, bracket, disordered
 
 RIGID, DEFORMING, ERODING = GROWING

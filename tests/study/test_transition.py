@@ -10,7 +10,7 @@ import pytest
 
 import hydro2d
 from hydro2d.cli.main import call
-from hydro2d.mesh.regime import RULE
+from hydro2d.measure.regime import RULE
 from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError

@@ -18,12 +18,12 @@ from hydro2d.files import toml
 from hydro2d.mesh.fields import RHO, SRZ, E
 from hydro2d.solver.simulation import Simulation
 from tests import restarts
-from tests.solver import audited
-from tests.solver.test_audit import unexplained_by_sound
+from tests.measure import audited
+from tests.measure.test_audit import unexplained_by_sound
 from tests.trials.campaign import kept
 
 CYCLES = 100
-#: limits: of totals, and next to products of an explosive (tests/solver/test_audit.py); of sums of twins, in which round-off
+#: limits: of totals, and next to products of an explosive (tests/measure/test_audit.py); of sums of twins, in which round-off
 #: decides what is tidied away; of the deviation of a body from its course, in cells
 CLOSES, CLOSES_BESIDE_PRODUCTS, TWINS, COURSE = 1e-12, 1e-9, 1e-3, 0.1
 #: arrays of a state that a restart gives back to the bit

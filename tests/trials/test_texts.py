@@ -6,7 +6,7 @@ import pytest
 
 from hydro2d.files.shipped import problems_folder
 from tests.cli.test_main import DECK
-from tests.solver.test_sanity import TEXT
+from tests.measure.test_sanity import TEXT
 from tests.trials import spoil
 
 CONTACT = DECK + """

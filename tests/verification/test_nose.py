@@ -9,9 +9,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from hydro2d.deck import deck as decks
 from hydro2d.kernels.contact import contact_velocities
 from hydro2d.kernels.contact.extension import TIED
+from hydro2d.measure.audit import Audit
 from hydro2d.mesh.fields import EP, SRR, SRZ, SZZ
 from hydro2d.solver import given
-from hydro2d.solver.audit import Audit
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.cells import handle
 from tests.verification.running import finish

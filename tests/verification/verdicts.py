@@ -15,7 +15,7 @@ import numpy as np
 
 from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.solver.penetrator import WATCH_EVERY
+from hydro2d.measure.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
 from problems.verification.exact import impact, riemann
 from problems.verification.exact.detonation import mader

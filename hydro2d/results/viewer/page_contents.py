@@ -8,7 +8,7 @@ from dataclasses import asdict
 import numpy as np
 
 from hydro2d.base.terminal import shown
-from hydro2d.mesh.regime import REGIMES
+from hydro2d.measure.regime import REGIMES
 from hydro2d.output import history, station_arrays
 from hydro2d.output.directory import HISTORY
 from hydro2d.output.outlines import Filling

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 from hydro2d.analytic import model_transition
-from hydro2d.mesh.regime import ERODED_MASS
+from hydro2d.measure.regime import ERODED_MASS
 
 #: names of the brackets that a search of a rod's fate has in addition, from the depths of its runs, and their rules
 FALL, LIMIT = "depth falls", "hydrodynamic limit"

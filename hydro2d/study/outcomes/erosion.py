@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydro2d.mesh.regime import ERODING, RULE
+from hydro2d.measure.regime import ERODING, RULE
 from hydro2d.study.outcomes.base import BY_DEPTH, Outcome, Verdict, lost
 
 HOLDS = "not eroding"

@@ -13,14 +13,13 @@ import numpy as np
 from hydro2d.analytic import experience, model_deck
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.deck import key_messages
+from hydro2d.deck import key_messages, targets
 from hydro2d.files import checksums
 from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
-from hydro2d.mesh.regime import LEFT, REGIMES
+from hydro2d.measure.regime import LEFT, REGIMES
 from hydro2d.output import history, vtk
 from hydro2d.output.directory import DECK, HISTORY, check_own
-from hydro2d.solver import targets
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.study_directory import DONE, Case
@@ -296,18 +295,18 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
     except DeckError as error:
         record.without_models = str(error).removeprefix(f"{deck.name}: ")
     body = decks.body(deck, deck.penetration.rod)
-    direction = int(decks.heading(body, decks.body(deck, deck.penetration.target)))
+    direction = int(targets.direction(deck))
     record.velocity = decks.impact_velocity(deck)
-    record.setup = _setup(deck, body, record.shot, direction)
+    record.setup = _setup(deck, body, record.shot)
     if len(deck.penetration.targets) == 1:
         target = decks.body(deck, deck.penetration.target)
         record.target_density = target.density or deck.materials[target.material].reference_density
     return Place(decks.slots(deck).index(body.join or body.name) + 1, decks.surface(deck), direction)
 
 
-def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None, direction: int) -> Setup:
+def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None) -> Setup:
     """The setup of a projectile and its targets; the thickness includes all targets and the gaps between them."""
-    through = targets.targets(deck, direction)
+    through = targets.targets(deck)
     bodies = [decks.body(deck, target.name) for target in through]
     names = dict.fromkeys(deck.materials[each.material].name for each in bodies)
     (low, high), (_, radius) = (decks.extent(body, deck, axis) for axis in ("z", "r"))

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from hydro2d.base.terminal import cell
-from hydro2d.mesh.measured import unit
+from hydro2d.measure.measured import unit
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response

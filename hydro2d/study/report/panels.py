@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hydro2d.mesh.regime import ERODING
+from hydro2d.measure.regime import ERODING
 from hydro2d.penetration.model import Motion
 from hydro2d.study.ensemble.contents import Contents
 from hydro2d.study.ensemble.ensembles import grouped

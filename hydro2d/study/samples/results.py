@@ -12,7 +12,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from hydro2d.base.errors import unknown
-from hydro2d.mesh.regime import REGIMES
+from hydro2d.measure.regime import REGIMES
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
 from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError

@@ -12,7 +12,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from hydro2d.mesh.regime import GROWING
+from hydro2d.measure.regime import GROWING
 
 #: failed runs after which a search gives up
 MOST_FAILED = 4

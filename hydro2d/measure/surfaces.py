@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.base.errors import DeckError
+from hydro2d.measure import bodies, tracers
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import FILLED
-from hydro2d.solver import body_measurements, tracers
 
 #: largest distance that a surface may move in a cycle, in cells
 NEAR = 2.0
@@ -36,7 +36,7 @@ def thin_surfaces(sim, m: int, axis: int, line: int) -> list[tuple[float, int]]:
     """`surfaces` of body m on a line of cells, along r (axis 0) or z (1), from its boxes; neighbouring ones are merged."""
     ends: list[tuple[float, int]] = []
     before = -2
-    for _, cell, low, high in body_measurements.boxes(sim, m, axis, line):
+    for _, cell, low, high in bodies.boxes(sim, m, axis, line):
         if cell == before + 1:
             ends[-1] = high, 1
         else:

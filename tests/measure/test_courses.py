@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.measure.courses import PARTED, PARTED_OF_WAY
 from hydro2d.mesh.fields import RHO
-from hydro2d.solver.courses import PARTED, PARTED_OF_WAY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, mesh, stop, table, walls
 from tests.restarts import restarted

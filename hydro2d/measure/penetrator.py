@@ -6,14 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.deck import deck as decks
+from hydro2d.measure import bodies
+from hydro2d.measure.measured import PASSAGE
+from hydro2d.measure.regime import ERODED_MASS, LEFT, regime
+from hydro2d.measure.shot import Projectile, Target
 from hydro2d.mesh import sums
-from hydro2d.mesh.edges.registry import BY_NAME
-from hydro2d.mesh.measured import PASSAGE
-from hydro2d.mesh.regime import ERODED_MASS, LEFT, regime
 from hydro2d.mesh.sums import HALF
-from hydro2d.solver import body_measurements
-from hydro2d.solver.targets import Target
 
 #: a rod has left the mesh once more than this share of its mass has flowed out since its core reached an open edge
 LEFT_MASS = 0.01
@@ -61,7 +59,7 @@ class Penetrator:
     keeps its length, and losses are shares of the length that the cells showed at first. If the head has become blunt this
     overestimates the length, by less than the tip was short, and by less the shorter the rod is.
 
-    The regime is that of `mesh/regime.py`, from the length, the largest radius and the mass of the core.
+    The regime is that of `measure/regime.py`, from the length, the largest radius and the mass of the core.
 
     A rod can leave the mesh through an open edge in z. Its core has reached the edge when it fills half of the edge's cell on
     the axis and moves outwards there, relative to the mesh. When more than 1 % of the rod's mass has flowed out since, the
@@ -79,9 +77,8 @@ class Penetrator:
     Parameters
     ----------
     sim : Simulation
-    deck : its deck, which names the rod
+    projectile : as the deck has it
     targets : those that the rod is to go through, in the order in which it meets them; depths are below the first one's face
-    direction : of its flight along z, 1 or -1
 
     Attributes
     ----------
@@ -90,25 +87,21 @@ class Penetrator:
     leaving : velocity relative to a target below which a core stays in it, m/s
     """
 
-    def __init__(self, sim, deck, targets: list[Target], direction: float):
+    def __init__(self, sim, projectile: Projectile, targets: list[Target]):
         self.sim = sim
-        body = decks.body(deck, deck.penetration.rod)
-        slots = decks.slots(deck)
-        self.m = slots.index(body.join or body.name)
-        self._targets = targets
-        self.radius = (body.own_radius if body.is_slender else None) or self._largest_radius(slice(None))
+        self.m, self.direction, self._targets = projectile.m, projectile.direction, targets
+        self.radius = projectile.radius or self._largest_radius(slice(None))
         self._around = 2 * np.pi if sim.grid.cylindrical else 1.0
-        self.direction = direction
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         shown = self._length()[0]
-        self.length = decks.axial_length(deck, body) or shown
+        self.length = projectile.length or shown
         self._stretch = self.length / shown if shown > 0.0 else 1.0
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
-        _, momentum, self.energy, *_ = body_measurements.motion(sim, self.m)
+        _, momentum, self.energy, *_ = bodies.motion(sim, self.m)
         self._against = targets[0].velocity
         self.impact_energy = self.energy - self._against * momentum + 0.5 * self.mass * self._against**2
-        self.impact_momentum = direction * (momentum - self._against * self.mass)
+        self.impact_momentum = self.direction * (momentum - self._against * self.mass)
         self._run = np.zeros(2, dtype=np.int64)
         speed = self._speed = abs((sim.mean_velocity(self.m) or 0.0) - self._against)
         self._slack, self.leaving = DEBRIS_SPEED * speed, LEAVING_SPEED * speed
@@ -117,9 +110,7 @@ class Penetrator:
         self.passed: list[Passage] = []
         self._deepest = 0.0
         self._offset = grid.offset
-        ends = (deck.boundaries.z_min, (0, -1.0)), (deck.boundaries.z_max, (grid.nz, 1.0))
-        behind = -self.direction if deck.mesh.follow == body.name else 0.0
-        self._open = [end for kind, end in ends if BY_NAME[kind].flow() and end[1] != behind]
+        self._open = [(0 if end < 0 else grid.nz, float(end)) for end in projectile.exits]
 
     @property
     def targets(self) -> list[Target]:
@@ -470,7 +461,7 @@ class Penetrator:
             "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else None,
             "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else None,
             "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else None,
-            "rod_kinetic_energy_J": body_measurements.motion(self.sim, self.m)[2],
+            "rod_kinetic_energy_J": bodies.motion(self.sim, self.m)[2],
             "rod_residual_velocity_m_s": residual_velocity,
             "rod_residual_mass_kg": residual_mass,
             "rod_residual_length_m": length if residual_mass is not None and not self.left else None,

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.mesh.station_columns import QUANTITIES as OF_STATIONS
+from hydro2d.measure.station_columns import QUANTITIES as OF_STATIONS
 
 #: unit by ending of the name, the longest first
 UNITS = {
@@ -76,7 +76,7 @@ PASSAGE = {
     "exit_length_m": "length of the longest run of intact material on the axis then",
 }
 
-#: results of `body_measurements.measure` for every body, and their meanings; for material in the mesh unless stated otherwise
+#: results of `bodies.measure` for every body, and their meanings; for material in the mesh unless stated otherwise
 BODY = {
     "mass_kg": "mass",
     "momentum_N_s": "axial momentum",

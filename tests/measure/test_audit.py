@@ -6,7 +6,7 @@ import pytest
 from hydro2d.deck import deck as decks
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, contact, entry, mesh, stop, table, walls
-from tests.solver import audited
+from tests.measure import audited
 
 CLOSES = 1e-12
 #: the limit next to products of an explosive, whose modulus may fall by 1e12 below that of the metal in the same cell

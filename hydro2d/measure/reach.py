@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from hydro2d.materials.starts import body_state, body_velocity, slot_of
+from hydro2d.measure.audit import Totals
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import FREE
-from hydro2d.solver.audit import Totals
-from hydro2d.solver.insertion import body_state, body_velocity, slot_of
 
 #: times the heat of the hottest state that a cell may show, for reflections, convergence and the dissipation of the method, and
 #: share of it by which a cell may be colder than at the start

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.solver.targets import Target
+from hydro2d.measure.shot import Target
 
 #: for the wall of the hole, the target fills a cell from this share on
 HALF = 0.5

@@ -6,8 +6,8 @@ import pytest
 
 from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
-from hydro2d.solver.audit import totals
-from hydro2d.solver.sanity import _harmless, doubts
+from hydro2d.measure.audit import totals
+from hydro2d.measure.sanity import _harmless, doubts
 from hydro2d.solver.simulation import Simulation
 from strength import SHEAR
 from tests.decks import box, entry, mesh, plate, stop, table, walls

@@ -8,8 +8,8 @@ import numpy as np
 
 from eos.dispatch import evaluate
 from hydro2d.jit import point, serial
+from hydro2d.measure.station_columns import DENSITY, FAILED, MISES, PRESSURE, S_RR, S_RZ, S_TT, S_ZZ, STRAIN, TEMPERATURE, U, V
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
-from hydro2d.mesh.station_columns import DENSITY, FAILED, MISES, PRESSURE, S_RR, S_RZ, S_TT, S_ZZ, STRAIN, TEMPERATURE, U, V
 from hydro2d.physics.stress import von_mises
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
+from hydro2d.measure.surfaces import surfaces
 from hydro2d.solver.simulation import Simulation
-from hydro2d.solver.surfaces import surfaces
 from tests.restarts import restarted
 
 DECK = """

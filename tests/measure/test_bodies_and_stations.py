@@ -8,12 +8,12 @@ import pytest
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.mesh import measured, quantities, station_columns, sums
+from hydro2d.measure import bodies, measured, station_columns, tracers
+from hydro2d.mesh import quantities, sums
 from hydro2d.output import derived_quantities
 from hydro2d.results.reading import Results
 from hydro2d.results.summaries import plausible
 from hydro2d.running.run import run
-from hydro2d.solver import body_measurements, tracers
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, entry, mesh, plate, stop
 from tests.restarts import restarted
@@ -46,7 +46,7 @@ def struck() -> Simulation:
 
 
 def test_a_ball_before_the_impact():
-    measurement = body_measurements.measure(started())["ball"]
+    measurement = bodies.measure(started())["ball"]
     assert measurement["mass_kg"] == pytest.approx(MASS, rel=1e-12)
     assert measurement["momentum_N_s"] == pytest.approx(800.0 * MASS, rel=1e-12)
     assert measurement["kinetic_energy_J"] == pytest.approx(0.5 * MASS * 800.0**2, rel=1e-12)
@@ -81,12 +81,12 @@ def test_a_body_may_have_the_name_of_a_table():
 
 
 def test_the_extent_of_a_plate_between_faces():
-    plate = body_measurements.measure(started(0, 'body.plate.thickness="10.13 mm"'))["plate"]
+    plate = bodies.measure(started(0, 'body.plate.thickness="10.13 mm"'))["plate"]
     assert [plate[key] for key in ("r_min_m", "r_max_m", "z_min_m", "z_max_m")] == pytest.approx([0.0, 0.02, 0.0, 10.13e-3])
 
 
 def test_bodies_have_the_momentum_of_the_vertices(struck):
-    measured, whole, s, g = body_measurements.measure(struck), np.zeros(2), struck.state, struck.grid
+    measured, whole, s, g = bodies.measure(struck), np.zeros(2), struck.state, struck.grid
     sums.vertex_totals(g.g, g.nz, g.nr, s.mass, s.u, s.v, whole)
     momentum, kinetic = (2.0 * math.pi * whole).tolist()
     assert sum(body["momentum_N_s"] for body in measured.values()) == pytest.approx(momentum, rel=1e-12)
@@ -99,7 +99,7 @@ def test_outflow_from_the_mesh_is_counted():
                   "shape = 'sphere', centre = [0.0, '-7.5 mm'], radius = '5 mm', velocity = '800 m/s' }]")
     while sim.time < 4e-6:
         sim.step()
-    measurement = body_measurements.measure(sim)["ball"]
+    measurement = bodies.measure(sim)["ball"]
     assert measurement["outflow_kg"] > 0.05 * MASS
     assert measurement["mass_kg"] + measurement["outflow_kg"] == pytest.approx(MASS, rel=1e-9)
 
@@ -175,12 +175,12 @@ def test_the_radii_of_the_ends_and_the_length_of_a_body(struck):
     sim = started(0, 'body.plate.thickness="10 mm"')
     r, z = np.meshgrid(sim.grid.rc[sim.grid.inside[1]], sim.grid.zc[sim.grid.inside[0]])
     sim.grid.interior(sim.state.vof)[0] = (z > 0.0) & (z < 8e-3) & (r < 10e-3 - z)
-    measurement = body_measurements.measure(sim)["ball"]
+    measurement = bodies.measure(sim)["ball"]
     assert measurement["radius_at_z_min_m"] == pytest.approx(9.5e-3)
     assert measurement["radius_at_z_max_m"] == pytest.approx(2e-3)
     assert measurement["length_m"] == pytest.approx(8e-3)
     assert measurement["initial_length_m"] == pytest.approx(10e-3, abs=0.2e-3)
-    assert body_measurements.measure(struck)["ball"]["length_m"] < measurement["initial_length_m"]
+    assert bodies.measure(struck)["ball"]["length_m"] < measurement["initial_length_m"]
 
 
 # ----------------------------------------------------------------------------------------- bodies narrower than a cell
@@ -192,7 +192,7 @@ def thin(shape: str, planar: bool = False, cycles: int = 0) -> dict[str, float]:
     sim = Simulation(decks.loads(mesh(("1 mm", 10), ("4 mm", 40), **kind) + shape + stop("10 us")))
     for _ in range(cycles):
         sim.step()
-    lengths = {name: None if value is None else 1e3 * value for name, value in body_measurements.measure(sim)["thin"].items()
+    lengths = {name: None if value is None else 1e3 * value for name, value in bodies.measure(sim)["thin"].items()
                if name.endswith("_m")}
     return lengths | {"way": 1e6 * sim.time}
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.deck.layout import layout
-from hydro2d.mesh.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
-from hydro2d.solver import tracers
-from hydro2d.solver.surfaces import Follower
+from hydro2d.measure import tracers
+from hydro2d.measure.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
+from hydro2d.measure.surfaces import Follower
 
 #: group of a point that begins in no body, or is fixed
 NO_GROUP = -1
@@ -21,6 +20,7 @@ class Stations:
     ----------
     sim : Simulation
     deck : its deck
+    within : name of the body in which each tracer begins; None for one in void
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Stations:
     peaks : float64[n, len(PEAKS)], extreme values of each since the start
     """
 
-    def __init__(self, sim, deck):
+    def __init__(self, sim, deck, within: list[str | None]):
         self._sim = sim
         followed = [(f"tracer_{entry.name}", (entry.r, entry.z)) for entry in deck.tracer]
         fixed = [(f"gauge_{name}", place) for entry in deck.gauge for name, place in entry.places()]
@@ -38,7 +38,8 @@ class Stations:
         self.places = np.array([place for _, place in (*followed, *fixed)], dtype=float).reshape(-1, 2)
         self.tracers = self.places[: len(followed)]
         self._groups = np.full(len(self.names), NO_GROUP)
-        self._groups[: len(followed)] = [_group(sim, deck, entry.r, entry.z) for entry in deck.tracer]
+        self._groups[: len(followed)] = [NO_GROUP if name is None else sim.state.group[sim.table.names.index(name)]
+                                             for name in within]
         self.peaks = np.tile(np.array(NO_PEAKS), (len(self.names), 1))
         on_surface = {f"gauge_{name}": entry for entry in deck.gauge if entry.surface is not None for name, _ in entry.places()}
         self._followers = {n: Follower(sim, on_surface[name], self.places[n]) for n, name in enumerate(self.names)
@@ -77,11 +78,3 @@ class Stations:
         rows = np.concatenate([self.places, self._values, self.peaks], axis=1)
         known = np.where(np.isfinite(rows), rows, None).tolist()
         return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, known, strict=True)}
-
-
-def _group(sim, deck, r: float, z: float) -> int:
-    """Body group of the body of the deck that is at (r, z) at the start; NO_GROUP if there is none."""
-    for placed in layout(deck).bodies:
-        if any(low <= z <= high for low, high in placed.outline.chords("z", r)):
-            return int(sim.state.group[sim.table.names.index(placed.body.join or placed.body.name)])
-    return NO_GROUP

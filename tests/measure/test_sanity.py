@@ -9,9 +9,9 @@ import pytest
 
 from hydro2d.base.errors import DeckError, UnphysicalState
 from hydro2d.deck import deck
+from hydro2d.measure.audit import totals
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.running.run import exit_status, run
-from hydro2d.solver.audit import totals
 from hydro2d.solver.simulation import Simulation
 from tests.decks import box, contact, entry, mesh, stop, table, walls
 

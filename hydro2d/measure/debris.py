@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.mesh.measured import FRAGMENTS, Debris
+from hydro2d.measure.measured import FRAGMENTS, Debris
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB
 

@@ -8,12 +8,12 @@ import pytest
 from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.mesh.measured import PASSAGE
+from hydro2d.measure.measured import PASSAGE
+from hydro2d.measure.penetrator import WATCH_EVERY
 from hydro2d.output import history
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run
-from hydro2d.solver.penetrator import WATCH_EVERY
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, contact, mesh, plate, stop, table
 from tests.restarts import restarted

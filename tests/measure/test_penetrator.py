@@ -7,7 +7,7 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.files import shipped
-from hydro2d.mesh.regime import (
+from hydro2d.measure.regime import (
     DEFORMING,
     ERODED_LENGTH,
     ERODED_MASS,

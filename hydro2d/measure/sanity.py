@@ -11,9 +11,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hydro2d.solver.audit import CLIPS, REMEDIES, Audit, Totals, totals
-from hydro2d.solver.doubt import Doubt
-from hydro2d.solver.reach import MOST_STRAIN, Reach, drift
+from hydro2d.measure.audit import CLIPS, REMEDIES, Audit, Totals, totals
+from hydro2d.measure.doubt import Doubt
+from hydro2d.measure.reach import MOST_STRAIN, Reach, drift
 
 #: relative change of mass, momentum or energy that no sink explains, from which the audit does not close
 CLOSES = 1e-6

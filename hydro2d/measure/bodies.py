@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hydro2d.measure.measured import BODY
 from hydro2d.mesh import sums
-from hydro2d.mesh.measured import BODY
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.mesh.measured import ATTACHED_SPALL, DETACHED_SPALL, NO_DAMAGE, PERFORATED
+from hydro2d.measure.measured import ATTACHED_SPALL, DETACHED_SPALL, NO_DAMAGE, PERFORATED
+from hydro2d.measure.penetrator import LEFT_MASS
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB
-from hydro2d.solver.penetrator import LEFT_MASS
 
 #: a piece of fewer cells, filled by half or more, is debris and no spall
 FEWEST_CELLS = 4

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.measure.measured import DETACHED_SPALL, EJECTA, PERFORATED
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO
-from hydro2d.mesh.measured import DETACHED_SPALL, EJECTA, PERFORATED
 
 #: share of the projectile's momentum that may fly behind the target without a momentum multiplication taking account of it
 IGNORED = 0.01

@@ -1,0 +1,1 @@
+"""hydro2d/measure: what a simulation has done, and whether it is trusted."""
