@@ -11,6 +11,8 @@ from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck.mesh_sections import Mesh, Segment
 from hydro2d.deck.sections import Boundaries, Failure, Sliding
 from hydro2d.materials import library
+from hydro2d.measure import outcome
+from hydro2d.measure.penetrator import Projectile
 from hydro2d.mesh.fields import BODY
 from hydro2d.mesh.grid import Grid
 
@@ -109,6 +111,10 @@ class Simulation:
 
     def of_targets(self):
         return {}
+
+    def outcome(self, status, stop_reason):
+        return outcome.of(Projectile(**self.diagnostics()), status=status, stop_reason=stop_reason, impact_velocity=SPEED,
+                          thickness=None, dropped=None)  # fmt: skip
 
     def holes(self):
         return {}

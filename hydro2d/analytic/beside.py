@@ -45,7 +45,7 @@ def lines(deck: Deck, summary: dict) -> list[str]:
 
     There is no line if the rod has perforated a target, or if no model can be applied.
     """
-    if any(target.get("exit_time_s") is not None for target in (summary.get("targets") or {}).values()):
+    if (summary.get("outcome") or {}).get("perforated"):
         return []
     text = ", ".join(f"{name} {depth * 1e2:.2f} cm" for name, depth in depths(deck).items())
     return [f"{'analytic, at rest':<21} {text}"] if text else []

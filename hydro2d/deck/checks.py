@@ -13,7 +13,8 @@ from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import MeshError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.materials.material import Material
-from hydro2d.measure.measured import BODY, OF_STATIONS, PLACES
+from hydro2d.measure.bodies import Body
+from hydro2d.measure.station_columns import Point
 from hydro2d.mesh.edges.base import EDGES, PRESSURE, PUSH, Edge
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made
 from hydro2d.mesh.sinks import SINKS
@@ -77,10 +78,10 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
 
 def _colliding_names(deck: Deck) -> Iterator[tuple[tuple, str]]:
     """Bodies, tracers and gauges of which a column of the history would have the name of another one's."""
-    named = [("body", number, "body", entry.name, BODY) for number, entry in enumerate(deck.body)]
+    named = [("body", number, "body", entry.name, Body.meanings()) for number, entry in enumerate(deck.body)]
     for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
                            ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge])):
-        named += [(kind, number, kind, name, (*PLACES, *OF_STATIONS)) for number, own in enumerate(names_of) for name in own]
+        named += [(kind, number, kind, name, Point.meanings()) for number, own in enumerate(names_of) for name in own]
     owners: dict[str, str] = {}
     for kind, number, prefix, name, keys in named:
         for column in (f"{prefix}_{name}_{key}" for key in keys):

@@ -6,11 +6,19 @@ from collections.abc import Iterator
 
 from hydro2d.deck.expressions import PURE, Expression, ExpressionError, in_words, parse
 from hydro2d.deck.sections import Deck
-from hydro2d.measure import measured
-from hydro2d.measure.measured import SHORT, in_file, unit
+from hydro2d.measure.bodies import Body
+from hydro2d.measure.crater import Hole
+from hydro2d.measure.ejecta import Ejected
+from hydro2d.measure.penetrator import Projectile
+from hydro2d.measure.result import UNITS, in_file, unit
+from hydro2d.measure.station_columns import PLACES, Point
 
 #: characters of a name
 LONGEST = 60
+#: short names of results of a projectile
+SHORT = Projectile.short()
+#: results that are words
+WORDS = ("regime",)
 
 
 def known(deck: Deck) -> dict[str, str]:
@@ -18,8 +26,14 @@ def known(deck: Deck) -> dict[str, str]:
     bodies = [entry.name for entry in deck.body if entry.join is None]
     stations = [f"tracer_{entry.name}" for entry in deck.tracer]
     stations += [f"gauge_{name}" for entry in deck.gauge for name, _ in entry.places()]
-    columns = measured.names(bodies, stations, deck.penetration is not None)
-    short = {name: unit(column) for name, column in SHORT.items()} if deck.penetration is not None else {}
+    columns = ["time", "dt", "internal_energy_J", "kinetic_energy_J"]
+    columns += [f"body_{body}_{key}" for body in bodies for key in Body.model_fields]
+    columns += [f"{station}_{key}" for station in stations for key in Point.model_fields]
+    short: dict[str, str] = {}
+    if deck.penetration is not None:
+        columns += [name for name in Projectile.model_fields if name not in WORDS]
+        columns += [f"crater_{key}" for key in Hole.model_fields] + [f"ejecta_{key}" for key in Ejected.model_fields]
+        short = {name: unit(column) for name, column in SHORT.items()}
     return short | {column: unit(column) for column in columns}
 
 
@@ -51,7 +65,7 @@ def problems(deck: Deck) -> Iterator[tuple[tuple, str]]:
 def _bad_name(name: str, names: dict[str, str], used: set[str]) -> str:
     if not name.strip() or not name.isprintable() or len(name) > LONGEST:
         return f"a name has 1 to {LONGEST} printable characters"
-    if name[0] in "./" or name.startswith(("crater", "debris")) or name in ("cycle", "regime", *measured.PLACES):
+    if name[0] in "./" or name.startswith(("crater", "debris")) or name in ("cycle", "regime", *PLACES):
         return "is not allowed as the name of a derived quantity; give it another"
     if name.startswith(("sink_", "mass_change_", "tracer_", "gauge_", "body_")) or {name, in_file(name)} & {*names, *used}:
         return "is the name of another quantity; give it another"
@@ -64,7 +78,7 @@ def _bad_unit(name: str, formula: Expression) -> str:
     if named == "rad" and formula.dimension == PURE:
         return ""
     said = in_words(formula.dimension)
-    ending = next((ending for ending, each in measured.UNITS.items() if each == said), "")
+    ending = next((ending for ending, each in UNITS.items() if each == said), "")
     if said == named:
         return ""
     if said != "1" and not ending:

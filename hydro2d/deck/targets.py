@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hydro2d.deck import deck as decks
-from hydro2d.measure.shot import Projectile, Target
+from hydro2d.measure.shot import Flight, Target
 from hydro2d.mesh.edges.registry import BY_NAME
 
 
@@ -13,7 +13,7 @@ def direction(deck) -> float:
     return float(decks.heading(decks.body(deck, shot.rod), decks.body(deck, shot.targets[0])))
 
 
-def projectile(deck) -> Projectile:
+def flight(deck) -> Flight:
     """The projectile of a deck with [penetration].
 
     The edge behind it of a mesh that follows it is none through which it can leave: what flows out there is debris.
@@ -22,7 +22,7 @@ def projectile(deck) -> Projectile:
     behind = -along if deck.mesh.follow == body.name else 0.0
     exits = tuple(end for end, kind in ((-1, edges.z_min), (1, edges.z_max)) if BY_NAME[kind].flow() and end != behind)
     radius, length = body.own_radius if body.is_slender else None, decks.axial_length(deck, body)
-    return Projectile(decks.slots(deck).index(body.join or body.name), along, radius or None, length or None, exits)
+    return Flight(decks.slots(deck).index(body.join or body.name), along, radius or None, length or None, exits)
 
 
 def targets(deck) -> list[Target]:
@@ -39,3 +39,10 @@ def targets(deck) -> list[Target]:
         result.append(Target(name, names.index(name), min(z for z, _ in joined), max(z for _, z in joined), surface, rear,
                             decks.body(deck, name).velocity[1]))  # fmt: skip
     return result
+
+
+def thickness(deck) -> float | None:
+    """From the face of the first target to the rear of the last, m, gaps included; None if the last one has no rear."""
+    through = targets(deck)
+    has_rear = decks.body(deck, through[-1].name).is_target
+    return float(f"{abs(through[-1].rear - through[0].surface):.12g}") if has_rear else None

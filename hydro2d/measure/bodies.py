@@ -6,14 +6,34 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hydro2d.measure.measured import BODY
+from hydro2d.measure.result import Number, Result, result
 from hydro2d.mesh import sums
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB, FILLED, box_ends
 
 
-def measure(sim) -> dict[str, dict[str, float | None]]:
-    """BODY by body; SI, whole circumference (per metre of depth in planar geometry).
+class Body(Result):
+    """A body: of material in the mesh unless stated otherwise. SI, whole circumference; planar: per metre of depth."""
+
+    mass_kg: Number = result("mass")
+    momentum_N_s: Number = result("axial momentum")
+    velocity_m_s: Number = result("mean axial velocity, by mass; null if none of it is in the mesh")
+    kinetic_energy_J: Number = result("kinetic energy, including the radial motion")
+    failed_mass_kg: Number = result("mass that has failed by damage")
+    outflow_kg: Number = result("mass that has left through open edges of the mesh since the start")
+    inflow_kg: Number = result("mass that has entered a travelling mesh since the start")
+    r_min_m: Number = result("least radius that it reaches; null if it fills less than a hundredth of any cell")
+    r_max_m: Number = result("largest radius that it reaches")
+    z_min_m: Number = result("lowest axial position that it reaches")
+    z_max_m: Number = result("highest axial position that it reaches")
+    length_m: Number = result("its extent along the axis")
+    initial_length_m: Number = result("its extent along the axis at the start")
+    radius_at_z_min_m: Number = result("radius of its lowest row of cells: the foot of a bar standing there")
+    radius_at_z_max_m: Number = result("radius of its highest row of cells")
+
+
+def measure(sim) -> dict[str, Body]:
+    """Every body by name; SI, whole circumference (per metre of depth in planar geometry).
 
     Mass, axial momentum, mean axial velocity and kinetic energy are of material in the mesh. Outflow and inflow are the masses
     that have left and entered through its open edges. The extent is that of the cells that the body fills by half or more,
@@ -33,7 +53,7 @@ def measure(sim) -> dict[str, dict[str, float | None]]:
         ends = (float(outer[0]), float(outer[-1])) if len(outer) else (None, None)
         values = (mass, momentum, momentum / mass if mass > 0.0 else None, kinetic, failed, went, came, *extent,
                   _between(*extent[2:]), sim.lengths.get(name), *ends)
-        results[name] = dict(zip(BODY, values, strict=True))
+        results[name] = Body(**dict(zip(Body.model_fields, values, strict=True)))
     return results
 
 

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hydro2d.measure.result import Number, Result, result
 from hydro2d.measure.shot import Target
 
 #: for the wall of the hole, the target fills a cell from this share on
@@ -14,6 +15,30 @@ HALF = 0.5
 FULL = 0.999
 #: pieces of the target with less than this share of the largest one's volume are debris
 PIECE = 0.05
+
+
+class Hole(Result):
+    """The hole in a target, corrected for its bending. SI, whole circumference."""
+
+    entrance_diameter_m: Number = result(
+        "in the first row below the surface from which the wall is steeper than 45 degrees; 0: no hole")
+    exit_diameter_m: Number = result(
+        "in the last such row, also beyond the rear face; null while the hole is not open at its end")
+    hole_diameter_m: Number = result(
+        "in the narrowest such row of a hole that is open right through, whether the projectile went through or not; null "
+        "while it is closed")
+    mean_diameter_m: Number = result("of the cylinder with the volume and depth of the hole; null if there is no hole")
+    volume_m3: Number = result("of the hole, the whole circumference; in planar geometry of the meshed half, per metre")
+    volume_per_energy_m3_J: Number = result("that volume over the kinetic energy of the projectile at the start")
+    efficiency: Number = result(
+        "mass of the target that initially filled that volume, over the projectile's mass at the start: pi_V of the scaling "
+        "of craters")
+    depth_m: Number = result(
+        "from the surface to the bottom on the axis, or the loss of thickness there if the target has bent; its whole "
+        "thickness if it is perforated")
+    ejected_mass_kg: Number = result(
+        "mass of the target beyond its rear face that is no longer connected to it: plug and debris")
+    ejected_velocity_m_s: Number = result("mean axial velocity of that mass; null if there is none")
 
 
 class Rows(NamedTuple):
@@ -265,8 +290,8 @@ class Crater:
         near, far, radius, _, _ = self._hole(self._walls())
         return self.target.surface + self.direction * 0.5 * (near + far), radius
 
-    def measure(self) -> dict:
-        """The entries of summary.json on the hole; SI, whole circumference, within the target's original faces.
+    def measure(self) -> Hole:
+        """The hole now; SI, whole circumference, within the target's original faces.
 
         All lengths are those of the plate as it was before it bent, see `_unbent`. The entrance is where the wall becomes
         steeper than 45 degrees, and the exit is the last such place. The mean diameter is that of the cylinder (in planar
@@ -284,17 +309,17 @@ class Crater:
         mean = None
         if depth > 0.0:
             mean = 2.0 * (float(np.sqrt(volume / (np.pi * depth))) if cylindrical else volume / depth)
-        return {
-            "entrance_diameter_m": 2.0 * float(radius[mouth]) if len(radius) else 0.0,
-            "exit_diameter_m": 2.0 * float(radius[end]) if len(radius) and through else None,
-            "hole_diameter_m": 2.0 * float(radius[mouth : end + 1].min()) if len(radius) and through else None,
-            "mean_diameter_m": mean,
-            "volume_m3": volume,
-            "volume_per_energy_m3_J": volume / penetrator.impact_energy if penetrator.impact_energy > 0.0 else None,
-            "efficiency": volume * float(self.sim.table.rho0[self.m]) / penetrator.mass,
-            "depth_m": depth,
+        return Hole(
+            entrance_diameter_m=2.0 * float(radius[mouth]) if len(radius) else 0.0,
+            exit_diameter_m=2.0 * float(radius[end]) if len(radius) and through else None,
+            hole_diameter_m=2.0 * float(radius[mouth : end + 1].min()) if len(radius) and through else None,
+            mean_diameter_m=mean,
+            volume_m3=volume,
+            volume_per_energy_m3_J=volume / penetrator.impact_energy if penetrator.impact_energy > 0.0 else None,
+            efficiency=volume * float(self.sim.table.rho0[self.m]) / penetrator.mass,
+            depth_m=depth,
             **self._ejected(walls[1] > 0.0),
-        }
+        )
 
     def _ejected(self, pieces: np.ndarray) -> dict[str, float | None]:
         """Mass and mean axial velocity of target material ejected through its rear; pieces : see `pieces`."""

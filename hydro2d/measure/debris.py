@@ -2,16 +2,62 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from hydro2d.measure.measured import FRAGMENTS, Debris
+from hydro2d.measure.result import Number, Result, result
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB
 
+#: results for each fragment with their units
+FRAGMENTS = ("mass_kg", "r_m", "z_m", "velocity_r_m_s", "velocity_z_m_s")
 #: bins of the axial speed, and of the angle to the axis, 5 degrees each
 SPEEDS, ANGLES = 40, 36
 #: the share of the mass that flies within the cone, and the share that is faster than the leading velocity
 CONE, LEADING = 0.9, 0.01
+
+
+class Cloud(Result):
+    """Everything that flies behind a target, the projectile included. SI, whole circumference."""
+
+    mass_kg: Number = result("mass of all bodies")
+    momentum_N_s: Number = result(
+        "axial momentum along the flight of the projectile, relative to the undisturbed target, as all below")
+    kinetic_energy_J: Number = result("kinetic energy, including the radial motion")
+    velocity_m_s: Number = result("mean axial velocity, by mass; null if there is no debris")
+    leading_velocity_m_s: Number = result("axial velocity that a hundredth of the mass exceeds")
+    cone_angle_rad: Number = result("angle to the axis within which nine tenths of the mass fly")
+    fragments: int | None = result(
+        "number of pieces, each of connected cells that are filled by half, or by less if it is narrower than a cell; one "
+        "off the axis is a ring")
+    largest_fragment_kg: Number = result("mass of the heaviest of them")
+    dust_kg: Number = result("mass in none of them: in cells next to them that are filled by less than half, and crumbs")
+
+
+class Debris(NamedTuple):
+    """Debris behind a target. Arrays by body have a column for each name in ``bodies``; SI, whole circumference.
+
+    bodies : those that it is made of
+    speeds, by_speed : edges of the bins of axial speed along the flight (n + 1,), and the mass in them (n, bodies)
+    angles, by_angle : edges of the bins of the angle to the axis, rad (n + 1,), and the mass in them (n, bodies)
+    fragments : FRAGMENTS of each, (k, 5), the heaviest first;  kinds : number in ``bodies`` of the main body of each, (k,)
+    totals : sums over all of it
+    """
+
+    bodies: list[str]
+    speeds: np.ndarray
+    by_speed: np.ndarray
+    angles: np.ndarray
+    by_angle: np.ndarray
+    fragments: np.ndarray
+    kinds: np.ndarray
+    totals: Cloud
+
+    @property
+    def momentum(self) -> float:
+        """Axial momentum along the flight, N s, whole circumference."""
+        return self.totals.momentum_N_s or 0.0
 
 
 def find(sim, crater, later: list[int]) -> Debris:
@@ -86,21 +132,21 @@ def _fragments(grid, labels: np.ndarray, count: int, mass: np.ndarray, u: np.nda
     return fragments.reshape(-1, len(FRAGMENTS)), kinds
 
 
-def _totals(mass: np.ndarray, u: np.ndarray, axial: np.ndarray, angle: np.ndarray, fragments: np.ndarray) -> dict:
-    """measured.DEBRIS by name."""
+def _totals(mass: np.ndarray, u: np.ndarray, axial: np.ndarray, angle: np.ndarray, fragments: np.ndarray) -> Cloud:
+    """The sums over all debris."""
     total = float(mass.sum())
     momentum = float((mass * axial).sum())
-    return {
-        "mass_kg": total,
-        "momentum_N_s": momentum,
-        "kinetic_energy_J": 0.5 * float((mass * (u**2 + axial**2)).sum()),
-        "velocity_m_s": momentum / total if total > 0.0 else None,
-        "leading_velocity_m_s": _quantile(axial, mass, 1.0 - LEADING),
-        "cone_angle_rad": _quantile(angle, mass, CONE),
-        "fragments": len(fragments),
-        "largest_fragment_kg": float(fragments[0, 0]) if len(fragments) else None,
-        "dust_kg": total - float(fragments[:, 0].sum()),
-    }
+    return Cloud(
+        mass_kg=total,
+        momentum_N_s=momentum,
+        kinetic_energy_J=0.5 * float((mass * (u**2 + axial**2)).sum()),
+        velocity_m_s=momentum / total if total > 0.0 else None,
+        leading_velocity_m_s=_quantile(axial, mass, 1.0 - LEADING),
+        cone_angle_rad=_quantile(angle, mass, CONE),
+        fragments=len(fragments),
+        largest_fragment_kg=float(fragments[0, 0]) if len(fragments) else None,
+        dust_kg=total - float(fragments[:, 0].sum()),
+    )
 
 
 def _quantile(values: np.ndarray, mass: np.ndarray, share: float) -> float | None:

@@ -4,12 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.measure.measured import DETACHED_SPALL, EJECTA, PERFORATED
+from hydro2d.measure.result import Number, Result, result
+from hydro2d.measure.wall_damage import DETACHED_SPALL, PERFORATED
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO
 
 #: share of the projectile's momentum that may fly behind the target without a momentum multiplication taking account of it
 IGNORED = 0.01
+
+
+class Ejected(Result):
+    """What flies back from a target. SI, whole circumference."""
+
+    mass_kg: Number = result(
+        "mass of target and projectile before its original front face that moves away from it, or has left the mesh so")
+    momentum_N_s: Number = result(
+        "axial momentum of that mass, against the flight of the projectile and relative to the undisturbed target")
+    velocity_m_s: Number = result("mean axial velocity, in the same sense; null if there are no ejecta")
+    momentum_multiplication: Number = result(
+        "beta: 1 + this momentum over that of the projectile at the start, relative to the target; null before the impact, "
+        "for later targets, with a hole or detached spall, where debris behind has over a hundredth of the projectile's "
+        "momentum, and once a travelling mesh has left the face behind")
 
 
 class Ejecta:
@@ -51,8 +66,8 @@ class Ejecta:
                              crater.target.velocity, m == crater.m, grid.zc, s.v[s.group[m]], s.edge_flux[side, RHO, m],
                              self._gone)
 
-    def measure(self, damage: str | None, behind: float) -> dict[str, float | None]:
-        """EJECTA; SI, whole circumference.
+    def measure(self, damage: str | None, behind: float) -> Ejected:
+        """What flies back now; SI, whole circumference.
 
         damage : class of the target's damage;  behind : axial momentum of the debris behind it, N s
         """
@@ -65,7 +80,8 @@ class Ejecta:
         mass, momentum = totals.tolist()
         whole = self._is_all(behind) and damage not in (PERFORATED, DETACHED_SPALL)
         multiplication = 1.0 + momentum / self.sim.penetrator.impact_momentum if whole else None
-        return dict(zip(EJECTA, (mass, momentum, momentum / mass if mass > 0.0 else None, multiplication), strict=True))
+        return Ejected(mass_kg=mass, momentum_N_s=momentum, velocity_m_s=momentum / mass if mass > 0.0 else None,
+                       momentum_multiplication=multiplication)
 
     def _is_all(self, behind: float) -> bool:
         """Whether the target has received the momentum of the projectile and that of the ejecta, and nothing else."""

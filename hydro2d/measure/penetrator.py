@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from hydro2d.measure import bodies
-from hydro2d.measure.measured import PASSAGE
 from hydro2d.measure.regime import ERODED_MASS, LEFT, regime
-from hydro2d.measure.shot import Projectile, Target
+from hydro2d.measure.result import Number, Result, result
+from hydro2d.measure.shot import Flight, Target
 from hydro2d.mesh import sums
 from hydro2d.mesh.sums import HALF
 
@@ -21,6 +21,54 @@ DEBRIS_SPEED = 0.05
 LEAVING_SPEED = 0.01
 #: cycles between checks of perforation, of the ends of a run, and of whether the state makes sense
 WATCH_EVERY = 10
+
+
+class Projectile(Result):
+    """What a projectile of any shape has done; the names say rod. SI, whole circumference."""
+
+    penetration_depth_m: Number = result(
+        "largest depth so far, from the target's original surface to its deepest part near the axis", short="depth")
+    nose_depth_m: Number = result(
+        "present depth, less than the largest once a projectile has rebounded; in a summary, at the end")
+    penetration_over_length: Number = result("the largest depth over the projectile's length at the start: P/L")
+    interface_velocity_m_s: Number = result(
+        "axial velocity on the axis at the nose: u of the theory of penetration, whose v is of the tail", short="u")
+    rod_length_m: Number = result(
+        "length of the longest run of intact material on the axis, in proportion to its length at the start", short="length")
+    rod_initial_length_m: Number = result(
+        "length in the deck of a rod or ball that lies wholly in the mesh; else its length at the start", short="length0")
+    rod_mass_kg: Number = result("mass of the projectile in the mesh", short="mass")
+    rod_initial_mass_kg: Number = result("mass of the projectile in the mesh at the start", short="mass0")
+    rod_initial_kinetic_energy_J: Number = result("kinetic energy of the projectile at the start", short="energy0")
+    rod_core_mass_kg: Number = result(
+        "mass of intact material that is connected to the axis and keeps up with it", short="core_mass")
+    rod_failed_mass_kg: Number = result("mass of the projectile that has failed by damage")
+    target_failed_mass_kg: Number = result("mass of the target that has failed by damage")
+    rod_max_radius_m: Number = result(
+        "largest radius of a solid section with the area of the projectile in a row of cells", short="radius")
+    rod_initial_radius_m: Number = result("radius of the projectile in the deck", short="radius0")
+    rod_max_plastic_strain: Number = result("largest plastic strain of the cells that the projectile fills by half")
+    rod_mean_velocity_m_s: Number = result("mean axial velocity of the whole projectile", short="velocity")
+    rod_core_velocity_m_s: Number = result("mean axial velocity of its core")
+    rod_nose_velocity_m_s: Number = result("axial velocity of the projectile on the axis at its leading end")
+    rod_tail_velocity_m_s: Number = result("axial velocity of the projectile on the axis at its tail", short="v")
+    rod_kinetic_energy_J: Number = result("kinetic energy of the projectile, including the radial motion", short="energy")
+    rod_residual_velocity_m_s: Number = result(
+        "axial velocity of the core of a projectile that has perforated the target or left the mesh; of all that was left "
+        "if it was in pieces")
+    rod_residual_mass_kg: Number = result("mass that has this velocity")
+    rod_residual_length_m: Number = result("length of a projectile that has perforated the target")
+    exit_time_s: Number = result("time at which its leading end was its radius beyond the rear of the last target; null before")
+    regime: str | None = result("rigid, deforming, eroding or left the mesh")
+
+
+class Perforation(Result):
+    """The projectile as it was through a target; None until then. SI."""
+
+    exit_time_s: Number = result("time at which the projectile's leading end was its radius beyond the rear of this target")
+    exit_velocity_m_s: Number = result("axial velocity of its core then, or of all that was left if it was in pieces")
+    exit_mass_kg: Number = result("mass that had this velocity")
+    exit_length_m: Number = result("length of the longest run of intact material on the axis then")
 
 
 class Exit(NamedTuple):
@@ -77,7 +125,7 @@ class Penetrator:
     Parameters
     ----------
     sim : Simulation
-    projectile : as the deck has it
+    flight : the rod as the deck has it
     targets : those that the rod is to go through, in the order in which it meets them; depths are below the first one's face
 
     Attributes
@@ -87,15 +135,15 @@ class Penetrator:
     leaving : velocity relative to a target below which a core stays in it, m/s
     """
 
-    def __init__(self, sim, projectile: Projectile, targets: list[Target]):
+    def __init__(self, sim, flight: Flight, targets: list[Target]):
         self.sim = sim
-        self.m, self.direction, self._targets = projectile.m, projectile.direction, targets
-        self.radius = projectile.radius or self._largest_radius(slice(None))
+        self.m, self.direction, self._targets = flight.m, flight.direction, targets
+        self.radius = flight.radius or self._largest_radius(slice(None))
         self._around = 2 * np.pi if sim.grid.cylindrical else 1.0
         grid = sim.grid
         self.columns = max(1, int(np.searchsorted(grid.r_edges[1:], 0.5 * self.radius)))
         shown = self._length()[0]
-        self.length = projectile.length or shown
+        self.length = flight.length or shown
         self._stretch = self.length / shown if shown > 0.0 else 1.0
         self.mass = float(sim.body_sums(self.m)[0].sum()) * self._around
         _, momentum, self.energy, *_ = bodies.motion(sim, self.m)
@@ -110,7 +158,7 @@ class Penetrator:
         self.passed: list[Passage] = []
         self._deepest = 0.0
         self._offset = grid.offset
-        self._open = [(0 if end < 0 else grid.nz, float(end)) for end in projectile.exits]
+        self._open = [(0 if end < 0 else grid.nz, float(end)) for end in flight.exits]
 
     @property
     def targets(self) -> list[Target]:
@@ -401,10 +449,10 @@ class Penetrator:
     def _through(self, nose: float, number: int = -1) -> bool:
         return nose >= self._rears[number] + self.radius
 
-    def passages(self) -> list[dict[str, float | None]]:
+    def passages(self) -> list[Perforation]:
         """The rod as it was through each target, in their order; None for those it is not through."""
-        missing = [(None,) * len(PASSAGE)] * (len(self.targets) - len(self.passed))
-        return [dict(zip(PASSAGE, one, strict=True)) for one in (*self.passed, *missing)]
+        through = [Perforation(**dict(zip(Perforation.model_fields, one, strict=True))) for one in self.passed]
+        return through + [Perforation()] * (len(self.targets) - len(through))
 
     def _residual(self, nose: float, core: float, momentum: float) -> tuple[float | None, float | None]:
         """Residual velocity in m/s and mass in kg, from the nose's depth and the core's mass and momentum: for a rod that has
@@ -424,8 +472,8 @@ class Penetrator:
             return LEFT
         return regime(_share(length, self.length), _share(radius, self.radius), _share(core, self.mass))
 
-    def measure(self) -> dict:
-        """The keys of summary.json that concern the rod; SI, whole circumference."""
+    def measure(self) -> Projectile:
+        """What the rod has done until now."""
         length, low, high = self._length()
         tail, nose = (low, high) if self.direction > 0 else (high, low)
         length *= self._stretch
@@ -440,34 +488,34 @@ class Penetrator:
         nose_depth = self.exit.depth if self.left else max(front, 0.0)
         depth = max(self._deepest, nose_depth)
         residual_velocity, residual_mass = self._residual(nose_depth, core, core_momentum)
-        return {
-            "penetration_depth_m": depth,
-            "nose_depth_m": nose_depth,
-            "penetration_over_length": depth / self.length if self.length > 0.0 else None,
-            "interface_velocity_m_s": None if self.left or mass == 0.0 else
+        return Projectile(
+            penetration_depth_m=depth,
+            nose_depth_m=nose_depth,
+            penetration_over_length=depth / self.length if self.length > 0.0 else None,
+            interface_velocity_m_s=None if self.left or mass == 0.0 else
             self._axis_velocity(self.surface + self.direction * front),
-            "rod_length_m": length,
-            "rod_initial_length_m": self.length,
-            "rod_mass_kg": mass,
-            "rod_initial_mass_kg": self.mass,
-            "rod_initial_kinetic_energy_J": self.energy,
-            "rod_core_mass_kg": core,
-            "rod_failed_mass_kg": self._failed_mass(self.m),
-            "target_failed_mass_kg": self._failed_mass(self.targets[0].m),
-            "rod_max_radius_m": radius,
-            "rod_initial_radius_m": self.radius,
-            "rod_max_plastic_strain": self._largest_strain(np.nonzero(mass_of_rows)[0]),
-            "rod_mean_velocity_m_s": mean,
-            "rod_core_velocity_m_s": core_momentum / core if core > 0.0 else None,
-            "rod_nose_velocity_m_s": self._axis_velocity(nose) if length else None,
-            "rod_tail_velocity_m_s": self._axis_velocity(tail) if length else None,
-            "rod_kinetic_energy_J": bodies.motion(self.sim, self.m)[2],
-            "rod_residual_velocity_m_s": residual_velocity,
-            "rod_residual_mass_kg": residual_mass,
-            "rod_residual_length_m": length if residual_mass is not None and not self.left else None,
-            "exit_time_s": self.passages()[-1]["exit_time_s"],
-            "regime": self.regime(length, radius, core),
-        }
+            rod_length_m=length,
+            rod_initial_length_m=self.length,
+            rod_mass_kg=mass,
+            rod_initial_mass_kg=self.mass,
+            rod_initial_kinetic_energy_J=self.energy,
+            rod_core_mass_kg=core,
+            rod_failed_mass_kg=self._failed_mass(self.m),
+            target_failed_mass_kg=self._failed_mass(self.targets[0].m),
+            rod_max_radius_m=radius,
+            rod_initial_radius_m=self.radius,
+            rod_max_plastic_strain=self._largest_strain(np.nonzero(mass_of_rows)[0]),
+            rod_mean_velocity_m_s=mean,
+            rod_core_velocity_m_s=core_momentum / core if core > 0.0 else None,
+            rod_nose_velocity_m_s=self._axis_velocity(nose) if length else None,
+            rod_tail_velocity_m_s=self._axis_velocity(tail) if length else None,
+            rod_kinetic_energy_J=bodies.motion(self.sim, self.m)[2],
+            rod_residual_velocity_m_s=residual_velocity,
+            rod_residual_mass_kg=residual_mass,
+            rod_residual_length_m=length if residual_mass is not None and not self.left else None,
+            exit_time_s=self.passages()[-1].exit_time_s,
+            regime=self.regime(length, radius, core),
+        )  # fmt: skip
 
 
 def _share(now: float, first: float) -> float:

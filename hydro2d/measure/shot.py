@@ -27,7 +27,7 @@ class Target(NamedTuple):
         return self._replace(low=self.low + way, high=self.high + way, surface=self.surface + way, rear=self.rear + way)
 
 
-class Projectile(NamedTuple):
+class Flight(NamedTuple):
     """The body that penetrates.
 
     m : its slot;  direction : of its flight along z, 1 or -1

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.measure.measured import ATTACHED_SPALL, DETACHED_SPALL, NO_DAMAGE, PERFORATED
+from hydro2d.measure.crater import Hole
 from hydro2d.measure.penetrator import LEFT_MASS
 from hydro2d.mesh.sums import HALF
 from hydro2d.physics.centroids import CRUMB
 
+#: classes of damage, the worst first
+PERFORATED, DETACHED_SPALL, ATTACHED_SPALL, NO_DAMAGE = "perforated", "detached spall", "attached spall", "none"
 #: a piece of fewer cells, filled by half or more, is debris and no spall
 FEWEST_CELLS = 4
 #: share of the thickness by which the rear of a sound wall may bulge
@@ -17,8 +19,8 @@ BULGE = 0.5
 OPEN = 0.05
 
 
-def classify(sim, crater, hole: dict, lost: float) -> str | None:
-    """The class of the damage, see `measured.WALL`; the first that applies:
+def classify(sim, crater, hole: Hole, lost: float) -> str | None:
+    """The class of the damage, see `summary.Target`; the first that applies:
 
     * perforated: the hole is open right through;
     * detached spall: a piece of the target of FEWEST_CELLS or more, not connected to the largest one, flies from it along the
@@ -35,7 +37,7 @@ def classify(sim, crater, hole: dict, lost: float) -> str | None:
     """
     if not crater.has_rear():
         return None
-    if hole["hole_diameter_m"] is not None:
+    if hole.hole_diameter_m is not None:
         return PERFORATED
     flies = _pieces_that_fly(sim, crater)
     if any(flies):

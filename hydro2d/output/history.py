@@ -24,8 +24,9 @@ from hydro2d.base.terminal import cell
 from hydro2d.files import checksums
 from hydro2d.files.strange import own
 from hydro2d.files.whole import hdf5, replacing
-from hydro2d.measure.measured import FRAGMENTS, Debris, in_file, unit
+from hydro2d.measure.debris import FRAGMENTS, Debris
 from hydro2d.measure.regime import REGIMES
+from hydro2d.measure.result import in_file, unit
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 

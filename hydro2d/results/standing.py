@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.base.terminal import duration, moment, number
-from hydro2d.measure.measured import passed
 from hydro2d.measure.regime import REGIMES
 from hydro2d.output import ending
 from hydro2d.output.directory import HISTORY
@@ -30,9 +29,10 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
             said["time"] += f", {duration(now['wall_s'])} of computing"
     if not summary:
         said["end"] = _end(run.stop, columns, now, progress, run.projectile)
-    if summary and (through := passed(summary)):
+    if summary and (summary.get("outcome") or {}).get("perforated"):
         nose = number(now.get("nose_depth_m", now["penetration_depth_m"]), 1e3, ".2f", "mm")
-        said["through"] = f"{', '.join(through)}; nose {nose} behind the first face"
+        through = ", ".join(summary["targets"])
+        said["through"] = f"{through}; nose {nose} behind the first face"
     elif now.get("penetration_depth_m") is not None:
         said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
         if run.measured_depth is not None:

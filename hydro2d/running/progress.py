@@ -17,7 +17,9 @@ from typing import NamedTuple, TypeVar
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, moment, number, one_line, say
-from hydro2d.measure.measured import NO_DAMAGE, passed, unit
+from hydro2d.measure.outcome import EXACT
+from hydro2d.measure.result import unit
+from hydro2d.measure.wall_damage import NO_DAMAGE
 from hydro2d.output import ending
 from hydro2d.output.ending import End
 from hydro2d.output.history import Columns
@@ -437,23 +439,30 @@ def _of_targets(targets: dict) -> Iterator[str]:
             yield f"{f'damage of {name}':<21} {target['damage_class']}{width}"
 
 
+def _error(outcome: dict) -> str:
+    """The error of a depth, with the word for one that is a bound; empty without one."""
+    if outcome["depth_error_m"] is None:
+        return ""
+    bound = "" if outcome["depth_error_is"] == EXACT else f"{outcome['depth_error_is']} "
+    return f" (error {bound}{outcome['depth_error_m'] * 1e2:+.2f} cm, {outcome['depth_error_percent']:+.1f} %)"
+
+
 def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
     from hydro2d.measure.regime import LEFT
 
-    depth, experiment, shape = summary["penetration_depth_m"], summary["experiment"], summary["projectile"]
+    experiment, shape, outcome = summary["experiment"], summary["projectile"], summary["outcome"]
     body = shape["body"]
     bound = "at least " if summary["regime"] == LEFT else ""
-    largest, at_end = (number(each, 1e2, ".2f", "cm") for each in (depth, summary["nose_depth_m"]))
-    if through := passed(summary):
-        lines = [f"perforated            {', '.join(through)}; nose {at_end} behind the first face"]
+    largest, at_end = (number(summary[name], 1e2, ".2f", "cm") for name in ("penetration_depth_m", "nose_depth_m"))
+    if outcome["perforated"]:
+        lines = [f"perforated            {', '.join(summary['targets'])}; nose {at_end} behind the first face"]
     else:
         back = "" if at_end == largest else f"; {at_end} at the end"
         lines = [f"penetration depth     {bound}{largest}{_over_length(summary)}{back}"]
     if experiment and experiment["penetration_m"]:
         measured = experiment["penetration_m"]
-        error = f" (error {(depth - measured) * 1e2:+.2f} cm, {100 * (depth / measured - 1):+.1f} %)"
         qualifier = "" if experiment["qualifier"] == "measured" else f"{experiment['qualifier']} "
-        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{error}  {experiment['source']}")
+        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(outcome)}  {experiment['source']}")
     lines += theory
     if shape.get("residual_mass_kg") is not None:
         velocity, mass = (shape[f"residual_{name}"] for name in ("velocity_m_s", "mass_kg"))

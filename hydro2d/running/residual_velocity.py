@@ -4,33 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.measure.penetrator import Perforation, Projectile
 from hydro2d.output.history import Columns
 
 VELOCITY, CHANGE, OVER = "rod_residual_velocity_m_s", "residual_velocity_change_m_s", "residual_velocity_change_over_s"
-#: meanings of these keys in a summary
-MEANINGS = {
-    CHANGE: "change of the residual velocity over the last flight by the projectile's radius, or since perforation, if that is "
-    "shorter; null if there is none",
-    OVER: "time over which that change took place",
-}
 
 
-def change(columns: Columns, exits: list[dict], measured: dict, time: float) -> dict[str, float | None]:
+def change(columns: Columns, exits: list[Perforation], measured: Projectile | None, time: float) -> dict[str, float | None]:
     """The two keys of a summary at the end, from the rows of the history and the time of perforation of the last target.
 
-    exits : from `Penetrator.passages`;  measured : from `Penetrator.measure`;  time : of the end, s
+    exits : the passages through the targets;  measured : the projectile, if there is one;  time : of the end, s
     """
-    velocity = measured.get(VELOCITY)
+    velocity = measured and measured.rod_residual_velocity_m_s
     rows = columns.some(("time", VELOCITY))
     if velocity is None or VELOCITY not in rows:
         return {CHANGE: None, OVER: None}
     known = np.isfinite(rows[VELOCITY])
     times, velocities = rows["time"][known], rows[VELOCITY][known]
-    through = exits[-1] if exits else {}
-    if through.get("exit_time_s") is not None and through.get("exit_velocity_m_s") is not None:
-        times = np.append(through["exit_time_s"], times)
-        velocities = np.append(through["exit_velocity_m_s"], velocities)
-    began = time - measured["rod_initial_radius_m"] / abs(velocity) if velocity else -np.inf
+    if exits and exits[-1].exit_time_s is not None and exits[-1].exit_velocity_m_s is not None:
+        times = np.append(exits[-1].exit_time_s, times)
+        velocities = np.append(exits[-1].exit_velocity_m_s, velocities)
+    began = time - measured.rod_initial_radius_m / abs(velocity) if velocity else -np.inf
     before = times[times < time]
     if not before.size:
         return {CHANGE: None, OVER: None}

@@ -33,6 +33,8 @@ from hydro2d.deck.warnings import warnings
 from hydro2d.files.locks import locked, remove
 from hydro2d.files.toml import model_tables
 from hydro2d.files.whole import write_json, write_text
+from hydro2d.measure.penetrator import Projectile
+from hydro2d.measure.summary import PROJECTILE, Conservation, Experiment, Flyer, Progress, Summary
 from hydro2d.output import snapshot
 from hydro2d.output.directory import (
     DECK,
@@ -74,14 +76,6 @@ COSTS = ("cycles_s", "compilation_s", "outputs_s", "set_up_s")
 
 #: function that makes lines from a deck and the summary of its run
 Theory = Callable[[Any, dict], list[str]]
-
-#: results that every summary has; null for a deck without rod and target
-ROD_RESULTS = (
-    "penetration_depth_m", "nose_depth_m", "penetration_over_length", "rod_length_m", "rod_mass_kg",
-    "rod_max_plastic_strain", "rod_tail_velocity_m_s", "regime",
-    "rod_residual_velocity_m_s", "rod_residual_mass_kg", "rod_residual_length_m", "exit_time_s",
-)  # fmt: skip
-
 
 #: sections of a deck that may differ when a run is continued
 FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived")
@@ -314,17 +308,11 @@ class Run:
     def _publish(self) -> None:
         """Writes progress.json, which other programs read."""
         measured, outlook = self.sim.diagnostics(), self.clock.look(self.sim)
-        write_json(self.directory / PROGRESS, {
-            "time_s": self.sim.time,
-            "cycles": self.sim.cycle,
-            "fraction": outlook.share,
-            "left_s": outlook.left,
-            "wall_s": self.wall,
-            "penetration_depth_m": measured.get("penetration_depth_m"),
-            "rod_tail_velocity_m_s": measured.get("rod_tail_velocity_m_s"),
-            "host": self.provenance["host"],
-            "process": os.getpid(),
-        })  # fmt: skip
+        write_json(self.directory / PROGRESS, Progress(
+            time_s=self.sim.time, cycles=self.sim.cycle, fraction=outlook.share, left_s=outlook.left, wall_s=self.wall,
+            penetration_depth_m=measured.get("penetration_depth_m"),
+            rod_tail_velocity_m_s=measured.get("rod_tail_velocity_m_s"), host=self.provenance["host"], process=os.getpid(),
+        ).model_dump())  # fmt: skip
         self.published = clock.perf_counter()
 
     def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
@@ -427,41 +415,26 @@ class Run:
 
     def summary(self, status: str, reason: str) -> dict:
         """The contents of summary.json."""
-        sim, cycles, targets, measured = self.sim, self.stepped - 1, self.sim.of_targets(), self.sim.diagnostics()
+        sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
         last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
-        settling = residual_velocity.change(self.history, list(targets.values()), measured, sim.time)
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         if (wrong := sim.not_finite()) and wrong not in faults:
             faults.append(f"null stands for what could not be computed: {wrong}")
-        return {
-            "deck": self.deck.name,
-            "title": self.deck.title,
-            "deck_sha256": deck_hash(self.deck_text),
-            "version": __version__,
-            "method": METHOD,
-            "status": status,
-            "stop_reason": reason,
-            "trustworthy": not faults,
-            "faults": faults,
-            "notes": sim.notes(),
-            "time_s": sim.time,
-            "cycles": sim.cycle,
-            "wall_s": self.wall,
-            **self.costs(),
-            "ns_per_cell_cycle": 1e9 * pace / (sim.grid.cells * cycles) if cycles > 0 else None,
-            "cells": sim.grid.cells,
-            **dict.fromkeys(ROD_RESULTS),
-            **measured,
-            "projectile": projectile(sim.projectile, measured, settling),
-            "crater": next((target["crater"] for target in targets.values()), None),
-            "targets": targets,
-            "derived": {name: last[name] for name in sim.formulas},
-            "bodies": sim.of_bodies(),
-            "stations": sim.stations.measure(),
-            "experiment": experiment(self.deck),
-            "conservation": sim.conservation(),
-            "provenance": self.provenance,
-        }
+        projectile = Projectile(**measured) if (measured := sim.diagnostics()) else None
+        settling = residual_velocity.change(self.history, list(targets.values()), projectile, sim.time)
+        return Summary(
+            **(projectile or {}),
+            deck=self.deck.name, title=self.deck.title, deck_sha256=deck_hash(self.deck_text), version=__version__,
+            method=METHOD, status=status, stop_reason=reason, trustworthy=not faults, faults=faults, notes=sim.notes(),
+            time_s=sim.time, cycles=sim.cycle, wall_s=self.wall, **self.costs(), cells=sim.grid.cells,
+            ns_per_cell_cycle=1e9 * pace / (sim.grid.cells * cycles) if cycles > 0 else None,
+            outcome=sim.outcome(status, reason),
+            projectile=projectile and Flyer(body=sim.projectile, **{new: projectile[old] for old, new in PROJECTILE.items()},
+                                            **settling),
+            crater=next((target.crater for target in targets.values()), None), targets=targets,
+            derived={name: last[name] for name in sim.formulas}, bodies=sim.of_bodies(), stations=sim.stations.measure(),
+            experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance,
+        ).model_dump()  # fmt: skip
 
 
 def models_from_outside(deck) -> list[dict]:
@@ -470,25 +443,11 @@ def models_from_outside(deck) -> list[dict]:
             for about in (*(model.about() for model in material.from_outside()), *material.tables())]
 
 
-def experiment(deck) -> dict | None:
+def experiment(deck) -> Experiment | None:
     """The experiment in a deck, or None."""
-    if deck.experiment is None:
-        return None
-    return {
-        "penetration_m": deck.experiment.penetration,
-        "qualifier": deck.experiment.qualifier,
-        "residual_velocity_m_s": deck.experiment.residual_velocity,
-        "source": deck.experiment.source,
-    }
-
-
-def projectile(body: str | None, measured: dict, settling: dict) -> dict | None:
-    """Entries of a summary for the projectile, in addition to those for every body; None without one."""
-    from hydro2d.measure.measured import PROJECTILE
-
-    if not body:
-        return None
-    return {"body": body, **{PROJECTILE[key]: value for key, value in measured.items() if key in PROJECTILE}, **settling}
+    measured = deck.experiment
+    return measured and Experiment(penetration_m=measured.penetration, qualifier=measured.qualifier,
+                                   residual_velocity_m_s=measured.residual_velocity, source=measured.source)
 
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from hydro2d.base.errors import Error
-from hydro2d.measure.measured import SHORT
+from hydro2d.deck.formulas import SHORT
 from hydro2d.measure.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns
 from hydro2d.output.station_arrays import RESERVED
@@ -34,7 +34,7 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
     values |= {f"{name}_change": conserved[name] for name in ("axial_momentum", "total_energy")}
     values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
     for name, measured in sim.of_bodies().items():
-        values |= {f"body_{name}_{key}": value for key, value in measured.items()}
+        values |= {f"body_{name}_{key}": value for key, value in dict(measured).items()}
     for name, measured in sim.stations.measure().items():
         values |= {f"{name}_{key}": value for key, value in measured.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
@@ -59,9 +59,9 @@ def derived(sim: Simulation, values: Mapping[str, Any]) -> dict[str, float | Non
     wanted = {name for formula in formulas.values() for name in formula.names}
     numbers = {short: values.get(column) for short, column in SHORT.items()} | dict(values)
     if sim.craters and any(name.startswith(CRATER) for name in wanted):
-        numbers |= {f"{CRATER}_{key}": value for key, value in sim.craters[0].measure().items()}
-    if any(name.startswith(EJECTA) for name in wanted):
-        numbers |= {f"{EJECTA}_{key}": value for key, value in sim.ejecta().items()}
+        numbers |= {f"{CRATER}_{key}": value for key, value in sim.craters[0].measure()}
+    if (ejecta := sim.ejecta() if any(name.startswith(EJECTA) for name in wanted) else None) is not None:
+        numbers |= {f"{EJECTA}_{key}": value for key, value in ejecta}
     return {name: formula.evaluate(numbers) for name, formula in formulas.items()}
 
 

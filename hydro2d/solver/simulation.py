@@ -15,13 +15,16 @@ from hydro2d.deck import formulas, targets
 from hydro2d.deck.layout import body_at
 from hydro2d.jit import compilation
 from hydro2d.materials import library
-from hydro2d.measure import bodies, debris, reach, wall_damage
+from hydro2d.measure import bodies, debris, outcome, reach, wall_damage
 from hydro2d.measure.audit import Audit, Totals, totals
+from hydro2d.measure.bodies import Body
 from hydro2d.measure.crater import Crater
-from hydro2d.measure.ejecta import Ejecta
-from hydro2d.measure.measured import Debris
+from hydro2d.measure.debris import Debris
+from hydro2d.measure.ejecta import Ejecta, Ejected
+from hydro2d.measure.outcome import Outcome
 from hydro2d.measure.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.measure.sanity import TRUSTED, discards, doubts, faults
+from hydro2d.measure.summary import Target
 from hydro2d.mesh import fields, quantities, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import PUSH
@@ -119,7 +122,7 @@ class Simulation:
         """The measurements of the projectile and of the holes in its targets."""
         if self.deck.penetration is None:
             return None, []
-        penetrated, flying = targets.targets(self.deck), targets.projectile(self.deck)
+        penetrated, flying = targets.targets(self.deck), targets.flight(self.deck)
         return Penetrator(self, flying, penetrated), [Crater(self, target, flying.direction) for target in penetrated]
 
     def _mesh(self, slots: list[str], method: Method) -> FixedMesh | FollowingMesh:
@@ -330,9 +333,8 @@ class Simulation:
 
     # ------------------------------------------------------------------------------------------------ results
 
-    def of_targets(self) -> dict[str, dict]:
-        """The projectile as it went through each target, see `measured.PASSAGE`, the damage, the hole, the debris behind it and
-        the ejecta before it, by name."""
+    def of_targets(self) -> dict[str, Target]:
+        """Each target by name: the passage of the projectile, damage, hole, debris behind and ejecta before it."""
         if not self.penetrator:
             return {}
         results, debris = {}, self.debris()
@@ -340,14 +342,23 @@ class Simulation:
                                                   self._ejecta, strict=True):  # fmt: skip
             hole, behind = crater.measure(), debris[target.name]
             damage = wall_damage.classify(self, crater, hole, front.lost)
-            results[target.name] = {
-                **passage, "damage_class": damage, "crater": hole, "debris": behind.totals,
-                "ejecta": front.measure(damage, behind.momentum)}
+            results[target.name] = Target(**passage, damage_class=damage, crater=hole, debris=behind.totals,
+                                          ejecta=front.measure(damage, behind.momentum))
         return results
 
-    def ejecta(self) -> dict[str, float | None]:
-        """What flies back from the first target, see `measured.EJECTA`; empty without projectile and target."""
-        return next((target["ejecta"] for target in self.of_targets().values()), {})
+    def ejecta(self) -> Ejected | None:
+        """What flies back from the first target; None without projectile and target."""
+        return next((target.ejecta for target in self.of_targets().values()), None)
+
+    def outcome(self, status: str, stop_reason: str) -> Outcome | None:
+        """What the shot has come to if the run ends now; None without projectile and target."""
+        if self.penetrator is None:
+            return None
+        audit, taken = self.audit, self.audit.sinks.get("advection")
+        dropped = outcome.ratio(taken and taken.energy, audit.start.energy)
+        return outcome.of(self.penetrator.measure(), status=status, stop_reason=stop_reason, dropped=dropped,
+                          impact_velocity=decks.impact_velocity(self.deck), thickness=targets.thickness(self.deck),
+                          experiment=self.deck.experiment)  # fmt: skip
 
     def debris(self) -> dict[str, Debris]:
         """Debris behind each target, by the target's name; empty without projectile and target."""
@@ -362,15 +373,15 @@ class Simulation:
 
     def diagnostics(self) -> dict:
         """Depth, length, speeds and strain of a projectile; empty for a deck without one. SI."""
-        return self.penetrator.measure() if self.penetrator else {}
+        return dict(self.penetrator.measure()) if self.penetrator else {}
 
     @property
     def projectile(self) -> str | None:
         """Name of the body that is measured as the projectile; None without one."""
         return self.table.names[self.penetrator.m] if self.penetrator else None
 
-    def of_bodies(self) -> dict[str, dict[str, float | None]]:
-        """Mass, motion and extent of every body, see `bodies.measure`."""
+    def of_bodies(self) -> dict[str, Body]:
+        """Mass, motion and extent of every body by name."""
         return bodies.measure(self)
 
     def conservation(self) -> dict:

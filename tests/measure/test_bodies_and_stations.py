@@ -8,11 +8,11 @@ import pytest
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.measure import bodies, measured, station_columns, tracers
+from hydro2d.measure import bodies, station_columns, tracers
+from hydro2d.measure.summary import OF_EVERY_BODY, PROJECTILE, Summary
 from hydro2d.mesh import quantities, sums
 from hydro2d.output import derived_quantities
 from hydro2d.results.reading import Results
-from hydro2d.results.summaries import plausible
 from hydro2d.running.run import run
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, entry, mesh, plate, stop
@@ -65,9 +65,9 @@ def test_a_run_calls_the_ball_a_ball_and_gives_one_number_for_each_thing(tmp_pat
     summary = Results(tmp_path / "shot").summary
     shape, ball = summary["projectile"], summary["bodies"]["ball"]
     assert shape["body"] == "ball"
-    for old, new in measured.PROJECTILE.items():
+    for old, new in PROJECTILE.items():
         assert summary[old] == shape[new], old
-    for old, new in measured.OF_EVERY_BODY.items():
+    for old, new in OF_EVERY_BODY.items():
         assert summary[old] == pytest.approx((summary["bodies"]["plate"] if "target" in old else ball)[new], rel=1e-12), old
     assert 0.0 < 0.5 * ball["mass_kg"] * ball["velocity_m_s"] ** 2 < ball["kinetic_energy_J"]
     assert 0.0 < shape["length_m"] < 0.01
@@ -76,8 +76,8 @@ def test_a_run_calls_the_ball_a_ball_and_gives_one_number_for_each_thing(tmp_pat
 def test_a_body_may_have_the_name_of_a_table():
     tables = {"projectile": {"mass_kg": 1.0}, "body": {"z_max_m": 0.1}}
     summary = {"conservation": {"mass": {"projectile": 1e-15}}, "bodies": tables}
-    assert plausible(summary) == (summary, [])
-    assert plausible({"projectile": {"body": 3, "length_m": "long"}})[1] == ["projectile.body", "projectile.length_m"]
+    assert Summary.sound(summary) == (summary, [])
+    assert Summary.sound({"projectile": {"body": 3, "length_m": "long"}})[1] == ["projectile.body", "projectile.length_m"]
 
 
 def test_the_extent_of_a_plate_between_faces():

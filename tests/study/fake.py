@@ -8,9 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
+from hydro2d.base.errors import DeckError
 from hydro2d.base.method_version import METHOD
-from hydro2d.deck import deck
+from hydro2d.deck import deck, targets
 from hydro2d.files.whole import write_json
+from hydro2d.measure import outcome
+from hydro2d.measure.penetrator import Projectile
 from hydro2d.output import vtk
 from hydro2d.output.directory import deck_hash
 from hydro2d.output.history import History
@@ -39,8 +42,28 @@ def write_run(directory: Path, velocity: float = 1086.0, depth: float = 0.31, sh
     (directory / "deck.toml").write_text(text)
     _write_history(directory, velocity, depth, shortened, rows)
     _write_outlines(directory, depth, shortened)
-    write_json(directory / "summary.json", _summary(depth, shortened, text) | summary)
+    write_json(directory / "summary.json", with_outcome(_summary(depth, shortened, text) | summary, text))
     return directory
+
+
+def with_outcome(summary: dict, text: str) -> dict:
+    """A summary with what its shot came to; a rod that is deeper than its plate is through it."""
+    try:
+        made = deck.loads(text)
+    except DeckError:  # of another version
+        return summary
+    if made.penetration is None:
+        return summary
+    thickness = targets.thickness(made)
+    if thickness is not None and (summary.get("penetration_depth_m") or 0.0) >= thickness:
+        summary = {"exit_time_s": summary["time_s"]} | summary
+        rested = summary["stop_reason"].startswith(outcome.RESTED)
+        summary |= {"stop_reason": "perforation of plate"} if rested else {}
+    measured = Projectile(**{name: summary.get(name) for name in Projectile.model_fields})
+    came = outcome.of(measured, status=summary["status"], stop_reason=summary["stop_reason"],
+                      impact_velocity=deck.impact_velocity(made), thickness=thickness, dropped=None,
+                      experiment=made.experiment)  # fmt: skip
+    return summary | {"outcome": came.model_dump()}
 
 
 def _write_history(directory: Path, velocity: float, depth: float, shortened: float, rows: int) -> None:
@@ -131,7 +154,9 @@ def velocities(*speeds: int) -> dict[str, tuple[str, ...]]:
 
 
 def edit_json(file: Path, **changes) -> None:
-    """Replaces entries of a JSON file."""
+    """Replaces entries of a JSON file; a summary has the outcome that belongs to them."""
     entries = json.loads(file.read_text()) | changes
+    if file.name == "summary.json" and "outcome" in entries:
+        entries = with_outcome(entries, file.with_name("deck.toml").read_text())
     entries.pop("sha256", None)
     file.write_text(json.dumps(entries))

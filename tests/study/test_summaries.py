@@ -7,8 +7,8 @@ import json
 
 import pytest
 
+from hydro2d.measure.summary import Summary
 from hydro2d.results import reading
-from hydro2d.results.summaries import plausible
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.records import responses, study_directory, table
 from hydro2d.study.report import panels
@@ -73,7 +73,7 @@ def test_values_of_the_wrong_kind_are_left_out_and_reported(place):
 
 
 def test_a_sound_summary_stays_as_it_is():
-    assert plausible(SUMMARY) == (SUMMARY, [])
+    assert Summary.sound(SUMMARY) == (SUMMARY, [])
 
 
 def test_no_word_becomes_a_formula():

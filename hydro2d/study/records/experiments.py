@@ -12,11 +12,11 @@ from math import isclose
 
 from hydro2d.analytic.model_transition import Shot
 from hydro2d.analytic.model_transition import experiments as catalogue
+from hydro2d.measure.outcome import AT_LEAST, Outcome, depth_error
 from hydro2d.study.records.record import Record, Setup
 
 #: largest relative differences of geometry, velocity and depth that count as equal
 SAME_GEOMETRY, SAME_VELOCITY, SAME_DEPTH = 0.01, 0.005, 1e-3
-AT_LEAST = "at least"
 
 
 @dataclass(frozen=True)
@@ -28,15 +28,9 @@ class Measurement:
     qualifier: str
     source: str
 
-    def error(self, depth: float, perforated: bool = False) -> tuple[float, str] | None:
-        """Depth of a run minus this depth in m, and "exact", or "at most" or "at least" if one of the two is a lower bound.
-
-        None if no error can be given, because both are bounds or the run is deeper than an "at least".
-        """
-        bound = self.qualifier == AT_LEAST
-        if bound and (perforated or depth >= self.depth):
-            return None
-        return depth - self.depth, "at most" if bound else AT_LEAST if perforated else "exact"
+    def error(self, of: Outcome) -> tuple[float | None, str]:
+        """The error of a run's depth and its kind, see `outcome.depth_error`."""
+        return depth_error(of.depth_m or 0.0, of.depth_is == AT_LEAST, self.depth, self.qualifier)
 
 
 def of_materials(setup: Setup) -> list[Shot]:

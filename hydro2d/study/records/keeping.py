@@ -22,6 +22,7 @@ from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import cell, of_cell, several
 from hydro2d.deck import deck as decks
 from hydro2d.files.whole import read_text, write_text
+from hydro2d.measure.outcome import Outcome
 from hydro2d.output.directory import DECK
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError
@@ -30,7 +31,6 @@ from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case
-from hydro2d.study.records.table import ratio
 
 #: statuses of runs that have a row
 ENDED = (DONE, UNPHYSICAL)
@@ -137,19 +137,11 @@ def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
 
 def results(summary: Mapping) -> dict[str, object]:
     """The results of a summary by the names of RESULTS, SI; None for those that it does not have."""
-    audit = summary.get("conservation") or {}
-    dropped = (audit.get("sinks") or {}).get("advection", {}).get("energy_J")
-    values = {
-        "status": summary["status"], "stop_reason": summary.get("stop_reason"), "trustworthy": summary.get("trustworthy"),
-        "depth_m": summary.get("penetration_depth_m"), "tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
-        "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"), "regime": summary.get("regime"),
-        "hole_m3": (summary.get("crater") or {}).get("volume_m3"),
-        "energy_dropped": ratio(dropped, audit.get("start_energy_J")),
-        "time_s": summary.get("time_s"), "cycles": summary.get("cycles"), "wall_s": summary.get("wall_s"),
-        "length_ratio": ratio(summary.get("rod_length_m"), summary.get("rod_initial_length_m")),
-        "radius_ratio": ratio(summary.get("rod_max_radius_m"), summary.get("rod_initial_radius_m")),
-        "mass_ratio": ratio(summary.get("rod_mass_kg"), summary.get("rod_initial_mass_kg")),
-    }  # fmt: skip
+    outcome = summary.get("outcome") or {}
+    values = {name: summary.get(name) for name in ("status", "stop_reason", "trustworthy", "regime", "time_s", "cycles", "wall_s")}
+    values |= {name: outcome.get(name) for name in Outcome.model_fields}
+    values |= {"tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
+               "hole_m3": (summary.get("crater") or {}).get("volume_m3")}  # fmt: skip
     return {name: values[name] for name in RESULTS}
 
 

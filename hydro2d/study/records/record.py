@@ -17,7 +17,11 @@ from hydro2d.deck import key_messages, targets
 from hydro2d.files import checksums
 from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
+from hydro2d.measure import outcome
+from hydro2d.measure.outcome import AT_LEAST, Outcome
+from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.regime import LEFT, REGIMES
+from hydro2d.measure.result import is_number
 from hydro2d.output import history, vtk
 from hydro2d.output.directory import DECK, HISTORY, check_own
 from hydro2d.study.plan.definition import StudyError
@@ -28,10 +32,6 @@ from hydro2d.study.records.study_directory import DONE, Case
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")
 DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
-#: stop reasons of runs that were cut short; fraction of the impact velocity above which a projectile still moves
-CUT, MOVING = ("end time", "number of cycles"), 0.01
-#: beginnings of the stop reasons of projectiles at rest
-RESTED = ("speed of", "rebound of")
 #: speed above which it is given in whole m/s
 WHOLE_SPEED = 10.0
 
@@ -102,7 +102,7 @@ class Record:
     target_density : initial density of a single target, kg/m^3
     impact : what strikes what, None if the deck is none of the kinds of shots that are known
     shot : input of the analytic models; None if they do not apply to the deck, and ``without_models`` says why
-    history : thinned columns, SI;  first, last : first and last row of all columns;  deepest : largest depth, m
+    history : thinned columns, SI;  first, last : first and last row of all columns
     start, rod : outlines of the projectile at the start and at the end
     unread : models of the deck that were not run, in words
     """
@@ -121,7 +121,6 @@ class Record:
     last: dict[str, float] = field(default_factory=dict)
     start: list[np.ndarray] = field(default_factory=list)
     rod: list[np.ndarray] = field(default_factory=list)
-    deepest: float = 0.0
     problems: list[str] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)
 
@@ -141,6 +140,19 @@ class Record:
         """Name of the first body of the deck."""
         return next(iter(self.bodies), None)
 
+    @cached_property
+    def outcome(self) -> Outcome:
+        """What the shot came to, by its summary, or before its end by the last row of the history; empty without a projectile."""
+        summary = self.case.summary
+        if (known := summary.get("outcome")) is not None:
+            return Outcome(**known)
+        if self.setup is None or self.velocity is None:
+            return Outcome()
+        measured = {**self.last, **{name: value for name, value in summary.items() if value is not None}}
+        return outcome.of(Projectile(**{name: measured.get(name) for name in Projectile.model_fields}), status=self.case.status,
+                          stop_reason=summary.get("stop_reason") or "", impact_velocity=self.velocity,
+                          thickness=self.setup.thickness, dropped=None)  # fmt: skip
+
     @property
     def unfinished(self) -> str:
         """Why the results are not final: the run has not ended, or was cut short with the projectile moving; else empty."""
@@ -148,20 +160,16 @@ class Record:
             return self.case.status
         if not self.case.summary:
             return "no summary"
-        if not self.cut or self.at_least:
+        if self.outcome.final is not False:
             return ""
-        speed = f"{self._speed:.0f}" if self._speed >= WHOLE_SPEED else f"{self._speed:.3g}"
+        moving = abs(self.case.summary.get("rod_core_velocity_m_s") or 0.0)
+        speed = f"{moving:.0f}" if moving >= WHOLE_SPEED else f"{moving:.3g}"
         return f"reached its {self.case.summary['stop_reason']}, still moving at {speed} m/s"
 
     @property
     def cut(self) -> bool:
         """Whether the run ended by its end time or number of cycles with the core of the projectile still moving."""
-        ended = self.done and self.case.summary.get("stop_reason") in CUT
-        return ended and self.velocity is not None and self._speed > MOVING * self.velocity
-
-    @property
-    def _speed(self) -> float:
-        return abs(self.case.summary.get("rod_core_velocity_m_s") or 0.0)
+        return self.done and self.outcome.final is False
 
     @cached_property
     def numbers(self) -> dict[str, float]:
@@ -204,15 +212,8 @@ class Record:
 
     @property
     def perforated(self) -> bool:
-        """Whether the rod perforated the target at any time, even if it has since left the mesh.
-
-        Not if it came to rest or reversed with its nose beyond the rear face, in a bulge or stuck in its hole.
-        """
-        known = perforates(self.case.summary)
-        if known is not None:
-            return known
-        thickness = self.setup.thickness if self.setup else None
-        return thickness is not None and max(self.deepest, self.value("penetration_depth_m") or 0.0) >= thickness
+        """Whether the projectile is through its targets, even if it has since left the mesh."""
+        return bool(self.outcome.perforated)
 
     @property
     def left(self) -> bool:
@@ -222,13 +223,12 @@ class Record:
     @property
     def at_least(self) -> bool:
         """Whether `depth` is a lower bound, because the rod perforated the target or left the mesh."""
-        return self.perforated or self.left
+        return self.outcome.depth_is == AT_LEAST
 
     @property
     def depth(self) -> float | None:
-        """Penetration depth, m; for a perforated target its thickness, if that is known."""
-        thickness = self.setup.thickness if self.setup and self.perforated else None
-        return self.value("penetration_depth_m") if thickness is None else thickness
+        """Penetration depth, m, see `Outcome.depth_m`."""
+        return self.outcome.depth_m
 
     @property
     def experience(self) -> list[str]:
@@ -239,19 +239,6 @@ class Record:
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
         result = self.case.summary.get(name)
         return result if result is not None else self.last.get(name)
-
-
-def perforates(summary: dict) -> bool | None:
-    """Whether the projectile of a run with this summary is through its target and not at rest; None if it does not say so."""
-    if "exit_time_s" not in summary:
-        return None
-    rested = (summary.get("stop_reason") or "").startswith(RESTED)
-    return summary["exit_time_s"] is not None and not rested
-
-
-def is_number(value) -> bool:
-    """Whether a value of a deck or a summary is a number; true and false are not."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def read(case: Case, trust: bool = False) -> Record:
@@ -311,18 +298,11 @@ def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None) -> Setup:
     names = dict.fromkeys(deck.materials[each.material].name for each in bodies)
     (low, high), (_, radius) = (decks.extent(body, deck, axis) for axis in ("z", "r"))
     diameter, length = body.size or (2.0 * radius, high - low)
-    thickness = shot.values.get("target.thickness") if shot else None
     return Setup(
         rod=deck.materials[body.material].name, target=" + ".join(names), nose=shot.nose if shot else getattr(body, "nose", ""),
         diameter=diameter, length=length,
-        thickness=thickness.value if thickness else _thickness(through, bodies), shape=body.shape,
+        thickness=targets.thickness(deck), shape=body.shape,
     )  # fmt: skip
-
-
-def _thickness(through: list[targets.Target], bodies: list) -> float | None:
-    """Distance from the face of the first target to the rear face of the last, m; None if the last has no rear face."""
-    solid = bodies[-1].is_target
-    return float(f"{abs(through[-1].rear - through[0].surface):.12g}") if solid else None
 
 
 def _read_history(record: Record) -> None:
@@ -345,7 +325,6 @@ def _read_history(record: Record) -> None:
     drawn = DRAWN if record.setup else tuple(f"body_{record.body}_{name}" for name in DRAWN_OF_BODY)
     if any(name in columns for name in drawn):
         record.history = {name: columns[name][chosen] for name in ("time", *drawn) if name in columns}
-    record.deepest = float(np.nanmax(columns.get("penetration_depth_m", 0.0), initial=0.0))
     for row, values in ((0, record.first), (-1, record.last)):
         values.update((name, float(column[row])) for name, column in columns.items() if np.isfinite(column[row]))
     if "regime" in record.last:

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 
 from hydro2d.base.errors import unknown
 from hydro2d.base.units import COMMON
+from hydro2d.measure.summary import Summary
 from hydro2d.output.history import unit
-from hydro2d.results.summaries import NUMBERS, UNITS
-from hydro2d.running.columns import SUMMARY
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE
 from hydro2d.study.records.differences import flatten, text
@@ -112,10 +111,8 @@ def title(name: str) -> str:
 
 def raw(record: Record, name: str) -> float | None:
     """A number of a run in SI. Some depths are bounds (`Record.at_least`); a stopped projectile has zero residual velocity."""
-    if name == DEPTH:
-        return record.depth
-    if name == RESIDUAL and record.depth is not None and not record.unfinished and not record.at_least:
-        return 0.0
+    if name in (DEPTH, RESIDUAL):
+        return record.outcome.depth_m if name == DEPTH else record.outcome.residual_velocity_m_s
     number = record.numbers.get(name)
     return number if number is not None and math.isfinite(number) else None
 
@@ -127,8 +124,7 @@ def numbers(records: Sequence[Record]) -> list[str]:
 
 def _listed() -> list[str]:
     """Numbers that every summary of a projectile has, for studies without one."""
-    whole = [name for name in SUMMARY if not any(part.isupper() for part in re.split(r"[._]", name) if len(part) > 2)]
-    return [name for name in whole if name.endswith(UNITS) or name in NUMBERS]
+    return [each.name for each in Summary.listed() if each.number and not any(part.isupper() for part in each.name.split("."))]
 
 
 def _usual_responses(records: Sequence[Record]) -> list[str]:

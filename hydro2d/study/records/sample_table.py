@@ -12,13 +12,14 @@ from pathlib import Path
 from hydro2d.base.terminal import of_cell
 from hydro2d.files.strange import own
 from hydro2d.files.whole import read_text, write_text
+from hydro2d.measure.outcome import CUT, RESTED
+from hydro2d.measure.result import is_number
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.sampling import Points
 from hydro2d.study.records import keeping, table
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.keeping import MEMBER
-from hydro2d.study.records.record import CUT, RESTED, is_number, perforates
 from hydro2d.study.records.responses import OF_BODY
 from hydro2d.study.records.study_directory import DONE, Case
 
@@ -66,10 +67,8 @@ def _results(case: Case, kept: keeping.Row, more: Sequence[str]) -> Row:
         return {STATUS: case.status} if not kept else of_kept(kept, more)
     summary = case.summary
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
-    perforated = None if row["depth_m"] is None else perforates(summary)
+    perforated = (summary.get("outcome") or {}).get(PERFORATED)
     row[PERFORATED] = None if perforated is None else YES if perforated else NO
-    if perforated is False and case.status == DONE and row["stop_reason"] not in CUT:
-        row[RESIDUAL] = 0.0
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     others = [name for name in numbers if name.startswith("derived.")]
     if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):

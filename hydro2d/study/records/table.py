@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from hydro2d.base.terminal import cell
-from hydro2d.measure.measured import unit
+from hydro2d.measure.outcome import ratio
+from hydro2d.measure.result import unit
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
@@ -58,28 +59,22 @@ def _name_of(axis: Axis, row: Row) -> str:
 
 
 def _results(record: Record) -> Row:
-    first = {name: record.value(f"rod_initial_{name}_m") for name in ("length", "radius")}
-    first["length"] = first["length"] or record.first.get("rod_length_m")
-    length, radius = record.value("rod_length_m"), record.value("rod_max_radius_m")
+    outcome = record.outcome
     return {
         "time_s": record.case.summary.get("time_s", record.last.get("time")),
-        "depth_m": record.depth,
-        "depth_is": "at least" if record.at_least else "computed",
-        "rod_length_m": length,
-        "rod_initial_length_m": first["length"],
-        LENGTH_RATIO: ratio(length, first["length"]),
-        "rod_max_radius_m": radius,
-        RADIUS_RATIO: ratio(radius, first["radius"]),
+        "depth_m": outcome.depth_m,
+        "depth_is": outcome.depth_is,
+        "rod_length_m": record.value("rod_length_m"),
+        "rod_initial_length_m": record.value("rod_initial_length_m"),
+        LENGTH_RATIO: outcome.length_ratio,
+        "rod_max_radius_m": record.value("rod_max_radius_m"),
+        RADIUS_RATIO: outcome.radius_ratio,
         "rod_tail_velocity_m_s": record.value("rod_tail_velocity_m_s"),
         "rod_mass_kg": record.value("rod_mass_kg"),
         RESIDUAL: raw(record, RESIDUAL),
         "regime": record.value("regime"),
         **{f"derived.{name}": record.numbers.get(f"derived.{name}") for name in record.derived},
     }
-
-
-def ratio(value, reference) -> float | None:
-    return None if value is None or not reference else value / reference
 
 
 def _compared(record: Record, measurement: Measurement | None) -> Row:
@@ -92,7 +87,7 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     if measurement is None:
         return dict.fromkeys(names) | residual
     comparable = not record.unfinished and record.depth is not None
-    error, kind = measurement.error(record.depth, record.at_least) or (None, "none") if comparable else (None, None)
+    error, kind = measurement.error(record.outcome) if comparable else (None, None)
     per_cent = None if error is None else 100.0 * error / measurement.depth
     values = (measurement.depth, measurement.qualifier, measurement.source, error, per_cent, kind)
     return dict(zip(names, values, strict=True)) | residual

@@ -26,7 +26,7 @@ FRAME = 8
 def row(case: Case) -> tuple[str, ...]:
     """Name, status, depth, share done, time left and worker of a case."""
     now = case.progress
-    depth = (now or case.summary).get("penetration_depth_m")
+    depth = now.get("penetration_depth_m") if now else (case.summary.get("outcome") or {}).get("depth_m")
     share = 1.0 if case.status == DONE else now.get("fraction")
     left = now.get("left_s")
     return (

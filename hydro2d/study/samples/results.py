@@ -12,7 +12,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from hydro2d.base.errors import unknown
+from hydro2d.measure.outcome import CUT
 from hydro2d.measure.regime import REGIMES
+from hydro2d.measure.result import is_number
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
 from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
@@ -20,7 +22,6 @@ from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
-from hydro2d.study.records.record import CUT, is_number
 from hydro2d.study.records.sample_table import NO, PERFORATED, REGIME, RESIDUAL, STATUS, YES
 from hydro2d.study.records.study_directory import DONE, Study
 from hydro2d.study.samples import sobol, surrogates

@@ -56,7 +56,7 @@ class Run:
             "case": case.name, "velocity_m_s": self.velocity, "status": case.status, "regime": self.regime,
             "reason": self.reason, "depth_m": self.record.depth, "perforated": self.record.perforated,
             **{name: summary.get(name) for name in names},
-            "residual_velocity_m_s": summary.get("rod_residual_velocity_m_s"),
+            "residual_velocity_m_s": self.record.outcome.residual_velocity_m_s,
             "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
         }  # fmt: skip
 
