@@ -24,11 +24,6 @@ def unit(name: str) -> str:
     return next((unit for ending, unit in UNITS.items() if name.endswith(ending)), "1")
 
 
-def in_file(name: str) -> str:
-    """The name of a quantity among the datasets of history.h5, where / would start a group."""
-    return name.replace("/", "_per_")
-
-
 #: results of `penetrator.Penetrator.measure` for a projectile, and their meanings; the names say rod for any shape
 QUANTITIES = {
     "penetration_depth_m": "largest depth so far, from the target's original surface to the projectile's deepest part near the "

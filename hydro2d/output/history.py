@@ -20,11 +20,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.base.errors import Error, from_extra
-from hydro2d.base.terminal import cell
+from hydro2d.base.formats import cell, in_hdf5
 from hydro2d.files import checksums
 from hydro2d.files.strange import own
 from hydro2d.files.whole import hdf5, replacing
-from hydro2d.mesh.measured import FRAGMENTS, Debris, in_file, unit
+from hydro2d.mesh.measured import FRAGMENTS, Debris, unit
 from hydro2d.mesh.regime import REGIMES
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
@@ -223,8 +223,8 @@ def dataset(columns: dict[str, np.ndarray]) -> xarray.Dataset:
 
 
 def _dataset(file, name: str, values):
-    dataset = file.create_dataset(in_file(name), data=_numbers(name, values))
-    dataset.attrs.update(attributes(name) | ({"long_name": name} if in_file(name) != name else {}))
+    dataset = file.create_dataset(in_hdf5(name), data=_numbers(name, values))
+    dataset.attrs.update(attributes(name) | ({"long_name": name} if in_hdf5(name) != name else {}))
     return dataset
 
 
