@@ -11,6 +11,7 @@ import tomllib
 import unicodedata
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import h5py
@@ -23,6 +24,7 @@ from rich.text import Text
 from hydro2d.base import formats
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
+from hydro2d.study.report import rods
 from hydro2d.study.report.report import report
 from tests.cli.test_main import DECK
 from tests.names import PLACED
@@ -148,6 +150,16 @@ def test_a_report_of_a_study_of_such_names(tmp_path):
     rows = list(csv.DictReader(io.StringIO((file.parent / "cases.csv").read_text(encoding="utf-8"), newline="")))
     assert {formats.of_cell(row["'=<b>$_[x]"]) for row in rows} == set(HOSTILE)
     assert list(file.parent.glob("rods_*.png"))
+
+
+def test_dollar_signs_on_several_lines_of_a_picture():
+    """A line that ended within an escaped sign began a formula."""
+    for begin in ("", "a"):
+        case = SimpleNamespace(name=begin + 25 * "$", values={})
+        lines = rods._label(SimpleNamespace(case=case, perforated=False, depth=None, unfinished="")).split("\n")
+        drawn = [matplotlib.text.Text()._preprocess_math(line) for line in lines]
+        assert len(lines) > 1
+        assert ("".join(text for text, _ in drawn), any(formula for _, formula in drawn)) == (case.name, False)
 
 
 @pytest.mark.parametrize(("key", "name", "reason"), [

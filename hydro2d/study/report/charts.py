@@ -167,17 +167,17 @@ def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y:
     for number, (name, colour, velocity, value) in enumerate(lines):
         values = [None if np.isnan(one) else float(f"{one:.5g}") for one in value]
         shape = {"color": colour or MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
-        figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model",
-                           hovertemplate=f"{name}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+        said = f"{in_plotly(name)}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>"
+        figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model", hovertemplate=said)
 
 
 def _levels(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], x: Variable, y: Response) -> None:
     """Values at one velocity as lines across all words of x."""
     for number, (name, _, velocity, value) in enumerate(lines):
         shape = {"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
+        said = f"{in_plotly(name)}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>"
         figure.add_scatter(x=list(x.order), y=[float(f"{value[0]:.5g}")] * len(x.order), mode="lines", name=name, line=shape,
-                           meta="model",
-                           hovertemplate=f"{name}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+                           meta="model", hovertemplate=said)  # fmt: skip
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
@@ -283,7 +283,7 @@ def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]]
                     x=((motion.time + touch) * 1e6).astype(np.float32), y=(values * readers(name)[1]).astype(np.float32),
                     mode="lines", name=label, legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
                     opacity=strength, line={"color": MUTED, "width": 1.5, "dash": dashes[model]},
-                    hovertemplate=f"{label}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
+                    hovertemplate=f"{in_plotly(label)}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
                 )  # fmt: skip
 
 
