@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hydro2d.base.terminal import cell
+from hydro2d.base.formats import cell, in_legend
 from hydro2d.files.whole import replacing
 from hydro2d.materials import curves
 from hydro2d.materials.material import Material
@@ -86,7 +86,7 @@ def draw(all_curves: Sequence[Curve]):
     for each in all_curves:
         colour = COLOURS[names.index(each.name) % len(COLOURS)]
         dash = ("-", "--", ":", "-.")[rates.index(each.rate) % 4]
-        axes.plot(each.strains, each.stress / 1e6, dash, color=colour, label=f"{each.name}, {each.rate:g} /s")
+        axes.plot(each.strains, each.stress / 1e6, dash, color=colour, label=in_legend(f"{each.name}, {each.rate:g} /s"))
     axes.set_xlabel("plastic strain")
     axes.set_ylabel("flow stress [MPa]")
     axes.set_ylim(bottom=0.0)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import csv
 import math
-import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from hydro2d.analytic.model_materials import Given
 from hydro2d.analytic.models import VELOCITY, Case
 from hydro2d.base import units
+from hydro2d.base.formats import in_shell
 from hydro2d.files.whole import replacing
 from hydro2d.penetration import catalogue
 from hydro2d.penetration.inputs import FROM_LIBRARY
@@ -68,7 +68,7 @@ def example_command(model: Model) -> str:
         if value is not None:
             unit = next(entry.unit for entry in model.inputs if entry.name == name)
             words += ["--set", f"{name}={value if isinstance(value, str) else _typed(value, unit)}"]
-    return shlex.join(words)
+    return in_shell(*words)
 
 
 def _typed(value: float, unit: str) -> str:

@@ -18,26 +18,41 @@ from hydro2d.base.tables import Rows
 
 S = TypeVar("S", bound="Section")
 
-#: characters of a name
+#: characters of a name, and bytes of the name of a folder, to which others are added
 LONGEST_NAME = 200
 
 
-def _name(value: str) -> str:
-    """A name that can be used in tables, file names and datasets."""
+def _words(value: str, bad: str = "") -> str:
+    """A name in tables, pages and pictures: of printable characters, but for those of ``bad``."""
     if not value.strip():
         raise ValueError("is empty")
     if len(value) > LONGEST_NAME:
         raise ValueError(f"has {len(value)} characters; a name has at most {LONGEST_NAME}")
-    bad = sorted({character for character in value if character in "/\\" or not character.isprintable()})
-    if bad:
-        raise ValueError(f"{value!r} has {', '.join(map(repr, bad))}, which names of fields and files cannot contain")
-    if value in (".", ".."):
+    if wrong := sorted({character for character in value if character in bad or not character.isprintable()}):
+        raise ValueError(f"{value!r} has {', '.join(map(repr, wrong))}, which names of fields and files cannot contain")
+    return value
+
+
+def _name(value: str) -> str:
+    """A name that can be used in file names and datasets as well."""
+    if _words(value, "/\\") in (".", ".."):
         raise ValueError(f"{value!r} is a folder, not a name")
     return value
 
 
-#: the name of a body, a tracer or a run
+def _folder(value: str) -> str:
+    """A name that a folder of any file system can have."""
+    if (size := len(_name(value).encode())) > LONGEST_NAME:
+        raise ValueError(f"has {size} bytes; the name of a folder has at most {LONGEST_NAME}")
+    return value
+
+
+#: the name of an axis, a variant, a material or a result
+Words = Annotated[str, AfterValidator(_words)]
+#: the name of a body, a tracer, a gauge or a source
 Name = Annotated[str, AfterValidator(_name)]
+#: the name of a run or of a part of a study, which becomes that of its folder
+FolderName = Annotated[str, AfterValidator(_folder)]
 
 
 class Section(BaseModel):

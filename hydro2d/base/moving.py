@@ -5,13 +5,13 @@ It is shown when a program calls the solver. A run has its own report (`running/
 
 from __future__ import annotations
 
-import html
 import shutil
 import sys
 import time
 from typing import Protocol
 
-from hydro2d.base.terminal import one_line, say, shown
+from hydro2d.base.formats import in_html, one_line, shown
+from hydro2d.base.terminal import say
 
 #: seconds between lines where they cannot be redrawn
 LINE_SECONDS = 5.0
@@ -74,13 +74,13 @@ class Page:
         return "\n".join([*map(shown, self._lines), *(f"{name}  {value}" for name, value in self._table.items())])
 
     def _repr_html_(self) -> str:
-        text = html.escape("\n".join(map(shown, self._lines)))
+        text = in_html("\n".join(self._lines))
         parts = [f"<pre>{text}</pre>"] if text else []
         if self._table or self._bar:
             share = "" if self._done is None else f' value="{self._done:.4f}"'
             parts.append(f'<progress max="1"{share} style="width: 30em" aria-label="share that is done"></progress>')
         if self._table:
-            rows = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(shown(value))}</td></tr>"
+            rows = "".join(f"<tr><th>{in_html(name)}</th><td>{in_html(value)}</td></tr>"
                            for name, value in self._table.items())  # fmt: skip
             parts.append(f"<table>{rows}</table>")
         return "".join(parts)

@@ -10,38 +10,19 @@ import re
 import shutil
 import sys
 import textwrap
-import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
+
+from hydro2d.base.formats import cell as cell
+from hydro2d.base.formats import of_cell as of_cell
+from hydro2d.base.formats import shown
 
 #: width without a terminal: a file or another program gets every line whole
 NO_TERMINAL = 1_000_000
 #: a wrapped line continues below its last column if that begins within this share of the width, else this many characters
 #: further in than the line begins
 MOST_INDENT, FURTHER = 0.7, 4
-#: categories of invisible characters that change the display: control, direction of writing, lines
-_STEERING = frozenset(("Cc", "Cf", "Zl", "Zp"))
-
-
-def shown(text: object) -> str:
-    """A text whose only invisible characters are line feeds and tabs; others are spelled out, as in \\x1b."""
-    text = str(text)
-    if text.isprintable():
-        return text
-    return "".join(map(_shown, text))
-
-
-def _shown(character: str) -> str:
-    kind = unicodedata.category(character)
-    if kind == "Cs":  # a byte of a file name that is not text
-        return "?"
-    return character if character in "\n\t" or kind not in _STEERING else character.encode("unicode_escape").decode()
-
-
-def one_line(text: object) -> str:
-    """A text as `shown` gives it, on one line."""
-    return shown(text).replace("\n", "\\n")
 
 
 def duration(seconds: float, tenths: bool = False) -> str:
@@ -74,16 +55,6 @@ def number(value, scale: float, form: str, unit: str) -> str:
 def several(number: object, what: str) -> str:
     """'1 cell', '2 cells'."""
     return f"{number} {what}{'' if str(number) == '1' else 's'}"
-
-
-def cell(text: str) -> str:
-    """A text as a cell or head of a CSV file, such that no spreadsheet takes it for a formula."""
-    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
-
-
-def of_cell(text: str) -> str:
-    """The text that `cell` made a cell of."""
-    return text[1:] if text.startswith("'") and cell(text[1:]) == text else text
 
 
 def width() -> int:

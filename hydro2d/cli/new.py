@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import shlex
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from hydro2d.base.formats import in_shell
 from hydro2d.base.terminal import say, wrapped
 from hydro2d.cli.base import Out, UsageError
 
@@ -46,9 +46,9 @@ def new(kind: str | None = None, *, out: Out | None = None,
     if not deck.parent.is_dir():
         raise UsageError(f"{deck.parent}: there is no such directory")
     write_text(deck, text)
-    file, run = shlex.quote(str(deck)), shlex.quote(f"runs/{deck.stem}")
+    file, run = in_shell(deck), in_shell(f"runs/{deck.stem}")
     steps = {
-        f"hydro2d check {file} --picture {shlex.quote(str(deck.with_suffix('.png')))}": "look at bodies, mesh and cost",
+        f"hydro2d check {file} --picture {in_shell(deck.with_suffix('.png'))}": "look at bodies, mesh and cost",
         f"hydro2d run {file} --out {run}": "run it",
         f"hydro2d view {run}": "look at it in the browser",
     }

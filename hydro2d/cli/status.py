@@ -92,7 +92,7 @@ def _live(run: Path, quantity: list[str] | None, drawn: bool) -> None:
     from rich.live import Live
     from rich.text import Text
 
-    from hydro2d.base.terminal import one_line
+    from hydro2d.base.formats import one_line
     from hydro2d.study.records.study_directory import RUNNING
 
     state = RUNNING

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hydro2d.base.formats import in_hdf5
 from hydro2d.deck.expressions import PURE, Expression, ExpressionError, in_words, parse
 from hydro2d.deck.sections import Deck
 from hydro2d.measure.bodies import Body
 from hydro2d.measure.crater import Hole
 from hydro2d.measure.ejecta import Ejected
 from hydro2d.measure.penetrator import Projectile
-from hydro2d.measure.result import UNITS, in_file, unit
+from hydro2d.measure.result import UNITS, unit
 from hydro2d.measure.station_columns import PLACES, Point
 
 #: characters of a name
@@ -52,7 +53,7 @@ def problems(deck: Deck) -> Iterator[tuple[tuple, str]]:
         if problem := _bad_name(name, names, used):
             yield path, problem
             continue
-        used.add(in_file(name))
+        used.add(in_hdf5(name))
         try:
             formula = parse(text, names)
         except ExpressionError as error:
@@ -67,7 +68,7 @@ def _bad_name(name: str, names: dict[str, str], used: set[str]) -> str:
         return f"a name has 1 to {LONGEST} printable characters"
     if name[0] in "./" or name.startswith(("crater", "debris")) or name in ("cycle", "regime", *PLACES):
         return "is not allowed as the name of a derived quantity; give it another"
-    if name.startswith(("sink_", "mass_change_", "tracer_", "gauge_", "body_")) or {name, in_file(name)} & {*names, *used}:
+    if name.startswith(("sink_", "mass_change_", "tracer_", "gauge_", "body_")) or {name, in_hdf5(name)} & {*names, *used}:
         return "is the name of another quantity; give it another"
     return ""
 

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PrivateAttr, WithJs
 
 from hydro2d.base import units
 from hydro2d.base.keys import (
+    FolderName,
     Fraction,
     Length,
     Name,
@@ -19,6 +20,7 @@ from hydro2d.base.keys import (
     PositiveTime,
     Section,
     Time,
+    Words,
     within,
 )
 from hydro2d.deck.boundary_section import Boundaries
@@ -360,7 +362,7 @@ class Deck(Section):
     #: the layout of its bodies on its mesh, once `layout.layout` has made it
     _layout: Any = PrivateAttr(None)
 
-    name: Name = Field("deck", description="name of the run; default: the name of the file", examples=["shot_4344"])
+    name: FolderName = Field("deck", description="name of the run; default: the name of the file", examples=["shot_4344"])
     title: str = Field(
         "", description="title for logs and pictures", examples=["Shot 4344: hemispherical nose, 5083 aluminium, 1086 m/s"]
     )
@@ -371,7 +373,7 @@ class Deck(Section):
     mesh: Mesh
     boundaries: Boundaries = Boundaries()
     body: tuple[AnyBody, ...] = Field(min_length=1, description="bodies; where they overlap, the first of them takes the space")
-    materials: dict[str, Any] = Field({}, description="materials of this deck, each either complete or `based_on` another")
+    materials: dict[Words, Any] = Field({}, description="materials of this deck, each either complete or `based_on` another")
     numerics: Numerics = Numerics()
     sliding: Sliding = Sliding()
     failure: Failure = Failure()

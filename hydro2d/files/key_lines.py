@@ -7,6 +7,8 @@ import functools
 import re
 import tomllib
 
+from hydro2d.base.formats import in_toml
+
 #: strings and comments of a TOML text, which are not its structure; the group is the start of a string that does not end
 _QUOTED = re.compile(
     r'"""(?:\\.|[^\\])*?"{3,5}|\'{3}.*?\'{3,5}|("{3}|\'{3}).*|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'|#[^\n]*', re.DOTALL)
@@ -62,10 +64,13 @@ def _has(data, path: tuple) -> bool:
 
 
 def spelled(path: tuple) -> str:
-    """A key as written in a deck: ("body", 0, "name") is body[0].name."""
+    """A key as written in a deck, on one line: ("body", 0, "name") is body[0].name."""
     text = ""
     for part in path:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else str(part)
+        if isinstance(part, int):
+            text += f"[{part}]"
+        elif part != "[key]":  # what pydantic adds for a mistake in the key itself
+            text += "." * bool(text) + (part if part.isprintable() and part else in_toml(part))
     return text
 
 

@@ -44,7 +44,7 @@ class Holder(NamedTuple):
 def holder(path: Path) -> Holder | None:
     """The holder of a lock; None if the lock does not exist, or was left behind by a process on this machine."""
     try:
-        with opened(path) as file:
+        with opened(path, errors="replace") as file:
             owner = _said(file.read(MOST_SAID))
             left = owner is not None and owner.is_here and _take_lock(file)
     except (FileNotFoundError, NotADirectoryError):
@@ -73,7 +73,7 @@ def locked(path: Path) -> Iterator[None]:
     """
     path, tries = Path(path), 5
     while True:
-        with opened(path, "a+") as file:
+        with opened(path, "a+", errors="replace") as file:
             free = _take_lock(file)
             if free and not _is_at(file, path):
                 continue  # its former holder has removed it in the meantime

@@ -49,7 +49,7 @@ def own_folder(path: Path) -> Path:
     return path
 
 
-def opened(path: Path, mode: str = "r", *, encoding: str = "utf-8", links: bool = False) -> TextIO:
+def opened(path: Path, mode: str = "r", *, encoding: str = "utf-8", errors: str = "strict", links: bool = False) -> TextIO:
     """Opens a text file, as `open` does, unless it is a pipe, a device or a symbolic link; `links` as in `own`.
 
     Raises StrangeFile.
@@ -58,4 +58,4 @@ def opened(path: Path, mode: str = "r", *, encoding: str = "utf-8", links: bool 
     def opener(name: str, flags: int) -> int:
         return os.open(name, flags | os.O_NONBLOCK | (0 if links else os.O_NOFOLLOW), 0o666)
 
-    return open(own(Path(path), links=links), mode, encoding=encoding, opener=opener)
+    return open(own(Path(path), links=links), mode, encoding=encoding, errors=errors, opener=opener)

@@ -16,6 +16,7 @@ import tomli_w
 
 from hydro2d.base import units
 from hydro2d.base.errors import DeckError
+from hydro2d.base.formats import in_toml
 from hydro2d.files import checksums
 from hydro2d.files.key_lines import Sources, entry_index
 from hydro2d.files.shipped import problems_folder
@@ -25,7 +26,6 @@ from hydro2d.files.whole import read_text
 SI = "SI"
 #: parts of a material that a model describes
 PARTS = ("eos", "strength", "damage")
-_BARE = re.compile(r"[A-Za-z0-9_-]+")
 #: limits of a deck: characters, values, depth of nested tables or lists, and files
 MOST_TEXT, MOST_VALUES, DEEPEST, MOST_FILES = 4_000_000, 100_000, 30, 100
 #: largest number of characters in the key of an override
@@ -306,14 +306,9 @@ def inline(value) -> str:
     if isinstance(value, (date, time)):
         return value.isoformat()
     if isinstance(value, dict):
-        inside = ", ".join(f"{quoted(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
+        inside = ", ".join(f"{in_toml(key)} = {inline(entry)}" for key, entry in value.items() if entry is not None)
         return f"{{ {inside} }}"
     return f"[{', '.join(inline(entry) for entry in value)}]"
-
-
-def quoted(name: str) -> str:
-    """A name as a part of a dotted key."""
-    return name if _BARE.fullmatch(name) else json.dumps(name, ensure_ascii=False)
 
 
 def dumps(data: dict) -> str:

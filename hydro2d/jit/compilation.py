@@ -22,11 +22,14 @@ from hydro2d import jit
 from hydro2d.base import children, moving
 from hydro2d.base.terminal import duration, several
 from hydro2d.files.locks import turn
+from hydro2d.files.strange import StrangeFile, opened
 from hydro2d.files.whole import write_text
 
 COMPILE = "numba:compile"
 #: seconds between updates of the line; a first call that takes longer has more to do than read a kernel
 BEAT = 1.0
+#: most characters of the line that a process which compiles leaves for others
+LONGEST_STATE = 1000
 events = jit.compiler_events
 
 
@@ -302,6 +305,6 @@ def _state(key: str) -> Path:
 
 def progress_of(key: str) -> str:
     """The line of the process that compiles these kernels by `once`, on this machine; empty if none does."""
-    with suppress(OSError, UnicodeDecodeError):
-        return _state(key).read_text(encoding="utf-8").strip()
+    with suppress(OSError, UnicodeDecodeError, StrangeFile), opened(_state(key)) as file:
+        return file.read(LONGEST_STATE).strip()
     return ""

@@ -31,11 +31,6 @@ def unit(name: str) -> str:
     return next((unit for ending, unit in UNITS.items() if name.endswith(ending)), "1")
 
 
-def in_file(name: str) -> str:
-    """The name of a quantity among the datasets of history.h5, where / would start a group."""
-    return name.replace("/", "_per_")
-
-
 def is_number(value: object) -> bool:
     """Whether a value of a deck or a file is a finite number; true and false are none."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max

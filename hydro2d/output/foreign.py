@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+import numpy as np
+
 from hydro2d.base.errors import Error
 
 #: largest ratio of a value to its compressed size: that of gzip is 1032, that of LZ4 255
@@ -83,10 +85,14 @@ def _numbers(data: bytes, count: int, word: int) -> list[int]:
     return [int.from_bytes(data[at : at + word], "little") for at in range(0, count * word, word)]
 
 
-def check_hdf5(file) -> None:
-    """Raises ValueError if an h5py.File leads to other files, has groups in groups, or claims more than its size can hold."""
+def check_hdf5(file, ratio: int = RATIO) -> None:
+    """Raises ValueError if an h5py.File leads to other files, has groups in groups, or claims more than its size can hold.
+
+    ratio : most bytes of values for each byte of the file; 1 for a file that is written without compression
+    """
     import h5py
 
+    claimed, size = 0, file.id.get_filesize()
     for group in (file, *(file[name] for name in file if _is_hard(file, name) and isinstance(file[name], h5py.Group))):
         for name in group:
             if not _is_hard(group, name):
@@ -96,6 +102,20 @@ def check_hdf5(file) -> None:
                 raise ValueError(f"{name!r} is a group in a group")
             if isinstance(entry, h5py.Dataset):
                 _check_dataset(entry)
+                claimed += entry.nbytes + _length_of_texts(entry)
+    if claimed > FREE + ratio * size:
+        raise ValueError(f"it claims {claimed} bytes of values, more than its {size} bytes can hold")
+
+
+def _length_of_texts(dataset) -> int:
+    """Bytes of the texts of a dataset. Each is a length and an address in the file, and many can have one address."""
+    if dataset.dtype.kind != "O" or not dataset.size:
+        return 0
+    if dataset.chunks or dataset.id.get_offset() is None:
+        raise ValueError(f"the texts of {dataset.name!r} are in pieces")
+    with open(dataset.file.filename, "rb") as raw:
+        raw.seek(dataset.id.get_offset())
+        return int(np.frombuffer(raw.read(16 * dataset.size), "<u4")[::4].sum(dtype=np.int64))
 
 
 def _is_hard(group, name: str) -> bool:

@@ -20,13 +20,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.base.errors import Error, from_extra
-from hydro2d.base.terminal import cell
+from hydro2d.base.formats import cell, in_hdf5
 from hydro2d.files import checksums
 from hydro2d.files.strange import own
 from hydro2d.files.whole import hdf5, replacing
 from hydro2d.measure.debris import FRAGMENTS, Debris
 from hydro2d.measure.regime import REGIMES
-from hydro2d.measure.result import in_file, unit
+from hydro2d.measure.result import unit
 from hydro2d.output import foreign
 from hydro2d.output.station_arrays import KEYS, KINDS, of_station, stations
 
@@ -224,8 +224,8 @@ def dataset(columns: dict[str, np.ndarray]) -> xarray.Dataset:
 
 
 def _dataset(file, name: str, values):
-    dataset = file.create_dataset(in_file(name), data=_numbers(name, values))
-    dataset.attrs.update(attributes(name) | ({"long_name": name} if in_file(name) != name else {}))
+    dataset = file.create_dataset(in_hdf5(name), data=_numbers(name, values))
+    dataset.attrs.update(attributes(name) | ({"long_name": name} if in_hdf5(name) != name else {}))
     return dataset
 
 
@@ -237,7 +237,7 @@ def _opened(path: Path):
     checksums.verify(path, HistoryError)
     try:
         with h5py.File(own(path), "r") as file:
-            foreign.check_hdf5(file)
+            foreign.check_hdf5(file, ratio=1)  # its values are not compressed
             yield file
     except (OSError, KeyError, ValueError, RuntimeError, AttributeError, TypeError) as error:
         raise HistoryError(f"{path} is damaged, or not a history file: {error}") from None

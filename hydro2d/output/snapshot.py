@@ -111,7 +111,10 @@ def read(path: Path) -> Snapshot:
         raise SnapshotError(f"{path}: truncated or not a restart file ({error})") from None
     if _checksum(arrays, texts) != expected:
         raise SnapshotError(f"{path}: the checksum does not match; the file is damaged")
-    values = {name: text if name == "deck" else json.loads(text) for name, text in texts.items()}
+    try:
+        values = {name: text if name == "deck" else json.loads(text) for name, text in texts.items()}
+    except (ValueError, RecursionError) as error:
+        raise SnapshotError(f"{path}: not a restart file of hydro2d: {error}") from None
     return Snapshot(arrays=arrays, **values)
 
 

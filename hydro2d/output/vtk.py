@@ -14,11 +14,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
-from xml.sax.saxutils import escape
 
 import numpy as np
 
 from hydro2d.base.errors import Error, unknown
+from hydro2d.base.formats import in_xml
 from hydro2d.files import checksums
 from hydro2d.files.whole import replacing, write_text
 from hydro2d.mesh import quantities
@@ -65,7 +65,7 @@ def _write(dataset, path: Path, time: float, writer) -> None:
     for data in (dataset.GetCellData(), dataset.GetPointData()):
         for number in range(data.GetNumberOfArrays()):
             array = data.GetAbstractArray(number)
-            array.SetName(escape(array.GetName(), {'"': "&quot;"}))  # VTK writes names into its XML unescaped
+            array.SetName(in_xml(array.GetName()))  # VTK writes names into its XML unescaped
     writer.SetInputData(dataset)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()

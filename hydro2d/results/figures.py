@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hydro2d.base.errors import unknown
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import in_figure, in_legend
 from hydro2d.files.whole import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
@@ -88,9 +88,8 @@ def chosen(dump: Dump, field: str) -> Shown:
     return Shown(values, title, unit, "RdBu_r" if diverging else "viridis")
 
 
-def verbatim(text: str) -> str:
-    """A name from a file such that matplotlib draws it literally: a dollar sign does not begin a formula."""
-    return shown(text).replace("$", r"\$")
+#: a name from a file as matplotlib draws it
+verbatim = in_figure
 
 
 def body_colours(count: int):
@@ -173,7 +172,7 @@ def _legend(axes, dump: Dump, half: str) -> None:
     """Adds the names of the bodies; half : the half of the section that shows them ("upper" or "lower"), "" for all of it."""
     from matplotlib.patches import Patch
 
-    patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=verbatim(body)) for m, body in enumerate(dump.bodies)]
+    patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=in_legend(body)) for m, body in enumerate(dump.bodies)]
     axes.legend(handles=patches, fontsize=7, loc=f"{half or 'upper'} right", framealpha=0.7,
                 title=_of_half(half), title_fontsize=7)  # fmt: skip
 
@@ -357,7 +356,7 @@ def histories(runs: list, quantities=HISTORIES):
         for run in runs:
             if name not in run.history:
                 raise FigureError(f"{run.directory}: {unknown('quantity', name, run.history)}")
-            place.plot(run.history["time"] * 1e6, run.history[name] * scale, label=verbatim(run.label), linewidth=1.2)
+            place.plot(run.history["time"] * 1e6, run.history[name] * scale, label=in_legend(run.label), linewidth=1.2)
         if name == "penetration_depth_m":
             for depth in dict.fromkeys(run.measured_depth for run in runs):
                 if depth is not None:
@@ -389,7 +388,7 @@ def craters(runs: list):
     """
     figure, ((axes,),) = new_figure(9.0, 4.0, 1, 1)
     for run in runs:
-        style = {"label": verbatim(run.label)}
+        style = {"label": in_legend(run.label)}
         for _, depth, radius in holes(run):
             upper, lower = np.column_stack([depth, radius]), np.column_stack([depth, -radius])[::-1]
             (line,) = axes.plot(*np.concatenate([upper, lower]).T, linewidth=1.2, **style)

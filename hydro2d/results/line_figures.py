@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hydro2d.base.formats import in_legend
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures
 from hydro2d.results.scales import LINEAR, FigureError, Scale
@@ -106,7 +107,7 @@ def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[
     """
     figure, ((axes,),) = figures.new_figure(7.0, 4.0, 1, 1)
     for each in curves(runs, field, line, times):
-        name = f"{figures.verbatim(each.run.label)}, " if len(runs) > 1 else ""
+        name = f"{in_legend(each.run.label)}, " if len(runs) > 1 else ""
         axes.plot(each.along * 1e3, each.values, linewidth=1.2, label=f"{name}{each.time * 1e6:.2f} µs")
         _labels(axes, f"{each.line.label} [mm]", each.shown.label)
     if scale.log:
@@ -174,7 +175,7 @@ def debris(runs: list):
         for place, what, edges, label in ((row[0], "speed", each["speed_edges_m_s"], "axial velocity [m/s]"),
                                           (row[1], "angle", np.degrees(each["angle_edges_rad"]), "angle to the axis [°]")):
             for number, (body, mass) in enumerate(zip(each["body"], each[f"mass_by_{what}_kg"].T, strict=True)):
-                place.stairs(mass * 1e3, edges, fill=True, alpha=0.7, label=figures.verbatim(body),
+                place.stairs(mass * 1e3, edges, fill=True, alpha=0.7, label=in_legend(body),
                              color=figures.BODY_COLOURS[number % len(figures.BODY_COLOURS)])  # fmt: skip
             place.set_yscale("log")
             _labels(place, label, "mass in a bin [g]")

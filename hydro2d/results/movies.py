@@ -60,7 +60,7 @@ def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None 
                 figure = figures.draw_sections(rows, field, mirror, lambda dump, at=windows: at[id(dump)], ranges, figure)
                 if writer is None:
                     writer = _writer(path, rate)
-                    writer.setup(figure, str(target), dpi)
+                    writer.setup(figure, str(target.absolute()), dpi)  # else ffmpeg reads "a:" as a protocol
                 writer.grab_frame()
             writer.finish()
             target.replace(temporary)

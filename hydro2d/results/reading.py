@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import html
 import re
 import tomllib
 from dataclasses import replace
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.base.errors import Error
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import in_html
 from hydro2d.deck import key_messages
 from hydro2d.files import checksums, toml
 from hydro2d.files.strange import within
@@ -326,9 +325,9 @@ class Results:
         return f"<Results {self.label}: {', '.join(said)}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th>{html.escape(shown(name))}</th><td>{html.escape(shown(said))}</td></tr>"
+        rows = "".join(f"<tr><th>{in_html(name)}</th><td>{in_html(said)}</td></tr>"
                        for name, said in self._facts().items())  # fmt: skip
-        return f"<table><caption>{html.escape(self.label)}</caption>{rows}</table>"
+        return f"<table><caption>{in_html(self.label)}</caption>{rows}</table>"
 
 
 def mirrored(deck: dict) -> bool:

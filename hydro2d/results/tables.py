@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from hydro2d.base.errors import unknown
-from hydro2d.base.terminal import cell, shown
+from hydro2d.base.formats import cell, shown
 from hydro2d.files.whole import replacing
 from hydro2d.output import history
 from hydro2d.results import figures, line_figures

@@ -7,7 +7,7 @@ from importlib import metadata
 import numpy as np
 
 from hydro2d.base.errors import Error, unknown
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import shown
 from hydro2d.output import history
 from hydro2d.results.figures import reader_unit
 

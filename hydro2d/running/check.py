@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.base.errors import DeckError
-from hydro2d.base.terminal import duration, one_line, several
+from hydro2d.base.formats import one_line
+from hydro2d.base.terminal import duration, several
 from hydro2d.deck import deck as decks
 from hydro2d.materials import library
 from hydro2d.mesh import quantities

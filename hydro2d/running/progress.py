@@ -14,9 +14,10 @@ from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime
 from typing import NamedTuple, TypeVar
 
+from hydro2d.base.formats import in_shell, one_line
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
-from hydro2d.base.terminal import duration, moment, number, one_line, say
+from hydro2d.base.terminal import duration, moment, number, say
 from hydro2d.measure.outcome import EXACT
 from hydro2d.measure.result import unit
 from hydro2d.measure.wall_damage import NO_DAMAGE
@@ -349,7 +350,7 @@ def continuing(command: str) -> str:
     start = 3 if words[:2] == ["python", "-m"] else 1
     if words[start - 1 : start + 1] != ["hydro2d", "run"]:
         return "hydro2d.run(..., restart=True)"
-    return shlex.join([*words, "--restart"])
+    return in_shell(*words, "--restart")
 
 
 def _costs(summary: dict) -> str:

@@ -9,13 +9,14 @@ from functools import cached_property
 from pathlib import Path
 
 from hydro2d.base.errors import DeckError
+from hydro2d.base.formats import distinct
 from hydro2d.base.terminal import say, wrapped
 from hydro2d.deck import deck as decks
 from hydro2d.running import check
 from hydro2d.running.progress import counted
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import Definition, Overrides, Part, StudyError, read
-from hydro2d.study.plan.planned import Plan, Planned, distinct
+from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.plan.scaling import Size
 from hydro2d.study.records import keeping
 from hydro2d.study.run.choice import Choice

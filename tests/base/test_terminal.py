@@ -6,12 +6,12 @@ import json
 
 import pytest
 
-from hydro2d.base.terminal import duration, one_line, say, shown
+from hydro2d.base.formats import in_plotly, one_line, shown
+from hydro2d.base.terminal import duration, say
 from hydro2d.cli.main import call
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run as start
-from hydro2d.study.report import charts
 from hydro2d.study.run import monitor
 from tests import fake
 from tests.rules import source
@@ -106,7 +106,7 @@ def test_names_in_figures_are_no_formulas(finished, tmp_path):
 
 
 def test_names_in_charts_are_no_markup():
-    assert charts.verbatim('<a href="x">\u202e&') == '&lt;a href="x"&gt;\\u202e&amp;'
+    assert in_plotly('<a href="x">\u202e&') == '&lt;a href="x"&gt;\\u202e&amp;'
 
 
 def test_only_one_function_prints():

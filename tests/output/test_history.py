@@ -73,6 +73,26 @@ def test_no_history(tmp_path):
         read(tmp_path / "foreign.h5")
 
 
+def test_a_history_claims_no_more_than_its_file_holds(tmp_path):
+    """Values that unpack to far more than the file, in one column or many, and texts that share one place in the file."""
+    path = tmp_path / "history.h5"
+    for columns, rows in ((1, 6_000_000), (300, 8000)):
+        filled(path)
+        with h5py.File(path, "a") as file:
+            for n in range(columns):
+                file.create_dataset(f"x{n}", data=np.zeros(rows), compression="gzip", chunks=(rows,))
+        assert path.stat().st_size < rows * columns / 3
+        with pytest.raises(HistoryError, match=r"it claims \d+ bytes of values, more than its \d+ bytes can hold"):
+            read(path)
+    filled(path)
+    with h5py.File(path, "a") as file:
+        at = file.create_dataset("gauge", data=[100_000 * "x", *(5000 * ["a"])], dtype=h5py.string_dtype()).id.get_offset()
+    data = path.read_bytes()
+    path.write_bytes(data[:at] + 5001 * data[at : at + 16] + data[at + 5001 * 16 :])
+    with pytest.raises(HistoryError, match="it claims 500"):
+        read(path)
+
+
 def test_csv(tmp_path):
     filled(tmp_path / "history.h5")
     write_csv(read(tmp_path / "history.h5"), tmp_path / "history.csv")

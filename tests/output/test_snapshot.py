@@ -77,6 +77,17 @@ def test_foreign_hdf5(tmp_path):
         snapshot.read(tmp_path / "restart.h5")
 
 
+def test_texts_that_are_not_json(tmp_path):
+    texts = {name: "{" for name in ("deck", "provenance", "run", "scalars")}
+    with h5py.File(tmp_path / "restart.h5", "w") as file:
+        file.attrs.update(format=snapshot.FORMAT, complete=True, sha256=snapshot._checksum({}, texts))
+        file.create_group("arrays")
+        for name, text in texts.items():
+            file[name] = text
+    with pytest.raises(SnapshotError, match="not a restart file of hydro2d: Expecting"):
+        snapshot.read(tmp_path / "restart.h5")
+
+
 def test_never_completed(tmp_path):
     snapshot.write(tmp_path / "restart.h5", sample())
     with h5py.File(tmp_path / "restart.h5", "a") as file:

@@ -12,6 +12,7 @@ import pandas
 import pytest
 
 from hydro2d.base.errors import Error
+from hydro2d.base.formats import in_toml
 from hydro2d.cli.main import call
 from hydro2d.files import toml
 from hydro2d.files.checksums import verified_text
@@ -28,7 +29,7 @@ from hydro2d.study.run import monitor
 from tests import fake
 from tests.cli.test_main import DECK
 from tests.locks import held
-from tests.names import ASCII, NAMES, UNICODE
+from tests.names import ASCII, NAMES, OF_BODIES, PLACED, UNICODE
 
 WRONG = ("<b>x</b>", 3, -1e300, True, [], [3], [[]], {}, {"a": "b"}, None)
 SHARE = quantities.BY_KEY["volume_fraction"]
@@ -119,13 +120,13 @@ def test_a_name_in_html(finished, name):
 def test_names_in_dumps(tmp_path):
     """All of them in one file, which every reader understands."""
     values = np.arange(6.0).reshape(2, 3)
-    fields = [(SHARE.name(name), values + number) for number, name in enumerate(NAMES)]
+    fields = [(SHARE.name(name), values + number) for number, name in enumerate(OF_BODIES)]
     edges = np.linspace(0, 3, 4), np.linspace(0, 2, 3)
     file = tmp_path / "vtk" / "dump_000000.vtr"
     file.parent.mkdir()
     vtk.write_grid(file, *edges, fields, 1e-6)
     stored = vtk.read_grid(file)
-    assert stored.bodies == list(NAMES)
+    assert stored.bodies == list(OF_BODIES)
     for name, value in fields:
         assert np.array_equal(stored.fields[name], value), name
     grid = vtk.pyvista_grid(file)
@@ -135,10 +136,10 @@ def test_names_in_dumps(tmp_path):
 
 
 def test_names_in_histories(tmp_path):
-    columns = [f"{kind}_{name}_{key}" for kind, key in (("body", "mass_kg"), ("tracer", "r_m")) for name in NAMES]
+    columns = [f"{kind}_{name}_{key}" for kind, key in (("body", "mass_kg"), ("tracer", "r_m")) for name in OF_BODIES]
     from hydro2d.output.station_arrays import KEYS
 
-    columns += [f"tracer_{name}_{key}" for name in NAMES for key in KEYS if key != "r_m"]
+    columns += [f"tracer_{name}_{key}" for name in OF_BODIES for key in KEYS if key != "r_m"]
     written = history.History(tmp_path / "history.h5")
     for time in (0.0, 1.0):
         written.append({"time": time, **{name: time + number for number, name in enumerate(columns)}})
@@ -158,7 +159,7 @@ def test_names_in_histories(tmp_path):
     lambda name: to_csv([{"a": 1, name: "x"}]),
 ])  # fmt: skip
 def test_no_cell_is_a_formula(write):
-    for name in NAMES:
+    for name in PLACED:
         rows = pandas.read_csv(io.StringIO(write(name)), dtype=str, keep_default_na=False)
         for cell in (*rows.columns, *rows.iloc[0]):
             assert not cell.startswith(("=", "+", "-", "@")), name
@@ -177,7 +178,7 @@ def test_names_in_decks_studies_and_summaries(tmp_path):
     write_json(tmp_path / "summary.json", tables)
     assert read_json(tmp_path / "summary.json", Error) == tables
     for name in NAMES:
-        assert tomllib.loads(f"{toml.quoted(name)} = {toml.inline(name)}") == {name: name}
+        assert tomllib.loads(f"{in_toml(name)} = {toml.inline(name)}") == {name: name}
 
 
 def test_a_run_with_such_names(tmp_path):

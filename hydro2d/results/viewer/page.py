@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import html
-import json
 import re
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
 
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import in_html, in_script
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_text
 from hydro2d.results.figures import BODY_COLOURS
@@ -77,7 +76,7 @@ def view(runs: Sequence, words: Iterable[str] = ("all",), bits: int = DEFAULT_BI
         "runs": [table for table, _ in packed],
     }
     parts = {
-        "title": html.escape(" and ".join(shown(run.label) for run in runs)),
+        "title": in_html(" and ".join(run.label for run in runs)),
         "style": _asset("page.css"),
         "contents": _json(about),
         "numbers": "\n".join(f'<script type="text/plain" class="numbers">{text}</script>' for _, text in packed),
@@ -93,10 +92,9 @@ def _asset(name: str) -> str:
 def _json(value) -> str:
     """JSON that cannot end the element of the page that holds it. Raises ViewError for what is not finite."""
     try:
-        text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+        return in_script(value)
     except ValueError:
         raise ViewError("a run has times, edges of its mesh or a deck that are not finite numbers") from None
-    return text.replace("<", "\\u003c")
 
 
 def _colours(name: str) -> str:

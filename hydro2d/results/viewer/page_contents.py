@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import shown
 from hydro2d.measure.regime import REGIMES
 from hydro2d.output import history, station_arrays
 from hydro2d.output.directory import HISTORY

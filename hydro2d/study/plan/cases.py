@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hydro2d.base.errors import DeckError
+from hydro2d.base.formats import distinct
 from hydro2d.deck import deck as decks
 from hydro2d.deck import key_messages
 from hydro2d.files import toml
@@ -18,7 +19,7 @@ from hydro2d.files.key_lines import Sources
 from hydro2d.running.progress import counted
 from hydro2d.study.plan import exclusions, members, ranges, sampling, velocities
 from hydro2d.study.plan.definition import DECK, Axis, Overrides, StudyError, of_tables, read
-from hydro2d.study.plan.planned import Option, Plan, Planned, distinct, label, short
+from hydro2d.study.plan.planned import Option, Plan, Planned, label, short
 from hydro2d.study.plan.sample_rows import SampleRows
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
 from hydro2d.study.plan.study_file import StudyFile, keys_of, place_of, share

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from hydro2d.base import units
 from hydro2d.base.errors import DeckError, Error, in_words, unknown
-from hydro2d.base.keys import PositiveLength, PositiveSpeed, Section, Speed
+from hydro2d.base.keys import FolderName, PositiveLength, PositiveSpeed, Section, Speed, Words
 from hydro2d.files import toml
 from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain, read_text
@@ -79,11 +79,11 @@ class Range(Section):
 class Axis(Section):
     """One axis of a study: the values of a key, or variants that set several keys."""
 
-    name: str = Field(min_length=1, description="name of the axis in tables and exclusions")
+    name: Words = Field(description="name of the axis in tables and exclusions")
     key: str | None = Field(None, min_length=1, description="deck key, as in --set")
     values: Annotated[tuple[Any, ...], AfterValidator(_filled)] | None = Field(None, description="values of the key")
     range: Range | None = Field(None, description="values of the key, by from, to and step or count")
-    variants: Annotated[dict[str, Annotated[Keys, AfterValidator(_filled)]], AfterValidator(_filled)] | None = Field(
+    variants: Annotated[dict[Words, Annotated[Keys, AfterValidator(_filled)]], AfterValidator(_filled)] | None = Field(
         None, description="named sets of deck keys; `deck` names another base deck, `remove` lists deck keys to take out"
     )
 
@@ -179,7 +179,7 @@ class Part(Section):
     """A study of a large one, or some of its cases."""
 
     study: str = Field(min_length=1, description="study file, in the folder of this one")
-    name: str | None = Field(None, min_length=1, description="name of its directory; default: that of its file, and the cells")
+    name: FolderName | None = Field(None, description="name of its directory; default: that of its file, and the cells")
     about: str = Field("", description="its purpose")
     members: int | None = Field(None, ge=1, le=1000, description="members of each case; default: as in its file")
     cells: float | None = Field(None, gt=0.0, le=1000.0, description="cells across the radius of the projectile; default: as "
@@ -311,7 +311,7 @@ def explained(error: ValidationError, data: dict, sources: Sources, tables: dict
 
 def _explained(entry: dict, data: dict, sources: Sources, tables: dict[tuple, type[Section]]) -> str:
     path = tuple(entry["loc"])
-    where = f"{sources.where(path, data)}: {spelled(path)}: "
+    where = "".join(f"{part}: " for part in (sources.where(path, data), spelled(path)) if part)
     if entry["type"] == "extra_forbidden":
         place = tuple(part for part in path[:-1] if isinstance(part, str))
         table = tables[place] if place in tables else tables[place[:-1]]  # the table of an input is named by its deck key

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from hydro2d.base.formats import file_name
 from hydro2d.files import toml
 from hydro2d.output.directory import deck_hash
 from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import Ensemble
-
-#: longest part of the name of a case that comes from one axis
-LONGEST = 40
 
 
 @dataclass(frozen=True)
@@ -76,22 +73,10 @@ class Plan:
 
 
 def label(value: Any) -> str:
-    """A value as a study file has it."""
-    return value if isinstance(value, str) else toml.inline(value)
+    """A value as a study file has it, with the quotation marks of a text that has line feeds or other invisible characters."""
+    return value if isinstance(value, str) and value.isprintable() else toml.inline(value)
 
 
 def short(label: str) -> str:
     """A label as part of a directory name: "1086 m/s" is 1086m-s."""
-    text = re.sub(r"[^A-Za-z0-9.+-]+", "-", label.replace(" ", "").replace("_", "-")).strip("-.")
-    return text[:LONGEST] or "value"
-
-
-def distinct(names: list[str]) -> list[str]:
-    """The names, with -2, -3 and so on added to repeated ones."""
-    unique: dict[str, None] = {}
-    for name in names:
-        number, given = 2, name
-        while given in unique:
-            given, number = f"{name}-{number}", number + 1
-        unique[given] = None
-    return list(unique)
+    return file_name(label.replace(" ", "").replace("_", "-"))

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from hydro2d.base import units
-from hydro2d.base.keys import Section
+from hydro2d.base.keys import Section, Words
 
 #: the kinds of distributions; those of numbers that may have bounds
 KINDS = ("normal", "lognormal", "uniform", "choice")
@@ -195,7 +195,7 @@ class Sample(Section):
         None, description="changes that should not matter, by another amount in every row, so that what no input explains is "
         "the chance of a run; their meaning is that of [ensemble]"
     )
-    results: Annotated[tuple[str, ...], AfterValidator(_numbers)] = Field(
+    results: Annotated[tuple[Words, ...], AfterValidator(_numbers)] = Field(
         (), description="numbers of summary.json that samples.csv has beside the usual ones"
     )
 

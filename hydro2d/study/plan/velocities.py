@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hydro2d.base.errors import DeckError
+from hydro2d.base.formats import in_toml
 from hydro2d.deck import deck as decks
-from hydro2d.files import toml
 from hydro2d.study.plan import ranges
 from hydro2d.study.plan.definition import ROUND, TOLERANCE, Range, Transition
 
@@ -88,7 +88,7 @@ def key(bases: Iterable[tuple[Path, Sequence[str]]]) -> str:
         raise ValueError(f"all decks are wrong: {problems[0]}")
     if len(rods) > 1:
         raise ValueError(f"the projectiles of the decks have different names ({', '.join(sorted(rods))}); give key")
-    return f"body.{toml.quoted(rods.pop())}.velocity"
+    return f"body.{in_toml(rods.pop())}.velocity"
 
 
 def fault(deck: decks.Deck, key: str, label: str) -> str | None:

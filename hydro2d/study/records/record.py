@@ -142,7 +142,7 @@ class Record:
 
     @cached_property
     def outcome(self) -> Outcome:
-        """What the shot came to, by its summary, or before its end by the last row of the history; empty without a projectile."""
+        """What the shot came to: by its summary, or before its end by the last row of the history; empty without a shot."""
         summary = self.case.summary
         if (known := summary.get("outcome")) is not None:
             return Outcome(**known)

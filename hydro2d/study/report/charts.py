@@ -12,12 +12,13 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.base.formats import in_plotly
 from hydro2d.penetration.model import Motion
 from hydro2d.study.records.experiments import AT_LEAST, Measurement
 from hydro2d.study.records.record import Record, Setup
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Response, Variable, readers, title
 from hydro2d.study.report import residual, theory
-from hydro2d.study.report.marks import SIZE, ensembles, points, verbatim
+from hydro2d.study.report.marks import SIZE, ensembles, points
 from hydro2d.study.report.run_series import Series, style
 
 #: stand-ins for text and experiments, for models and axes, for the grid, and for the paper
@@ -73,7 +74,7 @@ def _finished(figure, rows: int = 1, labels: int = 0, panel: float = PANEL):
             if len(shown) >= MOST_ENTRIES:
                 trace.showlegend = False
                 continue
-            trace.name = "<br>".join(map(verbatim, textwrap.wrap(trace.name, LETTERS)))
+            trace.name = "<br>".join(map(in_plotly, textwrap.wrap(trace.name, LETTERS)))
             shown.append(trace)
     lines = sum(trace.name.count("<br>") + 1 for trace in shown)
     panel, below = rows * panel * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
@@ -113,8 +114,8 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
     labels = _words_below(figure, [word for word in x.order if word in there]) if x.order is not None else 0
     if len(places := {place for trace in figure.data for place in trace.x if place is not None}) == 1:
         figure.update_xaxes(tickmode="array", tickvals=list(places))  # else ticks would be at fractions around it
-    figure.update_xaxes(title={"text": verbatim(x.title)})
-    figure.update_yaxes(title={"text": verbatim(y.title)})
+    figure.update_xaxes(title={"text": in_plotly(x.title)})
+    figure.update_yaxes(title={"text": in_plotly(y.title)})
     if y.name in (DEPTH, RESIDUAL):
         figure.update_yaxes(range=[0.0, 1.1 * _highest(figure)])
     return _finished(figure, labels=labels)
@@ -145,8 +146,8 @@ def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[
             trace.marker.symbol = "triangle-right-open"
     wrapped = [textwrap.wrap(word, LETTERS // 2) or [""] for word in order]
     figure.update_yaxes(range=[len(order) - 0.5, -0.5], tickmode="array", tickvals=list(range(len(order))),
-                        ticktext=["<br>".join(map(verbatim, lines)) for lines in wrapped])  # fmt: skip
-    figure.update_xaxes(title={"text": verbatim(y.title)}, range=[0.0, 1.1 * shown])
+                        ticktext=["<br>".join(map(in_plotly, lines)) for lines in wrapped])  # fmt: skip
+    figure.update_xaxes(title={"text": in_plotly(y.title)}, range=[0.0, 1.1 * shown])
     return _finished(figure, panel=sum(LINE * len(lines) + GAP for lines in wrapped))
 
 
@@ -155,7 +156,7 @@ def _words_below(figure, order: Sequence[str]) -> int:
     upright = len(order) > MOST_ACROSS
     wrapped = [textwrap.wrap(word, LETTERS // (2 if upright else len(order) + 1)) or [""] for word in order]
     figure.update_xaxes(type="category", categoryorder="array", categoryarray=order, tickmode="array", tickvals=order,
-                        ticktext=["<br>".join(map(verbatim, lines)) for lines in wrapped], tickangle=-90 if upright else 0,
+                        ticktext=["<br>".join(map(in_plotly, lines)) for lines in wrapped], tickangle=-90 if upright else 0,
                         range=[-0.5, len(order) - 0.5])  # fmt: skip
     longest = max(len(line) for lines in wrapped for line in lines)
     return 8 * longest if upright else LINE * (max(map(len, wrapped)) - 1)
@@ -166,17 +167,17 @@ def _models(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], y:
     for number, (name, colour, velocity, value) in enumerate(lines):
         values = [None if np.isnan(one) else float(f"{one:.5g}") for one in value]
         shape = {"color": colour or MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
-        figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model",
-                           hovertemplate=f"{name}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+        said = f"{in_plotly(name)}<br>%{{x:.0f}} m/s: %{{y:.4g}} {y.unit}<extra></extra>"
+        figure.add_scatter(x=velocity.tolist(), y=values, mode="lines", name=name, line=shape, meta="model", hovertemplate=said)
 
 
 def _levels(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], x: Variable, y: Response) -> None:
     """Values at one velocity as lines across all words of x."""
     for number, (name, _, velocity, value) in enumerate(lines):
         shape = {"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
+        said = f"{in_plotly(name)}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>"
         figure.add_scatter(x=list(x.order), y=[float(f"{value[0]:.5g}")] * len(x.order), mode="lines", name=name, line=shape,
-                           meta="model",
-                           hovertemplate=f"{name}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>")  # fmt: skip
+                           meta="model", hovertemplate=said)  # fmt: skip
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
@@ -239,7 +240,7 @@ def _experiments(figure, qualifier: str, y: Response, entries: Sequence[tuple[fl
     if not entries:
         return
     marker, word = MEASURED[qualifier]
-    labels = [f"<b>{word}</b><br>{verbatim(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
+    labels = [f"<b>{word}</b><br>{in_plotly(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
               + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in entries]  # fmt: skip
     figure.add_scatter(x=[place for place, *_ in entries], y=[value * y.factor for _, _, value, _ in entries], mode="markers",
                        name=word, text=labels, hovertemplate="%{text}<extra></extra>", meta="experiment",
@@ -282,7 +283,7 @@ def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]]
                     x=((motion.time + touch) * 1e6).astype(np.float32), y=(values * readers(name)[1]).astype(np.float32),
                     mode="lines", name=label, legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
                     opacity=strength, line={"color": MUTED, "width": 1.5, "dash": dashes[model]},
-                    hovertemplate=f"{label}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
+                    hovertemplate=f"{in_plotly(label)}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
                 )  # fmt: skip
 
 
@@ -310,13 +311,13 @@ def histories(series: Sequence[Series],
                 line={"color": how.colour, "width": 0.9 if record.case.member else 1.4, "dash": how.dash},
                 name=label, legendgroup=label,
                 showlegend=label not in in_legend, row=row, col=1,
-                hovertemplate=f"<b>{verbatim(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
+                hovertemplate=f"<b>{in_plotly(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
                               "<extra></extra>",
             )  # fmt: skip
             in_legend.add(label)
     _motions(figure, motions, names)
     for row, name in enumerate(names, 1):
-        figure.update_yaxes(title={"text": f"{verbatim(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
+        figure.update_yaxes(title={"text": f"{in_plotly(title(name))}<br>[{readers(name)[0] or '1'}]"}, row=row, col=1)
     figure.update_xaxes(title={"text": "t [µs]"}, row=len(names), col=1)
     return _finished(figure, len(names))
 

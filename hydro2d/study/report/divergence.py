@@ -25,6 +25,7 @@ import numpy as np
 
 from hydro2d.analytic.model_text import columns
 from hydro2d.base.errors import unknown
+from hydro2d.base.formats import in_legend
 from hydro2d.files.whole import write_text
 from hydro2d.mesh import quantities
 from hydro2d.output import vtk
@@ -308,7 +309,7 @@ def figure(divergence: Divergence, size: float):
     drawn, (axes,) = figures.new_figure(10.5, 4.2, 1, 2)
     for place, kind in zip(axes, ("history", "field"), strict=True):
         for number, curve in enumerate(curve for curve in divergence.curves if curve.kind == kind):
-            _draw(place, curve, size, f"C{number}", figures.verbatim(curve.name))
+            _draw(place, curve, size, f"C{number}", in_legend(curve.name))
         place.axhline(size, color="black", linestyle=":", linewidth=1.0, label=f"{size:g} of the largest value")
         place.set_yscale("log")
         place.set_xlabel("t [us]", fontsize=8)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Sequence
 
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import in_plotly
 from hydro2d.study.ensemble.ensembles import Ensemble, grouped
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, Response, Variable
@@ -15,21 +14,16 @@ from hydro2d.study.report.run_series import Series
 SIZE, DOT, FAINT = 9, 7, 0.4
 
 
-def verbatim(text: object) -> str:
-    """A name from a file, escaped so that Plotly shows it literally."""
-    return html.escape(shown(text), quote=False)
-
-
 def _hover(record: Record, x: Variable, y: Response) -> str:
     """The text that a pointer shows for a run."""
     there, value = x.value(record), y.value(record)
-    lines = [f"<b>{verbatim(record.case.name)}</b>",
-             f"{verbatim(x.title)}: {verbatim(there) if isinstance(there, str) else f'{there:.5g}'}",
-             f"{verbatim(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
+    lines = [f"<b>{in_plotly(record.case.name)}</b>",
+             f"{in_plotly(x.title)}: {in_plotly(there) if isinstance(there, str) else f'{there:.5g}'}",
+             f"{in_plotly(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
     if record.value("regime"):
-        lines.append(verbatim(record.value("regime")))
+        lines.append(in_plotly(record.value("regime")))
     if record.unfinished:
-        lines.append(verbatim(record.unfinished))
+        lines.append(in_plotly(record.unfinished))
     return "<br>".join(lines)
 
 
@@ -90,7 +84,7 @@ def _hover_of_ensemble(place: float | str, each: Ensemble, x: Variable, y: Respo
     values = each.spread(y.name)
     low, median, high = (part * y.factor for part in (values.low, values.median, values.high))
     at_least = "≥ " * (y.name == DEPTH and each.bound is not None and values.median >= each.bound)
-    lines = [f"<b>{verbatim(each.name)}</b>: {values.count} of {len(each.members)} members",
-             f"{verbatim(x.title)}: {verbatim(place) if isinstance(place, str) else f'{place:.5g}'}",
-             f"{verbatim(y.title)}: {at_least}{median:.5g}, 10 to 90 %: {low:.5g} to {high:.5g}"]  # fmt: skip
-    return "<br>".join([*lines, *(f"{verbatim(regime)}: {share.words}" for regime, share in each.regimes.items())])
+    lines = [f"<b>{in_plotly(each.name)}</b>: {values.count} of {len(each.members)} members",
+             f"{in_plotly(x.title)}: {in_plotly(place) if isinstance(place, str) else f'{place:.5g}'}",
+             f"{in_plotly(y.title)}: {at_least}{median:.5g}, 10 to 90 %: {low:.5g} to {high:.5g}"]  # fmt: skip
+    return "<br>".join([*lines, *(f"{in_plotly(regime)}: {share.words}" for regime, share in each.regimes.items())])

@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 
 from hydro2d.analytic import model_transition
 from hydro2d.base.errors import from_extra
-from hydro2d.base.terminal import shown
+from hydro2d.base.formats import file_name, shown
 from hydro2d.base.version import __version__
 from hydro2d.study.ensemble import ensembles
 from hydro2d.study.ensemble.contents import Contents
@@ -177,7 +177,7 @@ def _origin(each: Record) -> dict:
     }
     return {
         "name": each.case.name,
-        "file": re.sub(r"[^\w.-]+", "-", each.case.name) + ".toml",
+        "file": file_name(each.case.name, 200) + ".toml",
         "deck": each.text,
         "entries": {key: value for key, value in entries.items() if value not in (None, "")},
     }

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from hydro2d.base.formats import distinct, html_id
 from hydro2d.measure.regime import ERODING
 from hydro2d.penetration.model import Motion
 from hydro2d.study.ensemble.contents import Contents
@@ -54,25 +54,23 @@ class Panel:
 
 def draw(contents: Contents, choice: Choice) -> Iterator[Chart]:
     """All figures: for each panel its responses, then its histories."""
-    names: list[str] = []
+    ids: list[str] = []
+
+    def new_id(what: str, panel: Panel) -> str:
+        ids[:] = distinct([*ids, html_id(f"{what}-{panel.heading}")])
+        return ids[-1]
+
     through = any(each.perforated for each in contents.records)
     for panel in panels(contents, choice):
-        base = re.sub(r"[^\w-]+", "-", panel.heading).strip("-")
-        names.append(base)
-        base += f"-{names.count(base)}" if names.count(base) > 1 else ""
         for y in choice.y:
             stopped = y.name == RESIDUAL and through and not any(each.perforated for each in panel.members)
             if not stopped and any(_drawn(each, choice, y) for each in panel.members):
-                yield _response(contents, choice, y, panel, _id(y.name, base))
+                yield _response(contents, choice, y, panel, new_id(y.name, panel))
         rows = _rows(contents, choice, panel)
         if rows is not None:
-            yield _strip(contents, rows, panel, _id("strip", base))
+            yield _strip(contents, rows, panel, new_id("strip", panel))
         if any(each.history for each in panel.members):
-            yield _histories(contents, choice, panel, _id("histories", base))
-
-
-def _id(what: str, base: str) -> str:
-    return re.sub(r"[^\w-]+", "-", f"{what}-{base}")
+            yield _histories(contents, choice, panel, new_id("histories", panel))
 
 
 def _drawn(each: Record, choice: Choice, y: Response) -> bool:

@@ -21,7 +21,7 @@ from hydro2d.study.search import chance_figure
 from hydro2d.study.search.regimes import Transitions
 
 #: patterns of the names of pictures and films, to remove those of earlier reports and versions
-NAMES = re.compile(r"(rods|transition|sample|film|depth|histories)_[\w-]+\.(png|gif|mp4)")
+NAMES = re.compile(r"(rods|transition|sample|film|depth|histories)_[\w+-]+\.(png|gif|mp4)")
 #: largest number of pages of rods; the caption says how many runs are left out
 MOST_PAGES = 8
 #: dots per inch of films, fewer than in those of `hydro2d movie`

@@ -105,14 +105,14 @@ def _radius(record: Record) -> float:
 def _label(record: Record) -> str:
     """The axes' values or the name, the depth, and whether the run is unfinished."""
     words = list(record.case.values.values()) or [record.case.name]
-    lines = [line for word in words for line in textwrap.wrap(verbatim(word.replace("_", " ")), LETTERS)]
+    lines = [line for word in words for line in textwrap.wrap(word.replace("_", " "), LETTERS)]
     if len(lines) > LINES:
         lines = [*lines[: LINES - 1], "…"]
     if record.perforated:
         lines.append("perforated")
     elif record.depth is not None:
         lines.append(f"{'≥ ' * record.left}{record.depth * 100:.1f} cm")
-    return "\n".join(lines + (["(unfinished)"] if record.unfinished else []))
+    return "\n".join([*map(verbatim, lines)] + (["(unfinished)"] if record.unfinished else []))
 
 
 def _rod(axes, record: Record, shift: float) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from hydro2d.base.formats import distinct, file_name
 from hydro2d.files.strange import own
 from hydro2d.results import figures
 from hydro2d.study.plan.definition import StudyError
@@ -60,12 +60,8 @@ def _part(number: int, samples: Samples, folder: Path) -> Part:
 
 
 def file_names(results: Sequence[str]) -> list[str]:
-    """Names of results as parts of the names of files: of letters, digits and _, and none twice ("derived.P/L")."""
-    names: list[str] = []
-    for result in results:
-        name = re.sub(r"[^A-Za-z0-9]", "_", result)
-        names.append(name if name not in names else f"{name}_{len(names)}")
-    return names
+    """Names of results as parts of the names of files: without dots, and none twice ("derived.P/L")."""
+    return distinct(file_name(result.replace(".", "_"), 80) for result in results)
 
 
 def _pictures(samples: Samples, result: str, stem: Path, part: Part) -> Iterator[Picture]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hydro2d.base.errors import DeckError
-from hydro2d.base.terminal import duration, one_line, say, wrapped
+from hydro2d.base.formats import one_line
+from hydro2d.base.terminal import duration, say, wrapped
 from hydro2d.deck import deck as decks
 from hydro2d.running import check
 from hydro2d.running.progress import counted

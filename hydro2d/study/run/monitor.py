@@ -10,7 +10,8 @@ from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
-from hydro2d.base.terminal import duration, number, one_line, say, several, shown, width
+from hydro2d.base.formats import one_line, shown
+from hydro2d.base.terminal import duration, number, say, several, width
 from hydro2d.files.strange import opened
 from hydro2d.study.records.study_directory import DONE, LOG, RUNNING, STATUSES, WAITING, Case, Study
 

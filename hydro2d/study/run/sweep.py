@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import logging
 import queue
-import shlex
 import socket
 import time
 import uuid
@@ -18,6 +17,7 @@ from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
+from hydro2d.base.formats import in_shell
 from hydro2d.base.interrupt import Interrupt, signals, status
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import duration, say, several
@@ -350,7 +350,7 @@ def _end(board: monitor.Board, interrupt: Interrupt, seconds: float, spent: floa
     if any(case.status in (WAITING, INTERRUPTED) for case in cases):
         board.line(f"{again} continues")
     if any(case.status == DONE for case in board.chosen):
-        board.line(f"a page of all cases: hydro2d report {shlex.quote(str(board.study.directory))}")
+        board.line(f"a page of all cases: hydro2d report {in_shell(board.study.directory)}")
     return ALL_DONE if all(case.status == DONE for case in board.chosen) else SOME_FAILED
 
 

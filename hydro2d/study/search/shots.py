@@ -11,12 +11,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+from hydro2d.base.formats import distinct
 from hydro2d.base.method_version import METHOD
 from hydro2d.deck import deck as decks
 from hydro2d.files import toml
 from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import draws, velocities
-from hydro2d.study.plan.planned import Plan, Planned, distinct, short
+from hydro2d.study.plan.planned import Plan, Planned, short
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.study_directory import DONE, ENDED, WAITING, Case
