@@ -238,7 +238,7 @@ def test_a_table(tmp_path):
     ("body.rod.velocity [m/s]\tbody.rod.material\n1086\tW_alloy\n", "x.csv: the cells are separated by tabs"),
     ("body.rod.velocity.x.y\n1\n", 'x.csv: column "body.rod.velocity.x.y": no deck has the key body.rod.velocity.x.y: '
      "body[0].velocity is a value and has no key x"),
-    ('body.rod.velocity [m/s]\n"1\n', "x.csv: is not a table with commas: unexpected end of data"),
+    ('body.rod.velocity [m/s]\n"1\n', "x.csv:2: is not a table with commas: unexpected end of data"),
     ("body.rod.velcity [m/s]\n1086\n", 'x.csv: column "body.rod.velcity [m/s]": no deck has the key body.rod.velcity: body[0]: '
      'unknown key "velcity"; did you mean "velocity"?'),
     ("body.rod.velocity [kg]\n1086\n", 'x.csv: row 1, column "body.rod.velocity [kg]": body[0].velocity: "1086 kg" is a mass; '

@@ -22,7 +22,7 @@ from hydro2d.base.interrupt import Interrupt, signals, status
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
-from hydro2d.files.locks import locked
+from hydro2d.files.locks import LockError, locked
 from hydro2d.files.whole import write_json
 from hydro2d.jit import compilation
 from hydro2d.output.directory import SUMMARY, clear
@@ -118,8 +118,9 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
     Raises StudyError, LockError (another sweep uses the directory).
     """
     if choice.complete:
-        if not quiet:
-            say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
+        corrected = choice.keep(study_directory.of_plan(choice.compared(directory), directory).cases)
+        for text in () if quiet else (f"{choice.plan.name}: nothing to run; {choice.kept()}", *corrected):
+            say(text)
         _from_kept(choice, directory)
         return ALL_DONE
     notices, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
@@ -291,9 +292,12 @@ class _Sweep:
         self._keep([case])
 
     def _keep(self, cases: Sequence[Case]) -> None:
-        """Adds rows to the file that the study keeps. If it cannot be written, the cases run all the same."""
+        """Adds rows to the file that the study keeps. If it cannot be read or written, the cases run all the same."""
         try:
-            self.choice.keep(cases)
+            for text in self.choice.keep(cases):
+                self.board.line(text)
+        except (LockError, StudyError) as error:
+            self.board.line(f"{error}; the rows of the runs are not written")
         except OSError as error:
             self.board.line(f"{self.choice.plan.keep} cannot be written: {error.strerror or error}")
 
