@@ -245,6 +245,10 @@ def test_a_table(tmp_path):
      "expected a velocity"),
     ("body.rod.velocity [m/s],body.rod.strength_factor\n1086,1\n1090,-1\n", 'x.csv: row 2, column "body.rod.strength_factor": '
      "body[0].strength_factor: must be positive, is -1"),
+    ("body.rod.strength_factor\n<<<<<<< HEAD\n1\n=======\n1.1\n>>>>>>> a\n", "x.csv:2: has a mark of git between two versions"),
+    ("body.rod.strength_factor\nnan\n", 'x.csv: row 1, column "body.rod.strength_factor": '),
+    ("body.rod.velocity [m/s]\nnan\n", 'x.csv: row 1, column "body.rod.velocity [m/s]": "nan" is not a number; '),
+    ('body.rod.velocity [m/s]\n"1,086"\n', 'x.csv: row 1, column "body.rod.velocity [m/s]": "1,086" is not a number; '),
     ("body.rod.velocity\n1086\n", 'x.csv: row 1, column "body.rod.velocity": body[0].velocity: 1086 has no unit'),
 ])  # fmt: skip
 def test_a_wrong_table_is_refused_before_the_first_run(tmp_path, table, said):

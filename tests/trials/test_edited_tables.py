@@ -1,7 +1,12 @@
 """Tables of a study as a person, a spreadsheet or git changes them: read, corrected from the runs, or refused in one line."""
 
+import contextlib
 import csv
+import functools
 import io
+import json
+import math
+import random
 import re
 import shutil
 
@@ -343,3 +348,45 @@ def test_two_depths_of_one_set_up_are_refused(folder):
           .splitlines()[LINE - 1])  # fmt: skip
     refused(folder, folder / "kept.csv", "for the same set-up; remove the line that is wrong", ("check", "sweep"),
             [lambda: hydro2d.kept_rows(folder / "kept.csv")])  # fmt: skip
+
+
+def places(value, place=()):
+    """The places of all values in plain data."""
+    yield place
+    for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ():
+        yield from places(value[key], (*place, key))
+
+
+#: in place of a value of study.json; the first: nothing
+ODD = (None, 0, -1, 7, 1e400, math.nan, "", "x", [], {}, [1], {"a": 1}, True, ["a", "a"], "1" * 5000)
+
+
+def edited(folder, seeds):
+    """Reads the study with one odd value in study.json for each seed; returns how many were refused."""
+    file, refused = folder / "out" / "study.json", 0
+    whole = json.loads(file.read_text())
+    whole.pop("sha256")
+    for seed in seeds:
+        chance, data = random.Random(seed), json.loads(json.dumps(whole))
+        *path, last = chance.choice(list(places(data))[1:])
+        within = functools.reduce(lambda value, key: value[key], path, data)
+        if chance.random() < 0.1:
+            del within[last]
+        else:
+            within[last] = chance.choice(ODD)
+        file.write_text(json.dumps(data))
+        refused += [status for status, _ in commands(folder, "status")] == [2]
+        with contextlib.suppress(hydro2d.StudyError):
+            hydro2d.open_study(folder / "out").samples({"friction": "0.1"}).doubts  # noqa: B018
+    return refused
+
+
+def test_values_of_study_json_that_no_sweep_writes(folder):
+    assert 10 < edited(folder, range(40)) < 40
+
+
+@pytest.mark.slow
+def test_two_thousand_values_of_study_json(folder, tell):
+    refused = edited(folder, range(2000))
+    tell(f"2000 values of study.json, {refused} refused in words, 0 failures")
+    assert refused > 500

@@ -57,9 +57,13 @@ class Points:
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Points:
-        """The inverse of `data`; without the texts, which only a plan needs."""
-        return cls(tuple(map(Distribution.of_data, data["inputs"])), tuple(map(tuple, data["rows"])), (), data["method"],
-                   data["seed"], data["table"], tuple(data["results"]))  # fmt: skip
+        """The inverse of `data`; without the texts, which only a plan needs. Raises ValueError for a value that no row has."""
+        inputs, rows = tuple(map(Distribution.of_data, data["inputs"])), tuple(map(tuple, data["rows"]))
+        for number, row in enumerate(rows, 1):
+            for each, value in zip(inputs, row, strict=True):
+                if not each.has(value):
+                    raise ValueError(f"row {number} of the sample has {value!r} as {each.head}")
+        return cls(inputs, rows, (), data["method"], data["seed"], data["table"], tuple(map(str, data["results"])))
 
     def data(self) -> dict[str, Any]:
         """The contents as plain data, for JSON."""

@@ -22,6 +22,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from hydro2d.base.errors import nearest
+from hydro2d.base.terminal import one_line
 from hydro2d.base.version import __version__
 from hydro2d.files import checksums
 from hydro2d.files.locks import holder
@@ -235,8 +236,9 @@ def read(directory: Path | str) -> Study:
     data = table_of(directory / STUDY, StudyError)
     try:
         study = _study(directory, data)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise StudyError(f"{directory / STUDY} is not a valid study file: {error!r}") from None
+        _check(study)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        raise StudyError(f"{directory / STUDY} is not a valid study file: {one_line(repr(error))}") from None
     if not study.cases:
         raise StudyError(f"{directory / STUDY}: the study has no cases")
     return study
@@ -255,6 +257,20 @@ def _study(directory: Path, data: dict) -> Study:
     search = _interval(stored) if stored else None
     sample = Points.of_data(data["sample"]) if data.get("sample") else None
     return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search, sample)
+
+
+def _check(study: Study) -> None:
+    """Raises ValueError or KeyError if entries of study.json contradict one another, as a sweep does not write them."""
+    if not all(isinstance(name, str) for name in (study.title, study.name, *(axis.name for axis in study.axes))):
+        raise ValueError("a title or a name is not text")
+    for case in study.cases:
+        for axis in study.axes:
+            if case.values[axis.name] not in axis.values:
+                raise ValueError(f"{case.name} has {case.values[axis.name]!r} on the axis {axis.name}")
+        if study.sample and not 1 <= int(case.values[study.axes[-1].name]) <= len(study.sample.rows):
+            raise ValueError(f"{case.name} is of no row of the sample")
+    if len({case.name for case in study.cases}) < len(study.cases):
+        raise ValueError("two cases have one name")
 
 
 def _interval(stored: dict) -> Interval:
