@@ -118,7 +118,7 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
     Raises StudyError, LockError (another sweep uses the directory).
     """
     if choice.complete:
-        corrected = choice.keep(study_directory.of_plan(choice.compared(directory), directory).cases)
+        corrected = _kept(choice, study_directory.of_plan(choice.compared(directory), directory).cases)
         for text in () if quiet else (f"{choice.plan.name}: nothing to run; {choice.kept()}", *corrected):
             say(text)
         _from_kept(choice, directory)
@@ -153,6 +153,16 @@ def _sweep(choice: Choice, study: Study, notices: list[str], connect: AbstractCo
         with connect as client:
             spent = _Sweep(choice, client, board, threads, overwrite).run(interrupt)
         return _end(board, interrupt, time.perf_counter() - started, spent, choice.plan.again)
+
+
+def _kept(choice: Choice, cases: Sequence[Case]) -> list[str]:
+    """Adds rows to the file that the study keeps. Returns what there is to say; without the file the cases run all the same."""
+    try:
+        return choice.keep(cases)
+    except (LockError, StudyError) as error:
+        return [f"{error}; the rows of the runs are not written"]
+    except OSError as error:
+        return [f"{choice.plan.keep} cannot be written: {error.strerror or error}"]
 
 
 def _clear(cases: Iterable[Case]) -> None:
@@ -292,14 +302,8 @@ class _Sweep:
         self._keep([case])
 
     def _keep(self, cases: Sequence[Case]) -> None:
-        """Adds rows to the file that the study keeps. If it cannot be read or written, the cases run all the same."""
-        try:
-            for text in self.choice.keep(cases):
-                self.board.line(text)
-        except (LockError, StudyError) as error:
-            self.board.line(f"{error}; the rows of the runs are not written")
-        except OSError as error:
-            self.board.line(f"{self.choice.plan.keep} cannot be written: {error.strerror or error}")
+        for text in _kept(self.choice, cases):
+            self.board.line(text)
 
     def _tabulate(self) -> None:
         """Writes the table of a sample. If it cannot be written, the cases run all the same."""
