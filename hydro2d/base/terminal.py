@@ -14,8 +14,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-from hydro2d.base.formats import cell as cell
-from hydro2d.base.formats import of_cell as of_cell
 from hydro2d.base.formats import shown
 
 #: width without a terminal: a file or another program gets every line whole

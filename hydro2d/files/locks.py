@@ -62,8 +62,10 @@ def _take_lock(file: TextIO) -> bool:
 
 
 @contextmanager
-def locked(path: Path) -> Iterator[None]:
+def locked(path: Path, patience: float = 0.1) -> Iterator[None]:
     """Holds a lock file, which names its holder.
+
+    patience : how long to wait for another process, s; the default is enough for one that only looks whether the lock is held
 
     On one machine, the lock belongs to the operating system (flock). It ends with the process, however that ends, and a reused
     process number cannot imitate it. Between machines, the contents of the file count; it is removed at the end. While the lock
@@ -71,19 +73,18 @@ def locked(path: Path) -> Iterator[None]:
 
     Raises LockError if another process holds the lock.
     """
-    path, tries = Path(path), 5
+    path, end = Path(path), time.monotonic() + patience
     while True:
         with opened(path, "a+", errors="replace") as file:
             free = _take_lock(file)
             if free and not _is_at(file, path):
                 continue  # its former holder has removed it in the meantime
-            if not free and tries:  # this may be a process that only checks whether the lock is held
-                tries -= 1
-                time.sleep(0.02)
-                continue
             file.seek(0)
             by = _said(file.read(MOST_SAID))
             if not free or (by is not None and not by.is_here):
+                if time.monotonic() < end:
+                    time.sleep(0.02)
+                    continue
                 who = by or "another process"
                 raise LockError(f"{path.parent} is in use by {who}; if that process no longer exists, remove {path}")
             file.truncate(0)

@@ -114,7 +114,7 @@ def test_nothing_to_show(tmp_path, capsys):
 
 def test_another_table_is_no_file_of_rows(capsys):
     assert rigid_rod.main([str(source.PROBLEMS / "cth_nose_shape" / "experiments.csv")]) == 2
-    assert "experiments.csv: holds no rows of a study: it has no column " in capsys.readouterr().err
+    assert 'experiments.csv:1: has no column "cells_across"; correct it, or' in capsys.readouterr().err
 
 
 def test_later_rows_replace_earlier_ones_and_old_ones_are_reported(study, tmp_path, capsys):

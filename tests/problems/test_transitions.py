@@ -63,4 +63,4 @@ def test_a_file_of_something_else_is_refused(tmp_path, capsys):
     file = tmp_path / "other.csv"
     file.write_text("a,b\n1,2\n")
     assert transitions.main([str(file)]) == 2
-    assert "holds no rows of a study" in capsys.readouterr().err
+    assert 'other.csv:1: has no column "cells_across"' in capsys.readouterr().err

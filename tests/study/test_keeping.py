@@ -1,6 +1,7 @@
 """Rows that a study keeps: which runs are up to date or stale, and the note on a table that mixes versions."""
 
 import csv
+import multiprocessing
 from dataclasses import replace
 
 import pytest
@@ -141,14 +142,14 @@ def test_a_parameter_that_is_later_than_kept_rows_does_not_count_until_it_is_use
 
 def test_a_file_of_something_else_is_refused(study):
     study.keep.write_text("a,b\n1,2\n")
-    with pytest.raises(StudyError, match="holds no rows of a study"):
+    with pytest.raises(StudyError, match=r'rows\.csv:1: has no column "cells_across"; correct it, or'):
         Choice(study)
 
 
 def test_rows_of_another_study_are_refused(study, tmp_path):
     Choice(study).keep(ended(study, tmp_path / "out"))
     study.keep.write_text(study.keep.read_text().replace("speed,", "velocity,", 1))
-    with pytest.raises(StudyError, match="is of another study: it has no column speed"):
+    with pytest.raises(StudyError, match=r'rows\.csv:1: has no column "speed"'):
         Choice(study)
 
 
@@ -185,6 +186,54 @@ values = ["Al5083", "Al7039"]
     assert not transition.choice_of(search(5)).complete
     file.with_name("rows.csv").write_text(choice.plan.keep.read_text().replace(keeping.METHOD, "2020-01-01"))
     assert not transition.choice_of(search(4)).complete
+
+
+def _keep_alone(study, mine, start):
+    """Keeps the rows of runs one after another, each at the moment at which another process does."""
+    for case in mine:
+        keeper = keeping.Keeper(study)
+        start.wait(60)
+        keeper.add([case])
+
+
+def test_two_processes_that_keep_into_one_file_lose_no_row(tmp_path):
+    """16 rows, 8 by each, two at a time."""
+    study = plan(tmp_path, size=Size(members=8))
+    runs, context = ended(study, tmp_path / "out"), multiprocessing.get_context("fork")
+    start = context.Barrier(2)
+    processes = [context.Process(target=_keep_alone, args=(study, runs[half::2], start)) for half in (0, 1)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join(60)
+    assert [process.exitcode for process in processes] == [0, 0]
+    assert len(rows(study)) == 16
+    assert Choice(study).complete
+    assert [file.name for file in tmp_path.glob(".*")] == [], "no lock is left"
+
+
+def test_a_file_that_is_damaged_under_way_stays_as_it_is(study, tmp_path):
+    """The rows that could not be written follow with the next ones."""
+    first, *others = ended(study, tmp_path / "out")
+    choice = Choice(study)
+    choice.keep([first])
+    text = study.keep.read_text()
+    study.keep.write_text(f"<<<<<<< HEAD\n{text}")
+    with pytest.raises(StudyError, match=r"rows\.csv:1: has a mark of git"):
+        choice.keep(others[:2])
+    assert study.keep.read_text() == f"<<<<<<< HEAD\n{text}"
+    study.keep.write_text(text)
+    choice.keep(others[2:])
+    assert len(rows(study)) == 4
+
+
+def test_a_row_with_a_renamed_label_gets_that_of_the_study(study, tmp_path):
+    Choice(study).keep(ended(study, tmp_path / "out"))
+    text = study.keep.read_text()
+    study.keep.write_text(text.replace("1086 m/s", "1.086 km/s", 1))
+    (said,) = Choice(study).keep([])
+    assert said.endswith('rows.csv:2: column "speed": "1.086 km/s" is corrected: its set-up has "1086 m/s"')
+    assert study.keep.read_text() == text
 
 
 def test_a_table_says_that_it_mixes_versions():

@@ -238,13 +238,17 @@ def test_a_table(tmp_path):
     ("body.rod.velocity [m/s]\tbody.rod.material\n1086\tW_alloy\n", "x.csv: the cells are separated by tabs"),
     ("body.rod.velocity.x.y\n1\n", 'x.csv: column "body.rod.velocity.x.y": no deck has the key body.rod.velocity.x.y: '
      "body[0].velocity is a value and has no key x"),
-    ('body.rod.velocity [m/s]\n"1\n', "x.csv: is not a table with commas: unexpected end of data"),
+    ('body.rod.velocity [m/s]\n"1\n', "x.csv:2: is not a table with commas: unexpected end of data"),
     ("body.rod.velcity [m/s]\n1086\n", 'x.csv: column "body.rod.velcity [m/s]": no deck has the key body.rod.velcity: body[0]: '
      'unknown key "velcity"; did you mean "velocity"?'),
     ("body.rod.velocity [kg]\n1086\n", 'x.csv: row 1, column "body.rod.velocity [kg]": body[0].velocity: "1086 kg" is a mass; '
      "expected a velocity"),
     ("body.rod.velocity [m/s],body.rod.strength_factor\n1086,1\n1090,-1\n", 'x.csv: row 2, column "body.rod.strength_factor": '
      "body[0].strength_factor: must be positive, is -1"),
+    ("body.rod.strength_factor\n<<<<<<< HEAD\n1\n=======\n1.1\n>>>>>>> a\n", "x.csv:2: has a mark of git between two versions"),
+    ("body.rod.strength_factor\nnan\n", 'x.csv: row 1, column "body.rod.strength_factor": '),
+    ("body.rod.velocity [m/s]\nnan\n", 'x.csv: row 1, column "body.rod.velocity [m/s]": "nan" is not a number; '),
+    ('body.rod.velocity [m/s]\n"1,086"\n', 'x.csv: row 1, column "body.rod.velocity [m/s]": "1,086" is not a number; '),
     ("body.rod.velocity\n1086\n", 'x.csv: row 1, column "body.rod.velocity": body[0].velocity: 1086 has no unit'),
 ])  # fmt: skip
 def test_a_wrong_table_is_refused_before_the_first_run(tmp_path, table, said):

@@ -236,7 +236,8 @@ def test_samples_from_kept_rows(tmp_path):
     assert samples.values("depth_m") == pytest.approx(whole.values("depth_m")[there], rel=1e-5), "kept with six digits"
     assert samples.values("regime = eroding").tolist() == whole.values("regime = eroding")[there].tolist()
     (tmp_path / "kept.csv").write_text((tmp_path / "kept.csv").read_text().replace("strength_factor", "factor"))
-    with pytest.raises(hydro2d.StudyError, match=r"kept\.csv: a row has no body\.rod\.strength_factor: it is of another study"):
+    said = r'kept\.csv:1: has no column "body\.rod\.strength_factor" \(perhaps "body\.rod\.factor" is meant\); correct it, or'
+    with pytest.raises(hydro2d.StudyError, match=said):
         hydro2d.kept_samples(study)
     study.write_text(STUDY)
     with pytest.raises(hydro2d.StudyError, match="has no keep"):
@@ -319,7 +320,7 @@ def test_a_damaged_table(whole, tmp_path):
         results.of_study(study_directory.read(tmp_path / "out"))
     text = (whole / sample_table.FILE).read_text()
     for spoiled, wrong in ((text.rsplit("\n", 2)[0] + "\n", "has 13 rows, and there are 14 runs"),
-                           ("row\n1,2\n", "is not a table of a sample")):  # fmt: skip
+                           ("row\n1,2\n", r'csv:1: has no column "body\.rod\.velocity \[m/s\]"; remove the file')):  # fmt: skip
         (tmp_path / "out" / sample_table.FILE).write_text(spoiled)
         with pytest.raises(StudyError, match=wrong):
             results.of_study(study_directory.read(tmp_path / "out"))

@@ -78,8 +78,20 @@ class Distribution:
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Distribution:
-        """The inverse of `data`."""
-        return cls(**{name: tuple(value) if isinstance(value, list) else value for name, value in data.items()})
+        """The inverse of `data`. Raises TypeError, ValueError, LookupError or ArithmeticError for what no distribution has."""
+        made = cls(**{name: tuple(value) if isinstance(value, list) else value for name, value in data.items()})
+        numbers = (*made.numbers, *made.weights, *made.column, *(made.within or ()))
+        if not all(isinstance(text, str) for text in (made.key, made.kind, made.unit, made.relative, *made.levels)):
+            raise TypeError(f"an input has something else than text: {made}")
+        with np.errstate(divide="raise", invalid="raise"):
+            count = len(made.points(made.levels or made.numbers[:1] or made.column[:1]))
+        if not (all(map(_is_finite, numbers)) and count and made.words):
+            raise ValueError(f"an input has no such numbers: {made}")
+        return made
+
+    def has(self, value: Any) -> bool:
+        """Whether it can have a value, a number in its unit or a label."""
+        return value in self.levels if self.kind == CHOICE else _is_finite(value)
 
     @classmethod
     def of_input(cls, key: str, given: Input) -> Distribution:
@@ -174,6 +186,10 @@ class Distribution:
         """The different numbers of a column and their cumulative probabilities."""
         numbers, first, counts = np.unique(self.column, return_index=True, return_counts=True)
         return numbers, (first + 0.5 * counts) / len(self.column)
+
+
+def _is_finite(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def label(value: Any) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,8 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from hydro2d.base import units
-from hydro2d.files import toml
-from hydro2d.files.whole import read_text
+from hydro2d.files import csv_tables, toml
 from hydro2d.study.plan import relating
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution, label
@@ -23,9 +20,6 @@ from hydro2d.study.plan.sample_section import MOST, Sample
 AXIS, NAME = "row", "row{}"
 #: a head with a unit; the index of an entry is a part of its key
 _HEAD = re.compile(r"(.*?\S)\s*\[(?!\d+\])([^\[\]]*)\]")
-
-#: marks between cells that a table must not have, as spreadsheets write them where numbers have commas
-_OTHER_MARKS = {";": "semicolons", "\t": "tabs"}
 
 
 @dataclass(frozen=True)
@@ -63,9 +57,13 @@ class Points:
 
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Points:
-        """The inverse of `data`; without the texts, which only a plan needs."""
-        return cls(tuple(map(Distribution.of_data, data["inputs"])), tuple(map(tuple, data["rows"])), (), data["method"],
-                   data["seed"], data["table"], tuple(data["results"]))  # fmt: skip
+        """The inverse of `data`; without the texts, which only a plan needs. Raises ValueError for a value that no row has."""
+        inputs, rows = tuple(map(Distribution.of_data, data["inputs"])), tuple(map(tuple, data["rows"]))
+        for number, row in enumerate(rows, 1):
+            for each, value in zip(inputs, row, strict=True):
+                if not each.has(value):
+                    raise ValueError(f"row {number} of the sample has {value!r} as {each.head}")
+        return cls(inputs, rows, (), data["method"], data["seed"], data["table"], tuple(map(str, data["results"])))
 
     def data(self) -> dict[str, Any]:
         """The contents as plain data, for JSON."""
@@ -130,7 +128,7 @@ def read(file: Path, results: tuple[str, ...] = ()) -> Points:
     inputs = tuple(Distribution.of_column(key, unit, column) for (key, unit), column in zip(keys, columns, strict=True))
     values = [[label(value) for value in column] if each.kind == CHOICE else list(map(float, column))
               for each, column in zip(inputs, columns, strict=True)]  # fmt: skip
-    texts = [[f"{cell.strip()} {unit}" if unit else _value(cell) for cell in column]
+    texts = [[f"{cell} {unit}" if unit else _value(cell) for cell in column]
              for (_, unit), column in zip(keys, zip(*rows, strict=True), strict=True)]  # fmt: skip
     return Points(inputs, tuple(zip(*values, strict=True)), tuple(zip(*texts, strict=True)), "table", table=file.name,
                   results=results)  # fmt: skip
@@ -143,20 +141,12 @@ def place(file: Path, row: int, head: str) -> str:
 
 def _cells(file: Path) -> tuple[list[str], list[list[str]]]:
     """Heads and rows of a table. Raises StudyError."""
-    text = read_text(file, StudyError).removeprefix("\ufeff")
-    try:
-        lines = list(csv.reader(io.StringIO(text), strict=True))
-    except csv.Error as error:
-        raise StudyError(f"{file}: is not a table with commas: {error}") from None
-    while lines and not lines[-1]:
-        lines.pop()
+    lines = [cells for _, cells in csv_tables.lines(file, StudyError)]
     if len(lines) < 2:
         raise StudyError(f"{file}: needs a line of heads and at least one row")
-    if len(lines[0]) == 1 and (other := next((mark for mark in _OTHER_MARKS if mark in lines[0][0]), "")):
-        raise StudyError(f"{file}: the cells are separated by {_OTHER_MARKS[other]}; write commas, and points in numbers")
     if len(lines) - 1 > MOST:
         raise StudyError(f"{file}: has {len(lines) - 1} rows; at most {MOST} are allowed")
-    return [head.strip() for head in lines[0]], lines[1:]
+    return lines[0], lines[1:]
 
 
 def _head(head: str) -> tuple[str, str]:
@@ -184,18 +174,18 @@ def _bad_head(file: Path, number: int, heads: list[str], key: str, unit: str, ke
 
 def _bad_cell(cell: str, unit: str) -> str | None:
     """The mistake in a cell, if there is one."""
-    if not cell.strip():
+    if not cell:
         return "is empty"
     try:
         if unit:
-            units.to_si(cell.strip(), "1")
+            units.to_si(cell, "1")
         elif (known := units.of_kinds(cell, units.KINDS)[1]) != "1":
-            return f'"{cell.strip()}" has a unit; the head has the unit of a column, in brackets, such as [{known}]'
+            return f'"{cell}" has a unit; the head has the unit of a column, in brackets, such as [{known}]'
     except ValueError:
-        return f'"{cell.strip()}" is not a number; the unit of the column is {unit}' if unit else None
+        return f'"{cell}" is not a number; the unit of the column is {unit}' if unit else None
     return None
 
 
 def _value(cell: str) -> Any:
     """The value of a cell: a number, true or false, else text."""
-    return toml.assignment(f"cell={cell.strip()}")[1]
+    return toml.assignment(f"cell={cell}")[1]

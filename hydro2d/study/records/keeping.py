@@ -12,20 +12,28 @@ import csv
 import hashlib
 import io
 import json
+import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from hydro2d.base.formats import cell
 from hydro2d.base.method_version import METHOD
-from hydro2d.base.terminal import cell, of_cell, several
+from hydro2d.base.terminal import several
 from hydro2d.deck import deck as decks
+from hydro2d.files import csv_tables
+from hydro2d.files.csv_tables import Column, flag, like, number, one_of, whole
+from hydro2d.files.locks import locked
 from hydro2d.files.whole import read_text, write_text
 from hydro2d.measure.outcome import Outcome
+from hydro2d.measure.regime import REGIMES
+from hydro2d.measure.result import is_number
 from hydro2d.output.directory import DECK
-from hydro2d.study.plan import sampling
+from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.plan.members import cells_across, projectile
 from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.records import study_directory
@@ -44,6 +52,26 @@ CELLS, MEMBER, SETUP, OF_METHOD = "cells_across", "member", "setup", "method"
 RESULTS = ("status", "stop_reason", "trustworthy", "depth_m", "length_ratio", "radius_ratio", "mass_ratio", "tail_velocity_m_s",
            "residual_velocity_m_s", "regime", "hole_m3", "energy_dropped", "time_s", "cycles", "wall_s")  # fmt: skip
 ORIGIN = (SETUP, OF_METHOD, "commit", "date")
+#: results that depend on the machine
+OF_MACHINE = ("wall_s",)
+#: the regime of rows that were kept before the length of a rod told the two apart
+UNDECIDED = "rigid or deforming"
+#: the columns of results, and of every file of kept rows but for the labels of the cases
+_WORDS = {"status": Column("status", one_of(*ENDED), empty=False), "stop_reason": Column("stop_reason"),
+          "trustworthy": Column("trustworthy", flag), "regime": Column("regime", one_of(*REGIMES, UNDECIDED))}  # fmt: skip
+OF_RESULTS = tuple(_WORDS.get(name) or Column(name, number) for name in RESULTS)
+COLUMNS = (
+    Column(CELLS, number), Column(MEMBER, whole, empty=False), *OF_RESULTS,
+    Column(SETUP, like(rf"[0-9a-f]{{{LETTERS}}}", f"a hash of {LETTERS} digits from 0 to f")),
+    Column(OF_METHOD, like(r"\d{4}-\d\d-\d\d(\.\d+)?", "a version, such as 2026-01-31")),
+    Column("commit"), Column("date", like(r"\d{4}-\d\d-\d\d", "a date as 2026-01-31")),
+)  # fmt: skip
+#: the check of a velocity of a search
+OF_SPEED = like(r"-?\d+(\.\d+)?(e[+-]?\d+)? m/s", "a velocity in m/s")
+#: what to do about a file that is not as a sweep wrote it
+REMEDY = "correct it, or bring back the file as a sweep of this study wrote it"
+#: how long a sweep waits for another one that writes into the file, s
+PATIENCE = 60.0
 
 #: parameters of materials that are later than the first kept rows, with the values at which they change nothing
 LATER = {"hugoniot_slope_2": 0.0, "hugoniot_slope_3": 0.0}
@@ -51,7 +79,7 @@ LATER = {"hugoniot_slope_2": 0.0, "hugoniot_slope_3": 0.0}
 Row = dict[str, str]
 
 
-class KeptRow(Row):
+class KeptRow(csv_tables.Row):
     """A run of a study in a few numbers: a row of a file of kept rows, the text of each column by its name.
 
     The columns are those of a file that a study keeps: the labels of the case on the axes, ``cells_across`` the projectile,
@@ -112,7 +140,7 @@ class Wanted:
         """The columns that identify the run."""
         radius = projectile(self.deck)[1]
         cells = "" if radius is None else f"{cells_across(self.deck, radius):.4g}"
-        return {**{name: self.case.values[name] for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
+        return {**{name: self.case.values[name].strip() for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
 
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
@@ -122,7 +150,7 @@ class Wanted:
         entries = {**results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
                    "date": (origin.get("written") or "")[:10]}  # fmt: skip
         numbers = flatten(summary) if self.more else {}
-        entries |= {name: numbers.get(name) for name in self.more}
+        entries |= {name: value if is_number(value := numbers.get(name)) else None for name in self.more if name not in entries}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 
@@ -138,7 +166,7 @@ def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
 def results(summary: Mapping) -> dict[str, object]:
     """The results of a summary by the names of RESULTS, SI; None for those that it does not have."""
     outcome = summary.get("outcome") or {}
-    values = {name: summary.get(name) for name in ("status", "stop_reason", "trustworthy", "regime", "time_s", "cycles", "wall_s")}
+    values = {name: summary.get(name) for name in RESULTS}
     values |= {name: outcome.get(name) for name in Outcome.model_fields}
     values |= {"tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
                "hole_m3": (summary.get("crater") or {}).get("volume_m3")}  # fmt: skip
@@ -171,15 +199,43 @@ def kept_rows(path: str | Path) -> list[KeptRow]:
     return read(path) if path.is_file() else _of_directory(path)
 
 
-def read(path: Path) -> list[KeptRow]:
-    """The rows of a file; none if there is no such file. Raises StudyError."""
+def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = None) -> list[KeptRow]:
+    """The rows of a file, each run once; none if there is no such file.
+
+    own : further columns that the study has;  labels : names of its axes; None: all columns but those of every file
+
+    Raises StudyError for a cell that no run can have, and for two rows of a run, or of a set-up, with different results.
+    """
     if not path.exists():
         return []
-    lines = csv.DictReader(read_text(path, StudyError).splitlines(), restval="")
-    rows = list(lines)
-    if rows and (missing := {*ORIGIN, *RESULTS, CELLS, MEMBER} - set(rows[0])):
-        raise StudyError(f"{path}: holds no rows of a study: it has no column {', '.join(sorted(missing))}")
-    return [KeptRow({name: of_cell(row[name]) for name in lines.fieldnames or ()}) for row in rows]
+    common = {column.name for column in COLUMNS}
+    columns = (*COLUMNS, *(column for column in own if column.name not in common))
+    kept: dict[tuple, KeptRow] = {}
+    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=Column, of=KeptRow):
+        run = tuple(row.labels.items() if labels is None else (row[name] for name in labels)), row[CELLS], row[MEMBER]
+        of_setup = (row[SETUP], row[OF_METHOD]) if row[SETUP] else run
+        for same, what in ((run, "run"), (of_setup, "set-up")):
+            other = kept.setdefault((what, *same), row)
+            if name := next((name for name in (SETUP, OF_METHOD, *RESULTS)
+                             if row[name] != other[name] and name not in OF_MACHINE), ""):  # fmt: skip
+                here, there = row[name], f'line {other.line} has "{other[name]}" for the same {what}'
+                raise StudyError(f'{path}:{row.line}: column "{name}": "{here}", and {there}; remove the line that is wrong')
+    return [row for (what, *_), row in kept.items() if what == "run"]
+
+
+def input_column(each: Distribution, stale: bool = False) -> Column:
+    """The column of an input; stale : whether the table may have rows of older set-ups, without it or with other words."""
+    words = each.kind == CHOICE
+    check = (str if stale else one_of(*each.levels)) if words else number
+    return Column(each.head, check, required=not stale, empty=stale)
+
+
+def differ(one: str, other: str) -> bool:
+    """Whether two cells differ by more than the digits that a row or a spreadsheet leaves of a number."""
+    try:
+        return not math.isclose(float(one), float(other), rel_tol=1e-5, abs_tol=0.0)
+    except ValueError:
+        return one != other
 
 
 def _of_directory(directory: Path) -> list[KeptRow]:
@@ -222,13 +278,17 @@ class Keeper:
             raise StudyError(f'{plan.name}: the file of kept rows has a column "{taken[0]}" of its own; give that axis another '
                              "name")
         self.order = {axis["name"]: {label: n for n, label in enumerate(axis["values"])} for axis in plan.axes}
-        self.rows = read(self.path)
-        if self.rows and (strange := [name for name in self.axes if name not in self.rows[0]]):
-            raise StudyError(f"{self.path}: is of another study: it has no column {strange[0]}")
-        self.heads = tuple(each.head for each in plan.sample.inputs) if plan.sample else ()
+        inputs = plan.sample.inputs if plan.sample else ()
+        self.heads = tuple(each.head for each in inputs)
         self.more = plan.sample.results if plan.sample else ()
         self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan.sample, case), self.more)
                        for case in plan.cases if case.text}  # fmt: skip
+        checks = {velocities.AXIS: OF_SPEED} if plan.search else {sampling.AXIS: whole} if plan.sample else {}
+        labels = (Column(axis, checks.get(axis, str), empty=axis not in checks) for axis in self.axes)
+        self.columns = (*labels, *(input_column(each, stale=True) for each in inputs),
+                        *(Column(name, number, required=False) for name in self.more))  # fmt: skip
+        self.made: dict[tuple[str, ...], Row] = {}
+        self._read()
 
     def fresh(self, names: Iterable[str]) -> set[str]:
         """Those of the cases of the plan that are up to date."""
@@ -267,17 +327,59 @@ class Keeper:
     def _identity(self, row: Row) -> tuple[str, ...]:
         return *(row[name] for name in self.axes), row[CELLS], row[MEMBER]
 
-    def add(self, cases: Iterable[Case], planned: Iterable[Planned] = ()) -> None:
-        """Writes the rows of those cases that have ended; planned : cases that the plan did not have. Raises OSError."""
+    def add(self, cases: Iterable[Case], planned: Iterable[Planned] = ()) -> list[str]:
+        """Writes the rows of those cases that have ended; planned : cases that the plan did not have.
+
+        Rows that another process writes at the same time are kept. Returns what was wrong in the rows of these runs and of
+        their set-ups, in words. Raises OSError, LockError, and StudyError if the file can no longer be read.
+        """
         self.wanted |= {case.name: Wanted(case, self.axes) for case in planned if case.text and case.name not in self.wanted}
-        new = [self.wanted[case.name].row(case) for case in cases if case.status in ENDED and case.name in self.wanted]
-        new = [row for row in new if row[OF_METHOD] == METHOD and row not in self.rows]
-        if not new:
-            return
-        self.rows = read(self.path)  # another sweep may have added some
-        kept = {self._identity(row): row for row in (*self.rows, *new)}
-        self.rows = sorted(kept.values(), key=self._place)
+        rows = {case.name: self.wanted[case.name].row(case) for case in cases
+                if case.status in ENDED and case.name in self.wanted}  # fmt: skip
+        self.made |= {self._identity(row): row for row in rows.values() if row[OF_METHOD] == METHOD}
+        if not self.wrong and not self._unwritten():
+            return []
         self.path.parent.mkdir(exist_ok=True)
+        with locked(self.path.with_name(f".{self.path.name}.lock"), PATIENCE):
+            self._read()
+            said = [*self.wrong, *self._unwritten()]
+            self.rows = sorted(({self._identity(row): row for row in self.rows} | self.made).values(), key=self._place)
+            self._write()
+        self.wrong = []
+        return [words for words in said if words]
+
+    def _unwritten(self) -> list[str]:
+        """An entry for each row of a run that the file does not have: what its row says instead, or "" if nothing is wrong."""
+        known, found = {self._identity(row): row for row in self.rows}, []
+        for identity, row in self.made.items():
+            other = known.get(identity)
+            if other is None or any(other.get(name, "") != text for name, text in row.items()):
+                found.append("" if other is None or other[SETUP] != row[SETUP] or other[OF_METHOD] != METHOD
+                             else self._corrected(other, row, "its run"))  # fmt: skip
+        return found
+
+    def _corrected(self, row: KeptRow, right: Row, source: str) -> str:
+        """What is wrong in a row, in words; empty if only digits or the machine differ. ``source`` : of the right entries."""
+        for name, text in right.items():
+            if name not in (*OF_MACHINE, "commit", "date") and differ(row.get(name, ""), text):
+                return f'{self.path}:{row.line}: column "{name}": "{row.get(name, "")}" is corrected: {source} has "{text}"'
+        return ""
+
+    def _read(self) -> None:
+        """Reads the file. Rows of the set-ups of the plan get the labels and inputs of their cases. Raises StudyError."""
+        self.rows = read(self.path, self.columns, self.axes)
+        mine: dict[str, list[Row]] = {}
+        if any(row[OF_METHOD] == METHOD for row in self.rows):
+            for wanted in self.wanted.values():
+                mine.setdefault(wanted.setup, []).append(wanted.about | wanted.inputs)
+        self.wrong = []
+        for row in self.rows:
+            of_setup = mine.get(row[SETUP])
+            if of_setup and not any(right.items() <= row.items() for right in of_setup):
+                self.wrong.append(self._corrected(row, of_setup[0], "its set-up"))
+                row.update(of_setup[0])
+
+    def _write(self) -> None:
         text = io.StringIO()
         heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN))
         table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import math
 import os
 import tomllib
 from collections.abc import Sequence
@@ -22,6 +23,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from hydro2d.base.errors import nearest
+from hydro2d.base.terminal import one_line
 from hydro2d.base.version import __version__
 from hydro2d.files import checksums
 from hydro2d.files.locks import holder
@@ -31,6 +33,7 @@ from hydro2d.output import snapshot
 from hydro2d.output.directory import DECK, STUDY, SUMMARY, deck_hash
 from hydro2d.output.directory import LOCK as RUN_LOCK
 from hydro2d.results.summaries import progress_of, summary_of, table_of
+from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.sampling import Points
@@ -235,8 +238,9 @@ def read(directory: Path | str) -> Study:
     data = table_of(directory / STUDY, StudyError)
     try:
         study = _study(directory, data)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise StudyError(f"{directory / STUDY} is not a valid study file: {error!r}") from None
+        _check(study)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        raise StudyError(f"{directory / STUDY} is not a valid study file: {one_line(repr(error))}") from None
     if not study.cases:
         raise StudyError(f"{directory / STUDY}: the study has no cases")
     return study
@@ -257,11 +261,32 @@ def _study(directory: Path, data: dict) -> Study:
     return Study(directory, data.get("title") or data["name"], data["name"], axes, cases, entries, search, sample)
 
 
+def _check(study: Study) -> None:
+    """Raises ValueError or KeyError if entries of study.json contradict one another, as a sweep does not write them."""
+    names = (study.title, study.name, *(name for axis in study.axes for name in (axis.name, axis.key or "")))
+    if not all(isinstance(name, str) for name in names):
+        raise ValueError("a title, a name or a key is not text")
+    for case in study.cases:
+        for axis in study.axes:
+            if case.values[axis.name] not in axis.values:
+                raise ValueError(f"{case.name} has {case.values[axis.name]!r} on the axis {axis.name}")
+        if study.sample and not 1 <= int(case.values[study.axes[-1].name]) <= len(study.sample.rows):
+            raise ValueError(f"{case.name} is of no row of the sample")
+    if len({case.name for case in study.cases}) < len(study.cases):
+        raise ValueError("two cases have one name")
+
+
 def _interval(stored: dict) -> Interval:
-    """The search in study.json; one of an earlier version has neither depth nor budget."""
-    budget = stored.get("budget")
-    return Interval(stored["key"], tuple(stored["speeds_m_s"]), stored["tolerance_m_s"], stored.get("of", "regime"),
-                    stored.get("depth_m"), velocities.Budget(**budget) if budget else None)  # fmt: skip
+    """The search in study.json; one of an earlier version has neither depth nor budget. Raises ValueError."""
+    budget = stored.get("budget") or {}
+    search = Interval(stored["key"], tuple(stored["speeds_m_s"]), stored["tolerance_m_s"], stored.get("of", "regime"),
+                      stored.get("depth_m"), velocities.Budget(**budget) if budget else None)  # fmt: skip
+    numbers = (*search.speeds, search.tolerance, search.depth or 0.0, *budget.values())
+    if not all(isinstance(number, (int, float)) and math.isfinite(number) for number in numbers) or search.tolerance <= 0.0:
+        raise ValueError("the search has something else than numbers")
+    if search.of not in BY_NAME or not isinstance(search.key, str):
+        raise ValueError(f"the search is for {search.of!r} over {search.key!r}")
+    return search
 
 
 def gather(directories: Sequence[Path | str]) -> Study:

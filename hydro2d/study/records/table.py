@@ -7,7 +7,7 @@ import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from hydro2d.base.terminal import cell
+from hydro2d.base.formats import cell
 from hydro2d.measure.outcome import ratio
 from hydro2d.measure.result import unit
 from hydro2d.study.records.experiments import Measurement

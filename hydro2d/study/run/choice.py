@@ -70,10 +70,9 @@ class Choice:
         """The number of cases up to date in the rows that the study keeps, in words; empty if it keeps none."""
         return "" if self.keeper is None else self.keeper.in_words([*self.fresh, *(case.name for case in self.selected)])
 
-    def keep(self, cases: Iterable[Case]) -> None:
-        """Adds the ended ones to the rows that the study keeps. Raises OSError."""
-        if self.keeper is not None:
-            self.keeper.add(cases, self.plan.cases)
+    def keep(self, cases: Iterable[Case]) -> list[str]:
+        """Adds the ended ones to the rows that the study keeps. Returns and raises what `Keeper.add` does."""
+        return [] if self.keeper is None else self.keeper.add(cases, self.plan.cases)
 
     def tabulate(self, study: Study, cases: Sequence[Case]) -> None:
         """Writes the table of a sample into the directory of its study; nothing for other studies. Raises OSError."""

@@ -22,7 +22,7 @@ from hydro2d.base.interrupt import Interrupt, signals, status
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
-from hydro2d.files.locks import locked
+from hydro2d.files.locks import LockError, locked
 from hydro2d.files.whole import write_json
 from hydro2d.jit import compilation
 from hydro2d.output.directory import SUMMARY, clear
@@ -118,8 +118,9 @@ def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, t
     Raises StudyError, LockError (another sweep uses the directory).
     """
     if choice.complete:
-        if not quiet:
-            say(f"{choice.plan.name}: nothing to run; {choice.kept()}")
+        corrected = _kept(choice, study_directory.of_plan(choice.compared(directory), directory).cases)
+        for text in () if quiet else (f"{choice.plan.name}: nothing to run; {choice.kept()}", *corrected):
+            say(text)
         _from_kept(choice, directory)
         return ALL_DONE
     notices, interrupt = changes(choice.compared(directory), directory, resume=resume, overwrite=overwrite), Interrupt()
@@ -152,6 +153,16 @@ def _sweep(choice: Choice, study: Study, notices: list[str], connect: AbstractCo
         with connect as client:
             spent = _Sweep(choice, client, board, threads, overwrite).run(interrupt)
         return _end(board, interrupt, time.perf_counter() - started, spent, choice.plan.again)
+
+
+def _kept(choice: Choice, cases: Sequence[Case]) -> list[str]:
+    """Adds rows to the file that the study keeps. Returns what there is to say; without the file the cases run all the same."""
+    try:
+        return choice.keep(cases)
+    except (LockError, StudyError) as error:
+        return [f"{error}; the rows of the runs are not written"]
+    except OSError as error:
+        return [f"{choice.plan.keep} cannot be written: {error.strerror or error}"]
 
 
 def _clear(cases: Iterable[Case]) -> None:
@@ -291,11 +302,8 @@ class _Sweep:
         self._keep([case])
 
     def _keep(self, cases: Sequence[Case]) -> None:
-        """Adds rows to the file that the study keeps. If it cannot be written, the cases run all the same."""
-        try:
-            self.choice.keep(cases)
-        except OSError as error:
-            self.board.line(f"{self.choice.plan.keep} cannot be written: {error.strerror or error}")
+        for text in _kept(self.choice, cases):
+            self.board.line(text)
 
     def _tabulate(self) -> None:
         """Writes the table of a sample. If it cannot be written, the cases run all the same."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hydro2d.deck import deck as decks
+from hydro2d.files.csv_tables import Column, number, whole
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError, read
 from hydro2d.study.plan.distributions import Distribution
@@ -30,12 +31,11 @@ def kept_samples(study: str | Path) -> list[Samples]:
     inputs = _inputs(definition.sample, study.parent)
     axes = tuple(axis.name for axis in definition.axis)
     file = study.parent / definition.keep
-    groups: dict[tuple[str, ...], list[keeping.Row]] = {}
-    for row in keeping.read(file):
-        lacking = next((name for name in (*axes, sampling.AXIS, *(each.head for each in inputs)) if not row.get(name)), None)
-        if lacking:
-            raise StudyError(f"{file}: a row has no {lacking}: it is of another study, or of an older version of this one; "
-                             "run its study again to write it anew")  # fmt: skip
+    more = (Column(name, number, required=False) for name in definition.sample.results)
+    columns = (*(Column(name, empty=False) for name in axes), Column(sampling.AXIS, whole, empty=False),
+               *map(keeping.input_column, inputs), *more)  # fmt: skip
+    groups: dict[tuple[str, ...], list[keeping.KeptRow]] = {}
+    for row in keeping.read(file, columns, (*axes, sampling.AXIS)):
         groups.setdefault(tuple(row[name] for name in (*axes, CELLS)), []).append(row)
     if not groups:
         raise StudyError(f"{file}: has no rows yet")
@@ -52,7 +52,7 @@ def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
         raise StudyError(f"sample.input: {error}") from None
 
 
-def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str], rows: list[keeping.Row],
+def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str], rows: list[keeping.KeptRow],
              wanted: tuple[str, ...]) -> Samples:  # fmt: skip
     rows = sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER])))
     table = [{sampling.AXIS: row[sampling.AXIS], MEMBER: row[MEMBER], **{each.head: row[each.head] for each in inputs},

@@ -83,9 +83,10 @@ class Samples:
 
     def __init__(self, title: str, inputs: Sequence[Distribution], columns: Mapping[str, np.ndarray],
                  study: Study | None = None, names: Sequence[str] = (), wanted: Sequence[str] = (),
-                 labels: Mapping[str, str] | None = None):  # fmt: skip
+                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = ()):  # fmt: skip
         self.title, self.inputs, self.columns, self.wanted = title, tuple(inputs), dict(columns), tuple(wanted)
         self._study, self._names, self.labels = study, tuple(names), dict(labels or {})
+        self._wrong = wrong
 
     def __len__(self) -> int:
         return len(self.columns[sampling.AXIS])
@@ -129,8 +130,11 @@ class Samples:
 
     @property
     def doubts(self) -> list[str]:
-        """Messages about runs that are done but are not trusted, or were cut off before the projectile was seen to rest."""
-        doubts, count = [], int(self.ended.sum())
+        """Messages about runs that are done but are not trusted, or were cut off before the projectile was seen to rest.
+
+        Before them come those about entries of samples.csv that the runs contradict.
+        """
+        doubts, count = [*self._wrong], int(self.ended.sum())
         if "trustworthy" in self.columns and (poor := int(np.sum(self.ended & (self.columns["trustworthy"] == "False")))):
             doubts.append(f"{poor} of {count} runs are not trustworthy; the summary of each says why")
         if {"stop_reason", "depth_m", PERFORATED} <= self.columns.keys():
@@ -345,11 +349,8 @@ def of_study(study: Study) -> list[Samples]:
     """The samples of a study: one for each combination of its axes. Raises StudyError if it has none, or not yet."""
     if study.sample is None:
         raise StudyError(f"{study.directory} is not a study with [sample]")
-    table = sample_table.read(study.directory)
+    table, wrong = sample_table.read(study)
     inputs = study.sample.inputs
-    if len(table[sampling.AXIS]) != len(study.cases):
-        raise StudyError(f"{study.directory / sample_table.FILE} is not of this study: it has {len(table[sampling.AXIS])} "
-                         f"rows, and there are {len(study.cases)} runs")
     axes = [axis.name for axis in study.axes[:-1]]
     combinations = [tuple(case.values[name] for name in axes) for case in study.cases]
     own_columns = {name: column for name, column in table.items() if name not in axes and not name.endswith(" (axis)")}
@@ -360,7 +361,8 @@ def of_study(study: Study) -> list[Samples]:
         own = {name: column[chosen] for name, column in columns.items()}
         names = [case.name for case, take in zip(study.cases, chosen, strict=True) if take]
         title = ", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))])
-        samples.append(Samples(title, inputs, own, study, names, study.sample.results, dict(zip(axes, labels, strict=True))))
+        samples.append(Samples(title, inputs, own, study, names, study.sample.results, dict(zip(axes, labels, strict=True)),
+                               [wrong[name] for name in names if name in wrong]))  # fmt: skip
     return samples
 
 
