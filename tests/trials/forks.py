@@ -63,6 +63,7 @@ COMMANDS = {
     "report of a sample": ["report", "sample"],
     "view": ["view", "run", "--no-open"],
     "export": ["export", "run"],
+    "compile": ["compile", "shot.toml"],
     "status": ["sweep", "study", "--status"],
 }  # fmt: skip
 

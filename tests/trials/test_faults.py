@@ -15,6 +15,7 @@ import pytest
 
 from hydro2d.base.errors import Error
 from hydro2d.files.whole import read_json
+from hydro2d.jit import store
 from hydro2d.output import history, snapshot
 from hydro2d.running.run import COSTS
 from tests.trials import forks
@@ -74,13 +75,18 @@ def contents(file):
     if file.name == "kept.csv":
         rows = csv.DictReader(io.StringIO(file.read_text()), strict=True)
         return [{name: text for name, text in row.items() if name not in OWN_COLUMNS} for row in rows]
+    if file.suffix == store.ENDING:
+        head, _, code = file.read_bytes().partition(b"\n")
+        if head.split()[1] != store._checksum(file, code):
+            raise ValueError(f"{file} is damaged")
+        return ""
     return file.read_bytes()
 
 
 def place(name):
     """The directory that a command works in."""
     command = COMMANDS[name]
-    return command[3] if "--out" in command else command[1]
+    return "code" if name == "compile" else command[3] if "--out" in command else command[1]
 
 
 def again(server, folder, name):
@@ -160,7 +166,7 @@ def sampled(writes, seed, most_in_cases):
 def trials(server, undisturbed, folder, name, numbers=None, seed=0, most=12):
     """Every fault at each of those writes, by default all; returns the number of trials."""
     _, writes, _ = undisturbed(name)
-    numbers = numbers or sampled(writes, seed, most)
+    numbers = sampled(writes, seed, most) if numbers is None else numbers
     fell, count = [], 0
     for at in numbers:
         for what in FAULTS:
@@ -173,6 +179,15 @@ def trials(server, undisturbed, folder, name, numbers=None, seed=0, most=12):
 
 
 WRITING = [name for name in COMMANDS if name != "status"]
+
+
+@pytest.mark.parametrize(("name", "written"), [
+    ("sweep", "open study/.study.json"), ("sweep", "fsync rows/.kept.csv"), ("view", "fsync run/.view.html"),
+    ("export", "rename run/export/history.csv"), ("compile", "fsync code/.test_store.add"),
+])  # fmt: skip
+def test_a_fault_at_some_writes(server, undisturbed, tmp_path, name, written):
+    numbers = [n for n, text in enumerate(undisturbed(name)[1], 1) if text.startswith(written)]
+    assert trials(server, undisturbed, tmp_path, name, numbers[:1]) == len(FAULTS)
 
 
 @pytest.mark.slow
@@ -189,7 +204,7 @@ CROWD = {
     "sweep of the other": ["sweep", "study.toml", "--out", "other", "--only", "1100m-s", "--workers", "1"],
 }  # fmt: skip
 PAIRS = [("run", "run"), ("run", "view"), ("run", "export"), ("run", "report of a run"), ("run", "status of a run"),
-         ("run", "plot"), ("view", "view"), ("export", "export"), ("view", "export"), ("sweep", "sweep"), ("sweep", "report"),
+         ("run", "plot"), ("view", "view"), ("export", "export"), ("compile", "compile"), ("sweep", "sweep"), ("sweep", "report"),
          ("sweep", "status"), ("sweep", "search in its place"), ("report", "report"), ("search", "search"),
          ("search", "sweep"), ("sample", "sample"), ("sample", "report of a sample"),
          ("sweep of one case", "sweep of the other")]  # fmt: skip
@@ -225,6 +240,10 @@ def two_at_once(server, undisturbed, folder, pair, seed):
     now, places = results(folder), ("rows", place(first))
     other = [file for file in whole if file.partition("/")[0] in places and now.get(file) != whole[file]]
     return f"other results: {other}" if other else ""
+
+
+def test_two_sweeps_at_once(server, undisturbed, tmp_path):
+    assert two_at_once(server, undisturbed, tmp_path / "both", ("sweep", "sweep"), 0) == ""
 
 
 @pytest.mark.slow
