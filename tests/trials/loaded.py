@@ -43,5 +43,5 @@ cluster.local = lambda workers, threads: contextlib.nullcontext(forks.Here())
 
 with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()), contextlib.chdir(folder):
     forks.write(Path())
-    for arguments in forks.COMMANDS.values():
-        assert call(arguments) == 0, arguments
+    for name, arguments in forks.COMMANDS.items():
+        assert "report" in name or call(arguments) == 0, name
