@@ -87,18 +87,27 @@ def locked(path: Path, patience: float = 0.1) -> Iterator[None]:
                     continue
                 who = by or "another process"
                 raise LockError(f"{path.parent} is in use by {who}; if that process no longer exists, remove {path}")
-            file.truncate(0)
-            file.write(f"{socket.gethostname()} {os.getpid()}\n")
-            file.flush()
             place = Path(os.path.abspath(path.parent))
             _own_locks.setdefault(place, []).append((file, path))
             try:
+                _sign(file.fileno(), path)
                 yield
             finally:
                 _own_locks[place].remove((file, path))
                 if _is_at(file, path):
                     path.unlink(missing_ok=True)
             return
+
+
+def _sign(handle: int, path: Path) -> None:
+    """Writes who this is into an open lock file, past the buffer, whose error would name no file. Raises OSError."""
+    try:
+        os.ftruncate(handle, 0)
+        os.write(handle, f"{socket.gethostname()} {os.getpid()}\n".encode())
+    except OSError as error:
+        error.filename = str(path)
+        raise
+
 
 #: locks that this process holds, by the absolute path of their directory
 _own_locks: dict[Path, list[tuple[TextIO, Path]]] = {}

@@ -7,7 +7,6 @@ active region off, so a cell costs as much as in the middle of a shot. "whole sh
 
 from __future__ import annotations
 
-import json as json_format
 import resource
 import statistics
 import sys
@@ -24,6 +23,7 @@ from hydro2d.base import moving
 from hydro2d.base.interrupt import Interrupt
 from hydro2d.base.terminal import duration, say, several
 from hydro2d.deck import deck as decks
+from hydro2d.files.whole import write_json
 from hydro2d.jit.compilation import announced
 from hydro2d.kernels.triad import triad
 from hydro2d.output.directory import LOG
@@ -353,6 +353,6 @@ def main(json: Path | None = None, *, shot: bool = False, compilation: bool = Fa
     with announced(moving.place()):
         result = collect(shot=shot) | measured
     if json is not None:
-        Path(json).write_text(json_format.dumps(result, indent=1))
+        write_json(json, result)
         say(f"wrote {json}")
     return 0

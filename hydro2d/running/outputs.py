@@ -50,17 +50,17 @@ class Attempts:
     @property
     def failures(self) -> str:
         """The files that could not be written, and why; empty if there are none."""
-        return "; ".join(dict.fromkeys(map(_said, self._errors)))
+        return "; ".join(dict.fromkeys(map(said, self._errors)))
 
     def conclude(self) -> None:
         """Raises the kept errors: a single one unchanged, several as an OSError that names all files."""
-        if len(set(map(_said, self._errors))) > 1:
+        if len(set(map(said, self._errors))) > 1:
             raise OSError(self.failures) from self._errors[0]
         if self._errors:
             raise self._errors[0]
 
 
-def _said(error: Exception) -> str:
+def said(error: Exception) -> str:
     """The message of an error, with the file but without the number of a system error."""
     if isinstance(error, MemoryError):
         return f"not enough memory{f': {error}' if str(error) else ''}"

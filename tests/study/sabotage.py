@@ -1,7 +1,11 @@
-"""A preload of dask workers for tests: HYDRO2D_SABOTAGE holds the fate of cases, {"case": fate}."""
+"""A preload of dask workers for tests: HYDRO2D_SABOTAGE holds the fate of cases, {"case": fate}.
+
+A fate that is a number is the memory that a case may take, in MiB.
+"""
 
 import json
 import os
+import resource
 import signal
 from pathlib import Path
 
@@ -11,7 +15,18 @@ from hydro2d.solver import simulation
 PLANNED = json.loads(os.environ["HYDRO2D_SABOTAGE"])
 
 
+def _limited(megabytes):
+    """Lets this process take only as much more memory; None: as much as there is."""
+    limit = most = resource.getrlimit(resource.RLIMIT_AS)[1]
+    if megabytes is not None:
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+        limit = pages * resource.getpagesize() + (megabytes << 20)
+    resource.setrlimit(resource.RLIMIT_AS, (limit, most))
+
+
 def _befall(what):
+    if isinstance(what, int):
+        _limited(what)
     if what == "kill":
         os.kill(os.getpid(), signal.SIGKILL)
     if what == "raise":
@@ -33,6 +48,9 @@ def dask_setup(worker):
         what = PLANNED.get(Path(directory).name)
         _befall(what)
         simulation.Simulation.step = _unphysical if what == "unphysical" else step
-        return honest(deck, directory, **options)
+        try:
+            return honest(deck, directory, **options)
+        finally:
+            _limited(None)
 
     run.run = dishonest

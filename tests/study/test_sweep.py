@@ -8,7 +8,9 @@ import signal
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
+import distributed
 import psutil
 import pytest
 
@@ -16,8 +18,10 @@ import hydro2d
 from hydro2d.deck import deck as decks
 from hydro2d.running.run import run
 from hydro2d.study.plan import cases
+from hydro2d.study.run import sweep
+from hydro2d.study.run.choice import Choice
 from tests.disk import can_mount
-from tests.study import tubes
+from tests.study import made_up, tubes
 
 
 @pytest.fixture(scope="module")
@@ -193,6 +197,46 @@ def test_what_fails_does_not_sink_the_rest(tmp_path):
     expected |= dict.fromkeys(("ke_0.1", "ke_0.2", "momentum_0.1", "momentum_0.2"), "done")
     assert statuses(out) == expected
     assert not list(out.rglob("failed.json"))
+
+
+@pytest.mark.thorough
+def test_memory_that_ends_in_a_worker(tmp_path):
+    """A case that may take 100 MiB more, and one whose worker is killed each time, as by a system without memory."""
+    text = tubes.STUDY.replace("[set]", "[set]\nstop.cycles = 3\nmesh.z.0.cells = 40000")
+    file, out = tubes.write(tmp_path, text), tmp_path / "out"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HYDRO2D_SABOTAGE", json.dumps({"ke_0.1": 100, "momentum_0.2": "kill"}))
+        patch.setenv("DASK_DISTRIBUTED__WORKER__PRELOAD", "tests.study.sabotage")
+        status, said = tubes.sweep(file, "--workers", 1, "--out", out)
+    assert status == 3, said
+    assert "Traceback" not in said
+    assert statuses(out) == {"ke_0.1": "failed", "ke_0.2": "done", "momentum_0.1": "done", "momentum_0.2": "failed"}
+    assert "\nke_0.1: failed: not enough memory: " in said
+    assert "\nmomentum_0.2: failed: its worker died 4 times (killed, out of memory, or a crash)" in said
+    status, said = tubes.sweep(file, "--workers", 1, "--out", out, "--resume")
+    assert (status, set(statuses(out).values())) == (0, {"done"}), said
+
+
+class _Silent(made_up.Client):
+    """A client of this machine all of whose workers have ended for good."""
+
+    def __init__(self):
+        super().__init__(lambda velocity, deck: {}, workers=0)
+        self.cluster = distributed.LocalCluster()
+
+    def submit(self, *arguments, key, pure):
+        return SimpleNamespace(key=key, add_done_callback=lambda function: None)
+
+
+def test_a_sweep_without_workers_ends(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(distributed, "LocalCluster", type("LocalCluster", (), {}))
+    monkeypatch.setattr(sweep, "LONELY", 0.5)
+    plan = cases.plan(tubes.write(tmp_path), quiet=True)
+    assert sweep.sweep(Choice(plan), tmp_path / "out", _Silent().connect()) == 3
+    said = capsys.readouterr().out
+    assert "ke_0.1: failed: no worker is left" in said
+    assert "--resume continues" in said
+    assert sorted(statuses(tmp_path / "out").values()) == ["failed", "waiting", "waiting", "waiting"]
 
 
 @pytest.mark.thorough

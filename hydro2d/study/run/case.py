@@ -23,6 +23,7 @@ from hydro2d.output.directory import DECK, LOCK, PROGRESS, RunError, check_free,
 from hydro2d.output.history import HistoryError
 from hydro2d.output.vtk import VtkError
 from hydro2d.running import compile_all, run
+from hydro2d.running.outputs import said
 from hydro2d.solver.first_cycle import kernels
 from hydro2d.study.records.study_directory import DONE, FAILED, FAILED_STATUS, UNPHYSICAL, state
 
@@ -169,6 +170,8 @@ def _failure(error: Exception, directory: Path) -> dict:
         message, trace = f"the disk is full: {place} could not be written; free some space and continue", ""
     elif isinstance(error, TOLD):
         message, trace = text, ""
+    elif isinstance(error, MemoryError):
+        message, trace = said(error), ""
     elif isinstance(error, OSError):
         message, trace = f"{error.filename or directory}: {error.strerror or text}", ""
     else:

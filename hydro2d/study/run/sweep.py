@@ -52,6 +52,8 @@ from hydro2d.study.run.choice import Choice
 ALL_DONE, SOME_FAILED = 0, 3
 #: seconds between checks for a finished case, a signal, and the table
 BEAT = 0.5
+#: seconds without any worker of this machine, whose successors start within seconds, after which a sweep ends
+LONELY = 120.0
 #: seconds between two tables of a sample while it runs
 TABLE_SECONDS = 5.0
 
@@ -186,7 +188,7 @@ class _Sweep:
         self.spent = 0.0
         self.ended: queue.Queue = queue.Queue()
         self.counted, self.count = -BEAT, 0
-        self.tabulated = time.monotonic()
+        self.tabulated = self.heard = time.monotonic()
         board.workers, board.left_out = self.workers, choice.left_out
 
     def workers(self) -> int:
@@ -207,6 +209,9 @@ class _Sweep:
                     self.board.line(f"{interrupt.reason}: running cases write their restart files and stop")
                     announced = True
                 self._stop(interrupt.reason)
+            if self._is_alone():
+                self._give_up()
+                break
             future = self._ended()
             case = None if future is None else self._take(future)
             if not interrupt.reason:
@@ -267,6 +272,21 @@ class _Sweep:
         from hydro2d.study.run import worker
 
         self.client.run(worker.stop, self.name, reason, on_error="ignore")
+
+    def _is_alone(self) -> bool:
+        """Whether all workers of this machine have ended for good; on a cluster others may come at any time."""
+        import distributed
+
+        if self.workers() or not isinstance(getattr(self.client, "cluster", None), distributed.LocalCluster):
+            self.heard = time.monotonic()
+        return time.monotonic() - self.heard > LONELY
+
+    def _give_up(self) -> None:
+        """Reports the cases that nobody runs any more."""
+        words = "no worker is left: they were killed, or had no memory; the log of dask is in sweep.log"
+        for case in self.tasks.values():
+            self.board.moving.discard(case.name)
+            self._finish(self.board.look(case.name), Outcome(FAILED_STATUS, words, "lost", socket.gethostname()))
 
     def _ended(self):
         """The future of a case that has ended, or None after a beat without any."""
