@@ -110,6 +110,13 @@ except KeyboardInterrupt:
     assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
 
 
+def test_tests_in_the_background_of_a_script_hear_interrupts():
+    """The shell lets them ignore SIGINT."""
+    test = f"{__file__}::test_a_signal_waits_for_the_end_of_an_import[{signal.SIGINT:d}]"
+    subprocess.run([sys.executable, "-m", "pytest", "-p", "no:cacheprovider", test], cwd=ROOT, check=True, capture_output=True,
+                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))  # fmt: skip
+
+
 @pytest.mark.parametrize("lost", [
     "class Slow:\n    def __del__(self): wait()\nSlow()",
     "import weakref\nclass Slow: pass\nslow = Slow()\nref = weakref.ref(slow, lambda _: wait())\ndel slow",

@@ -1,6 +1,9 @@
 """Workers started by others, and those of SLURM."""
 
+import socket
+import subprocess
 import sys
+from contextlib import suppress
 from types import SimpleNamespace
 
 import distributed
@@ -133,6 +136,14 @@ def test_slurm_arguments_are_those_of_dask_jobqueue():
     assert "export NUMBA_NUM_THREADS=1" in script
 
 
+@pytest.mark.parametrize("folder", ["a b", "it's", '"$HOME"', "`id`; #"])
+def test_a_job_script_sets_every_variable_as_it_is(monkeypatch, folder):
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", folder)
+    prologue = cluster.Slurm(cores=1, memory="1 GB").arguments(1)["job_script_prologue"]
+    script = "\n".join([*prologue, 'printf %s "$HYDRO2D_CACHE_DIR"'])
+    assert subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=True).stdout == folder
+
+
 def _example(field):
     if field.annotation is int:
         return 2
@@ -179,17 +190,28 @@ def test_arguments(tmp_path, capsys, arguments, said):
     assert said in capsys.readouterr().err
 
 
+def asked(address) -> bytes:
+    """The answer to a request for a page from somebody without the certificate."""
+    with socket.create_connection(address, timeout=10) as connection, suppress(ConnectionError):
+        connection.sendall(b"GET /sitemap.json HTTP/1.0\r\n\r\n")
+        return connection.recv(1000)
+    return b""
+
+
 def test_a_sweep_on_this_machine_listens_to_nobody_else():
-    """Neither the scheduler nor a worker nor a page of theirs can be reached from elsewhere, or without the certificate."""
+    """Neither the scheduler nor a worker can be reached from elsewhere, or without the certificate, and they have no pages."""
     with cluster.local(1, 1) as client:
         workers = psutil.Process().children(recursive=True)
-        places = {
-            (process.pid, connection.laddr.ip)
+        places = [
+            (process.pid, connection.laddr)
             for process in (psutil.Process(), *workers)
             for connection in process.net_connections("tcp") if connection.status == psutil.CONN_LISTEN
-        }
-        assert {ip for _, ip in places} == {"127.0.0.1"}
+        ]
+        assert {address.ip for _, address in places} == {"127.0.0.1"}
         assert len({pid for pid, _ in places}) >= 2
+        assert [place for place in places if b"HTTP" in asked(place[1])] == []
+        routes = client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.http_application.wildcard_router.rules))
+        assert {routes, *client.run(lambda dask_worker: len(dask_worker.http_application.wildcard_router.rules)).values()} == {0}
         address = client.scheduler.address
         assert address.startswith("tls://127.0.0.1:")
         with pytest.raises(OSError, match="Timed out|TLS|ssl|closed|Security"):
