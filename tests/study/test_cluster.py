@@ -200,6 +200,10 @@ def asked(address) -> bytes:
 
 def test_a_sweep_on_this_machine_listens_to_nobody_else():
     """Neither the scheduler nor a worker can be reached from elsewhere, or without the certificate, and they have no pages."""
+
+    def pages(dask_worker):
+        return len(dask_worker.http_application.wildcard_router.rules)
+
     with cluster.local(1, 1) as client:
         workers = psutil.Process().children(recursive=True)
         places = [
@@ -210,8 +214,7 @@ def test_a_sweep_on_this_machine_listens_to_nobody_else():
         assert {address.ip for _, address in places} == {"127.0.0.1"}
         assert len({pid for pid, _ in places}) >= 2
         assert [place for place in places if b"HTTP" in asked(place[1])] == []
-        routes = client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.http_application.wildcard_router.rules))
-        assert {routes, *client.run(lambda dask_worker: len(dask_worker.http_application.wildcard_router.rules)).values()} == {0}
+        assert {pages(client.cluster.scheduler), *client.run(pages).values()} == {0}
         address = client.scheduler.address
         assert address.startswith("tls://127.0.0.1:")
         with pytest.raises(OSError, match="Timed out|TLS|ssl|closed|Security"):
