@@ -1,5 +1,6 @@
 """Workers started by others, and those of SLURM."""
 
+import resource
 import socket
 import subprocess
 import sys
@@ -188,6 +189,17 @@ def test_a_wrong_slurm_file(tmp_path, old, new, said):
 def test_arguments(tmp_path, capsys, arguments, said):
     assert call(["sweep", str(tubes.write(tmp_path)), "--out", str(tmp_path / "out"), *arguments]) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("limit", "status"), [((20, 20), 4), ((20, 500), 0)])
+def test_few_open_files(tmp_path, limit, status):
+    """One line with the remedy, before anything starts; a limit that can be raised is raised."""
+    file = tubes.write(tmp_path)
+    ended, said = tubes.sweep(file, "--workers", 1, "--out", tmp_path / "out", "--only", "ke_0.1", "--quiet",
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))  # fmt: skip
+    assert ended == status, said
+    assert said == ("" if status == 0 else "hydro2d: the workers need 64 open files at a time and the system allows 20; allow "
+                    "more with `ulimit -n`\n")
 
 
 def asked(address) -> bytes:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import resource
 import shlex
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -23,6 +25,8 @@ from hydro2d.study.plan.definition import StudyError, explained
 HERE = "127.0.0.1"
 #: attempts to start the workers of this machine
 STARTS = 3
+#: open files that dask needs at a time on this machine, and for each worker
+FILES, FILES_OF_A_WORKER = 48, 16
 #: settings of dask for a scheduler and workers whose web server, until it is closed, has no pages
 NO_PAGES: dict[str, list[str]] = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
 #: seconds to wait for the scheduler of --scheduler
@@ -94,11 +98,21 @@ def local(workers: int, threads: int) -> Iterator:
 
     All of them listen on the loopback interface only and communicate by TLS with a certificate made for this sweep, because
     anyone who could connect could run code in the workers. None of them serves dask's web pages, which need no certificate.
-    """
-    import dask
 
-    with children.safe(), dask.config.set(NO_PAGES), ExitStack() as stack:
+    Raises StudyError, OSError (too few open files are allowed).
+    """
+    _allow_files(FILES + FILES_OF_A_WORKER * workers)
+    with children.safe(), ExitStack() as stack:
         yield _begun(stack, workers, threads)
+
+
+def _allow_files(number: int) -> None:
+    """Lets this process have so many open files at a time. Raises OSError if the system does not allow it."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if soft != resource.RLIM_INFINITY and soft < number:
+        if hard != resource.RLIM_INFINITY and hard < number:
+            raise OSError(errno.EMFILE, f"the workers need {number} open files at a time and the system allows {hard}")
+        resource.setrlimit(resource.RLIMIT_NOFILE, (number, hard))
 
 
 def _begun(stack: ExitStack, workers: int, threads: int):
@@ -106,9 +120,11 @@ def _begun(stack: ExitStack, workers: int, threads: int):
 
     Raises StudyError.
     """
-    import distributed
+    import dask
+    import distributed  # has its settings before they are changed
     from distributed.security import Security
 
+    stack.enter_context(dask.config.set(NO_PAGES))
     for number in range(STARTS):
         with ExitStack() as attempt:
             try:
