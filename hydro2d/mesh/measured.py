@@ -97,8 +97,8 @@ BODY = {
 
 #: results of `crater.Crater.measure` for the hole in a target, corrected for its bending, and their meanings
 CRATER = {
-    "entrance_diameter_m": "in the first row below the surface from which the wall is steeper than 45 degrees; null if there is "
-    "no hole, if its entrance has closed, or if no wall of it is left",
+    "entrance_diameter_m": "in the first row below the surface from which the wall is steeper than 45 degrees; null if there "
+    "is no hole, if its entrance has closed, or if no wall of it is left",
     "exit_diameter_m": "in the last such row, also beyond the rear face; null while the hole is not open at its end",
     "hole_diameter_m": "in the narrowest such row of a hole that is open right through, whether the projectile went through or "
     "not; null while it is closed",
