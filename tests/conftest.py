@@ -1,6 +1,7 @@
 """Fixtures for tests of several folders."""
 
 import os
+import signal
 import sys
 from types import SimpleNamespace
 
@@ -30,6 +31,13 @@ def one_thread_for_a_worker():
     """
     if "PYTEST_XDIST_WORKER" in os.environ:
         jit.set_threads(1)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def interrupts_are_heard():
+    """A script that starts the tests in the background makes them ignore SIGINT, which commands of theirs would do as well."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture

@@ -73,7 +73,8 @@ def ended_by() -> str:
 
 
 def raise_between_imports() -> None:
-    """From now on, SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; during an import, shortly after it.
+    """From now on, SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; during an import, shortly after it. A second one that
+    comes in an import, when nothing is being written, ends the process at once.
 
     An exception in the middle of an import turns into another one or, in C libraries, ends in a crash. Where Python cannot
     propagate the exception, such as in a finaliser or in a callback from C, it is raised again shortly after. A signal that was
@@ -87,6 +88,8 @@ def raise_between_imports() -> None:
             frame = frame.f_back
         if frame is None:
             raise KeyboardInterrupt
+        if number != signal.SIGALRM and len(_came) > 1:
+            os._exit(STATUS[ended_by()])
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
 
     previous_hook = sys.unraisablehook

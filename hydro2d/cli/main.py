@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from pathlib import Path
@@ -32,6 +33,8 @@ from hydro2d.cli.view import view
 from hydro2d.files.locks import LostPlaceError
 
 WRONG_INPUT, REFUSED = 2, 4
+#: what the system says of a library for which there is no memory
+NO_ROOM = "failed to map segment from shared object"
 
 app = App(
     name="hydro2d",
@@ -321,7 +324,12 @@ def call(arguments: list[str]) -> int:
         return _report(_no_directory(error), WRONG_INPUT)
     except OSError as error:
         where = f": {error.filename}" if error.filename is not None else ""
-        return _report(f"{error.strerror or error}{where}", REFUSED)
+        remedy = "; allow more with `ulimit -n`" if error.errno == errno.EMFILE else ""
+        return _report(f"{error.strerror or error}{where}{remedy}", REFUSED)
+    except ImportError as error:
+        if NO_ROOM not in str(error):
+            raise
+        return _report(f"not enough memory to load {error}; allow more with `ulimit -v`", REFUSED)
 
 
 def _no_directory(error: OSError) -> str:

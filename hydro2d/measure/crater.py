@@ -21,7 +21,8 @@ class Hole(Result):
     """The hole in a target, corrected for its bending. SI, whole circumference."""
 
     entrance_diameter_m: Number = result(
-        "in the first row below the surface from which the wall is steeper than 45 degrees; 0: no hole")
+        "in the first row below the surface from which the wall is steeper than 45 degrees; null if there is no hole, if its "
+        "entrance has closed, or if no wall of it is left")
     exit_diameter_m: Number = result(
         "in the last such row, also beyond the rear face; null while the hole is not open at its end")
     hole_diameter_m: Number = result(
@@ -295,7 +296,7 @@ class Crater:
 
         All lengths are those of the plate as it was before it bent, see `_unbent`. The entrance is where the wall becomes
         steeper than 45 degrees, and the exit is the last such place. The mean diameter is that of the cylinder (in planar
-        geometry: the slot) with the hole's volume and depth, None if there is no hole.
+        geometry: the slot) with the hole's volume and depth. A diameter is None if there is no such place, or no hole.
         """
         walls = self._walls()
         near, far, radius, depth, through = self._hole(walls)
@@ -310,7 +311,7 @@ class Crater:
         if depth > 0.0:
             mean = 2.0 * (float(np.sqrt(volume / (np.pi * depth))) if cylindrical else volume / depth)
         return Hole(
-            entrance_diameter_m=2.0 * float(radius[mouth]) if len(radius) else 0.0,
+            entrance_diameter_m=2.0 * float(radius[mouth]) or None if len(radius) else None,
             exit_diameter_m=2.0 * float(radius[end]) if len(radius) and through else None,
             hole_diameter_m=2.0 * float(radius[mouth : end + 1].min()) if len(radius) and through else None,
             mean_diameter_m=mean,

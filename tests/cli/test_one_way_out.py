@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from hydro2d.cli import main
 from hydro2d.cli.main import call
 from hydro2d.output import snapshot, vtk
 from hydro2d.running import run as runs
@@ -108,6 +109,27 @@ except KeyboardInterrupt:
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)
     assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
+
+
+def test_a_second_signal_does_not_wait_for_the_end_of_an_import(tmp_path):
+    """The imports of a report take seconds."""
+    (tmp_path / "slow_module.py").write_text("import time\nprint('begun', flush=True)\ntime.sleep(20)\n")
+    script = "from hydro2d.base import interrupt\ninterrupt.raise_between_imports()\nimport slow_module\n"
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
+    process = subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(signal.SIGINT)
+    time.sleep(0.3)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    assert process.wait(10) == 130
+
+
+def test_tests_in_the_background_of_a_script_hear_interrupts():
+    """The shell lets them ignore SIGINT."""
+    test = f"{__file__}::test_a_signal_waits_for_the_end_of_an_import[{signal.SIGINT:d}]"
+    subprocess.run([sys.executable, "-m", "pytest", "-p", "no:cacheprovider", test], cwd=ROOT, check=True, capture_output=True,
+                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))  # fmt: skip
 
 
 @pytest.mark.parametrize("lost", [
@@ -220,6 +242,20 @@ def test_paths_that_cannot_be_are_one_line(simulation, deck, capsys, out, status
     error = capsys.readouterr().err
     assert error.startswith("hydro2d: ")
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(("error", "said"), [
+    (ImportError("libvtkIOXML.so: failed to map segment from shared object"),
+     "not enough memory to load libvtkIOXML.so: failed to map segment from shared object; allow more with `ulimit -v`"),
+    (OSError(errno.EMFILE, "Too many open files", "history.h5"),
+     "Too many open files: history.h5; allow more with `ulimit -n`")])  # fmt: skip
+def test_a_limit_of_the_machine_is_one_line_with_the_remedy(deck, monkeypatch, capsys, error, said):
+    def refuse(*_):
+        raise error
+
+    monkeypatch.setattr(main, "_load", refuse)
+    assert main.call(["check", deck]) == 4
+    assert capsys.readouterr().err == f"hydro2d: {said}\n"
 
 
 def test_a_terminal_without_unicode(deck):

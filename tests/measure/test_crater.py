@@ -56,11 +56,26 @@ def depths(sim, z):
 
 def test_before_impact():
     sim = simulation()
-    assert sim.craters[0].measure() == {"entrance_diameter_m": 0.0, "exit_diameter_m": None, "mean_diameter_m": None,
+    assert sim.craters[0].measure() == {"entrance_diameter_m": None, "exit_diameter_m": None, "mean_diameter_m": None,
                                     "hole_diameter_m": None, "volume_m3": 0.0, "depth_m": 0.0, "ejected_mass_kg": 0.0,
                                     "ejected_velocity_m_s": None,
                                     "volume_per_energy_m3_J": 0.0, "efficiency": 0.0}
     assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
+
+
+def test_a_hole_whose_entrance_has_closed_or_gone_has_no_diameter_there():
+    """0 would be the diameter of something."""
+    sim = simulation()
+    travel(sim, 19e-3)
+    crater = sim.craters[0]
+    assert crater.measure()["entrance_diameter_m"] > 5e-3
+    saved = crater.saved()
+    crater.resume(saved | {"left": [(depth, 0.0 if depth < 2e-3 else radius) for depth, radius in saved["left"]]})
+    closed = crater.measure()
+    assert (closed["entrance_diameter_m"], closed["mean_diameter_m"] > 5e-3) == (None, True)
+    crater.resume(saved | {"left": []})
+    sim.grid.interior(sim.state.vof)[...] = 0.0
+    assert crater.measure()["entrance_diameter_m"] is None
 
 
 @pytest.mark.parametrize("options", [(), BACK], ids=["to +z", "to -z"])
@@ -146,7 +161,7 @@ def test_a_dish_is_no_hole(depth, options):
     sim = simulation(*options)
     dish(sim, bowl(depth))
     hole = sim.craters[0].measure()
-    assert (hole["entrance_diameter_m"], hole["exit_diameter_m"], hole["mean_diameter_m"]) == (0.0, None, None)
+    assert (hole["entrance_diameter_m"], hole["exit_diameter_m"], hole["mean_diameter_m"]) == (None, None, None)
     assert (hole["depth_m"], hole["volume_m3"], hole["ejected_mass_kg"]) == pytest.approx((0.0, 0.0, 0.0), abs=1e-20)
     assert [len(values) for values in sim.craters[0].profile()] == [0, 0]
 

@@ -1,6 +1,10 @@
 """Workers started by others, and those of SLURM."""
 
+import resource
+import socket
+import subprocess
 import sys
+from contextlib import suppress
 from types import SimpleNamespace
 
 import distributed
@@ -133,6 +137,14 @@ def test_slurm_arguments_are_those_of_dask_jobqueue():
     assert "export NUMBA_NUM_THREADS=1" in script
 
 
+@pytest.mark.parametrize("folder", ["a b", "it's", '"$HOME"', "`id`; #"])
+def test_a_job_script_sets_every_variable_as_it_is(monkeypatch, folder):
+    monkeypatch.setenv("HYDRO2D_CACHE_DIR", folder)
+    prologue = cluster.Slurm(cores=1, memory="1 GB").arguments(1)["job_script_prologue"]
+    script = "\n".join([*prologue, 'printf %s "$HYDRO2D_CACHE_DIR"'])
+    assert subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=True).stdout == folder
+
+
 def _example(field):
     if field.annotation is int:
         return 2
@@ -179,17 +191,42 @@ def test_arguments(tmp_path, capsys, arguments, said):
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("limit", "status"), [((20, 20), 4), ((20, 500), 0)])
+def test_few_open_files(tmp_path, limit, status):
+    """One line with the remedy, before anything starts; a limit that can be raised is raised."""
+    file = tubes.write(tmp_path)
+    ended, said = tubes.sweep(file, "--workers", 1, "--out", tmp_path / "out", "--only", "ke_0.1", "--quiet",
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))  # fmt: skip
+    assert ended == status, said
+    assert said == ("" if status == 0 else "hydro2d: the workers need 64 open files at a time and the system allows 20; allow "
+                    "more with `ulimit -n`\n")
+
+
+def asked(address) -> bytes:
+    """The answer to a request for a page from somebody without the certificate."""
+    with socket.create_connection(address, timeout=10) as connection, suppress(ConnectionError):
+        connection.sendall(b"GET /sitemap.json HTTP/1.0\r\n\r\n")
+        return connection.recv(1000)
+    return b""
+
+
 def test_a_sweep_on_this_machine_listens_to_nobody_else():
-    """Neither the scheduler nor a worker nor a page of theirs can be reached from elsewhere, or without the certificate."""
+    """Neither the scheduler nor a worker can be reached from elsewhere, or without the certificate, and they have no pages."""
+
+    def pages(dask_worker):
+        return len(dask_worker.http_application.wildcard_router.rules)
+
     with cluster.local(1, 1) as client:
         workers = psutil.Process().children(recursive=True)
-        places = {
-            (process.pid, connection.laddr.ip)
+        places = [
+            (process.pid, connection.laddr)
             for process in (psutil.Process(), *workers)
             for connection in process.net_connections("tcp") if connection.status == psutil.CONN_LISTEN
-        }
-        assert {ip for _, ip in places} == {"127.0.0.1"}
+        ]
+        assert {address.ip for _, address in places} == {"127.0.0.1"}
         assert len({pid for pid, _ in places}) >= 2
+        assert [place for place in places if b"HTTP" in asked(place[1])] == []
+        assert {pages(client.cluster.scheduler), *client.run(pages).values()} == {0}
         address = client.scheduler.address
         assert address.startswith("tls://127.0.0.1:")
         with pytest.raises(OSError, match="Timed out|TLS|ssl|closed|Security"):

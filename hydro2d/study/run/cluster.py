@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import resource
+import shlex
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -22,6 +25,10 @@ from hydro2d.study.plan.definition import StudyError, explained
 HERE = "127.0.0.1"
 #: attempts to start the workers of this machine
 STARTS = 3
+#: open files that dask needs at a time on this machine, and for each worker
+FILES, FILES_OF_A_WORKER = 48, 16
+#: settings of dask for a scheduler and workers whose web server, until it is closed, has no pages
+NO_PAGES: dict[str, list[str]] = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
 #: seconds to wait for the scheduler of --scheduler
 ANSWER = 15
 
@@ -50,7 +57,7 @@ class Slurm(Section):
         given = {name: value for name, value in self.model_dump().items() if value not in (None, ())}
         given = {name: list(value) if isinstance(value, tuple) else value for name, value in given.items()}
         workers = max(self.cores // threads, 1)
-        exports = [f"export {name}={value}" for name, value in environment(threads).items()]
+        exports = [f"export {name}={shlex.quote(value)}" for name, value in environment(threads).items()]
         return given | {
             "cores": workers, "processes": workers, "job_cpu": self.cores,
             "job_script_prologue": [*exports, *given.get("job_script_prologue", [])],
@@ -90,10 +97,22 @@ def local(workers: int, threads: int) -> Iterator:
     """A client with spawned worker processes on this machine, which nobody else can reach.
 
     All of them listen on the loopback interface only and communicate by TLS with a certificate made for this sweep, because
-    anyone who could connect could run code in the workers.
+    anyone who could connect could run code in the workers. None of them serves dask's web pages, which need no certificate.
+
+    Raises StudyError, OSError (too few open files are allowed).
     """
+    _allow_files(FILES + FILES_OF_A_WORKER * workers)
     with children.safe(), ExitStack() as stack:
         yield _begun(stack, workers, threads)
+
+
+def _allow_files(number: int) -> None:
+    """Lets this process have so many open files at a time. Raises OSError if the system does not allow it."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if soft != resource.RLIM_INFINITY and soft < number:
+        if hard != resource.RLIM_INFINITY and hard < number:
+            raise OSError(errno.EMFILE, f"the workers need {number} open files at a time and the system allows {hard}")
+        resource.setrlimit(resource.RLIMIT_NOFILE, (number, hard))
 
 
 def _begun(stack: ExitStack, workers: int, threads: int):
@@ -101,9 +120,11 @@ def _begun(stack: ExitStack, workers: int, threads: int):
 
     Raises StudyError.
     """
-    import distributed
+    import dask
+    import distributed  # has its settings before they are changed
     from distributed.security import Security
 
+    stack.enter_context(dask.config.set(NO_PAGES))
     for number in range(STARTS):
         with ExitStack() as attempt:
             try:
@@ -113,7 +134,8 @@ def _begun(stack: ExitStack, workers: int, threads: int):
                     scheduler_kwargs={"dashboard_address": f"{HERE}:0"},  # another sweep may have the usual port
                     env=environment(threads),
                 ))  # fmt: skip
-                client = _with_checkpoints(attempt.enter_context(distributed.Client(cluster)), silent=True)
+                cluster.loop.add_callback(cluster.scheduler.http_server.stop)
+                client = _with_checkpoints(attempt.enter_context(distributed.Client(cluster)), private=True)
             except (RuntimeError, OSError) as error:
                 if number == STARTS - 1:
                     raise StudyError(f"the workers do not start: {' '.join(str(error).split())}") from None
@@ -122,12 +144,12 @@ def _begun(stack: ExitStack, workers: int, threads: int):
                 return client
 
 
-def _with_checkpoints(client, *, silent: bool):
+def _with_checkpoints(client, *, private: bool):
     """The client, with workers that write restart files before they end."""
     from hydro2d.materials import outside
     from hydro2d.study.run import worker
 
-    client.register_plugin(worker.Checkpoint(silent, outside.offered()))
+    client.register_plugin(worker.Checkpoint(private, outside.offered()))
     return client
 
 
@@ -142,7 +164,7 @@ def joined(address: str) -> Iterator:
         raise StudyError(f"--scheduler {address}: no scheduler answers there ({' '.join(str(error).split())})") from None
     with client:
         _check_workers(client, address)
-        yield _with_checkpoints(client, silent=False)
+        yield _with_checkpoints(client, private=False)
 
 
 def _check_workers(client, address: str) -> None:
@@ -176,4 +198,4 @@ def slurm(path: Path, workers: int, threads: int) -> Iterator:
         distributed.Client(cluster) as client,
     ):  # fmt: skip
         cluster.scale(n=workers)
-        yield _with_checkpoints(client, silent=False)
+        yield _with_checkpoints(client, private=False)

@@ -83,18 +83,19 @@ def _on_sigterm(_number, _frame) -> None:
 class Checkpoint(distributed.WorkerPlugin):
     """Lets the case of an ending worker write a restart file. The sweep handles Ctrl-C, not its workers."""
 
-    def __init__(self, silent: bool, models: Iterable[tuple[str, str, str]] = ()):
+    def __init__(self, private: bool, models: Iterable[tuple[str, str, str]] = ()):
         #: own name: dask tears down a plugin of the same name, which would end the running cases of its sweep
         self.name = f"hydro2d-{uuid.uuid4().hex[:12]}"
         self.models = list(models)  # of the whole study: kernels are loaded with the first case
-        self.silent = silent  # messages about lost connections at the end are not for the user
+        self.private = private  # the worker belongs to this sweep alone
 
     def setup(self, worker) -> None:
         """Called by dask as the worker starts."""
         if self.models:
             outside.take_over(self.models)
-        if self.silent:
-            logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        if self.private:
+            logging.getLogger("distributed").setLevel(logging.CRITICAL)  # nobody needs to know of lost connections at the end
+            worker.http_server.stop()
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGINT, signal.SIG_IGN)
             signal.signal(signal.SIGTERM, _on_sigterm)
