@@ -35,8 +35,8 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
     values |= {name: conserved[name] for name in ("internal_energy_J", "kinetic_energy_J")}
     for name, measured in sim.of_bodies().items():
         values |= {f"body_{name}_{key}": value for key, value in dict(measured).items()}
-    for name, measured in sim.stations.measure().items():
-        values |= {f"{name}_{key}": value for key, value in measured.items() if key not in PEAKS}
+    for name, point in sim.stations.measure().items():
+        values |= {f"{name}_{key}": value for key, value in point.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
     values |= derived(sim, values)

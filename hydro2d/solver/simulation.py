@@ -355,7 +355,7 @@ class Simulation:
         if self.penetrator is None:
             return None
         audit, taken = self.audit, self.audit.sinks.get("advection")
-        dropped = outcome.ratio(taken and taken.energy, audit.start.energy)
+        dropped = outcome.ratio(taken.energy if taken else None, audit.start.energy)
         return outcome.of(self.penetrator.measure(), status=status, stop_reason=stop_reason, dropped=dropped,
                           impact_velocity=decks.impact_velocity(self.deck), thickness=targets.thickness(self.deck),
                           experiment=self.deck.experiment)  # fmt: skip

@@ -23,7 +23,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from hydro2d.base.errors import nearest
-from hydro2d.base.terminal import one_line
+from hydro2d.base.formats import one_line
 from hydro2d.base.version import __version__
 from hydro2d.files import checksums
 from hydro2d.files.locks import holder
