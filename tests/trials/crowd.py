@@ -216,10 +216,10 @@ def on_a_mirrored_mesh(text: str) -> str:
     return toml.dumps(deck)
 
 
-def wrong(number: int, twins: float = TWINS) -> tuple[str, dict[str, float | str] | None]:
+def wrong(number: int, apart_at_most: float = TWINS) -> tuple[str, dict[str, float | str] | None]:
     """The deck of a number, and its faults: {what: by how much, or the message}; None if it ends as unphysical.
 
-    twins : largest relative difference of sums of the mirror image and of the other order of the bodies
+    apart_at_most : largest relative difference of sums of the mirror image and of the other order of the bodies
     """
     text = text_of(number)
     try:
@@ -263,7 +263,7 @@ def wrong(number: int, twins: float = TWINS) -> tuple[str, dict[str, float | str
             twin["momentum"] *= -1.0
         apart = {key: abs(now[key] - twin[key]) / scale[key] for key in now}
         worst = max(apart, key=apart.get)
-        if not apart[worst] < twins:
+        if not apart[worst] < apart_at_most:
             faults[name] = f"{worst}: {apart[worst]:.3g}"
     again = restarted(text)
     if not all(np.array_equal(getattr(again.state, name), getattr(plain.state, name)) for name in ARRAYS):

@@ -13,7 +13,7 @@ from tests.trials import crowd
 @pytest.mark.parametrize("number", range(2000, 2336, 13))
 def test_a_deck_and_its_twins(number):
     """A run that is off its course reports it itself; friction of a contact has an order (explanation/sliding)."""
-    text, wrong = crowd.wrong(number, twins=1e-3)
+    text, wrong = crowd.wrong(number, apart_at_most=1e-3)
     assert set(wrong or ()) <= ({"course", "mirror"} if "friction" in text else {"course"}), (wrong, text)
 
 
