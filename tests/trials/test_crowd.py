@@ -13,8 +13,22 @@ from tests.trials import crowd
 @pytest.mark.parametrize("number", range(2000, 2336, 13))
 def test_a_deck_and_its_twins(number):
     """A run that is off its course reports it itself; friction of a contact has an order (explanation/sliding)."""
-    text, wrong = crowd.wrong(number)
+    text, wrong = crowd.wrong(number, apart_at_most=1e-3)
     assert set(wrong or ()) <= ({"course", "mirror"} if "friction" in text else {"course"}), (wrong, text)
+
+
+@pytest.mark.parametrize("number", [2009, 2050, 2100, 2163])
+def test_further_twins_of_a_deck(number):
+    """On other threads, in other units and frames a run is the same; rates of 4340 steel have a unit (explanation/sanity)."""
+    text = crowd.text_of(number)
+    assert set(crowd.more_wrong(number)) <= ({"length and time"} if "steel_4340" in text else set()), text
+
+
+def test_further_twins_can_differ(monkeypatch):
+    """With one number of the material left as it is, another unit of mass changes bits."""
+    text = crowd.text_of(2100)
+    monkeypatch.setitem(crowd.POWERS, "Pa", (0, 0, 0))
+    assert "u" in crowd.other_bits(text, (0, 0, 3)).split(", ")
 
 
 def test_an_image_of_an_image_is_the_deck():
