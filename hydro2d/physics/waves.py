@@ -47,19 +47,6 @@ def volume_step(loss):
 
 
 @point
-def step_limits(i, ub, ut, vb, vt, courant, shock_courant, advective, linear, quadratic, mesh_speed, dr, h, rho, cl, q, loss):
-    """Four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
-
-    Axial velocities count relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
-    """
-    sound = sound_step(courant, shock_courant, min(dr[i], h), linear, quadratic, rho, cl, q)
-    radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
-    axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
-                max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))
-    return sound, advective * dr[i] / radial, advective * h / axial, volume_step(loss)
-
-
-@point
 def impedances(j, i, rhobar, cl, bulk):
     """rho c of longitudinal and of shear waves in cell (j, i), Pa s/m; a cell with void passes on no shear.
 
