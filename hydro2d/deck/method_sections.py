@@ -180,5 +180,6 @@ METHOD_SECTIONS: tuple[type[Section], ...] = (Numerics, Sliding, Failure)
 
 def numbers(section: type[Section]) -> dict[str, tuple[type, str]]:
     """Kind (float, int or bool) and meaning of every key of a section that is always a number, by its name."""
-    return {name: (field.annotation, field.description or "") for name, field in section.model_fields.items()
-            if field.annotation in (float, int, bool)}
+    kinds: tuple[type, ...] = (float, int, bool)
+    return {name: (kind, field.description or "") for name, field in section.model_fields.items() for kind in kinds
+            if field.annotation is kind}

@@ -42,7 +42,7 @@ from hydro2d.physics.viscosity import (
     smoothness,
     strongest_compression,
 )
-from hydro2d.physics.waves import sound_step, volume_step
+from hydro2d.physics.waves import crossing_step, sound_step, volume_step
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
 #: least square of the speed of sound in an elastic energy, (m/s)^2
@@ -343,11 +343,10 @@ def step_limits(j, i, w):
     vt = w.v[0, j + 1]
     rho = w.rhobar[j, i] if w.rhobar[j, i] != 0.0 else 1.0
     sound = limit_of_sound(j, i, rho, max(w.qr[j, i], w.qz[j, i]), w)
-    radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
-    axial = max(max(abs(vb[i] - w.mesh_speed), abs(vb[i + 1] - w.mesh_speed)),
-                max(abs(vt[i] - w.mesh_speed), abs(vt[i + 1] - w.mesh_speed)))
-    loss = -divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
-    return sound, w.advective_courant * w.dr[i] / radial, w.advective_courant * w.dz[j] / axial, volume_step(loss)
+    radial = crossing_step(w.advective_courant, w.dr[i], ub[i], ub[i + 1], ut[i], ut[i + 1])
+    axial = crossing_step(w.advective_courant, w.dz[j], vb[i] - w.mesh_speed, vb[i + 1] - w.mesh_speed,
+                          vt[i] - w.mesh_speed, vt[i + 1] - w.mesh_speed)
+    return sound, radial, axial, volume_step(-divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j]))
 
 
 @cell_rows

@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
-#: causes of the time step, in the order of `step_limits`
+#: causes of the time step, in the order of `step_limits` in `hydro2d.kernels.thermodynamics`
 CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
 #: share of the largest stable step that no deck may exceed
 STABLE = 0.9
@@ -38,6 +38,12 @@ def sound_step(courant, shock_courant, length, linear, quadratic, rho, cl, q):
     largest = length / (damping + sqrt(cl * cl + damping * damping))
     share = share_crossed(courant, shock_courant, rho, cl, q)
     return min(share * length / sqrt(cl * cl + 2.0 * q / rho), STABLE * largest)
+
+
+@point
+def crossing_step(advective, length, a, b, c, d):
+    """Time step in which the fastest of four vertices, m/s, crosses the permitted share `advective` of a length, s."""
+    return advective * length / max(max(abs(a), abs(b)), max(abs(c), abs(d)))
 
 
 @point
