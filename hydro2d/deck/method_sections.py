@@ -182,4 +182,4 @@ def numbers(section: type[Section]) -> dict[str, tuple[type, str]]:
     """Kind (float, int or bool) and meaning of every key of a section that is always a number, by its name."""
     kinds: tuple[type, ...] = (float, int, bool)
     return {name: (kind, field.description or "") for name, field in section.model_fields.items() for kind in kinds
-            if field.annotation is kind}
+            if field.annotation == kind}

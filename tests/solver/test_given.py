@@ -67,14 +67,14 @@ def test_a_name_with_two_owners_is_refused():
 
 
 def test_numbers_of_the_deck_are_those_of_its_sections():
-    """Every key that is a number, with its value in the deck."""
+    """Every key that is always a number, with its value in the deck."""
     simulation = started(("numerics.courant=0.3", "sliding.threshold=0.4", "failure.record=true", "numerics.ramp_cycles=7"))
     handle = simulation.engine.given.handle
     assert (handle.courant, handle.threshold, handle.record, handle.ramp_cycles) == (0.3, 0.4, True, 7)
     for section in (simulation.deck.numerics, simulation.deck.sliding, simulation.deck.failure):
-        stated = {key: value for key, value in section.model_dump().items() if isinstance(value, (float, int, bool))}
-        assert {name.symbol for name in names.NUMBERS[type(section)]} == set(stated)
-        assert {name: getattr(handle, name) for name in stated} == stated
+        stated = {key: value for key, value in section.model_dump().items()
+                  if isinstance(value, (float, int)) and key not in ("boundary_layer", "slip_layer", "yield_factor")}
+        assert {name.symbol: getattr(handle, name.symbol) for name in names.NUMBERS[type(section)]} == stated
 
 
 def test_ties_are_those_of_the_table():
