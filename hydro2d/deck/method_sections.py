@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
@@ -178,8 +178,7 @@ class Failure(Section):
 METHOD_SECTIONS: tuple[type[Section], ...] = (Numerics, Sliding, Failure)
 
 
-def numbers(section: type[Section]) -> dict[str, tuple[type, str]]:
+def numbers(section: type[Section]) -> dict[str, tuple[Any, str]]:
     """Kind (float, int or bool) and meaning of every key of a section that is always a number, by its name."""
-    kinds: tuple[type, ...] = (float, int, bool)
-    return {name: (kind, field.description or "") for name, field in section.model_fields.items() for kind in kinds
-            if field.annotation == kind}
+    return {name: (field.annotation, field.description or "") for name, field in section.model_fields.items()
+            if field.annotation in (float, int, bool)}
