@@ -80,7 +80,7 @@ def find_surfaces(j, w):
             if w.vof[m, j, i] > 0.0:
                 own += w.vof[m, j, i] if w.group[m] == 1 else 0.0
                 other += w.vof[m, j, i] if w.group[m] != 1 else 0.0
-                zone = zone or (w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold)
+                zone = zone or (w.hard_bodies[m] and w.vof[m, j, i] >= w.threshold)
         void = 1.0 - (own + other)
         meet, full = own > 0.0 and other > 0.0, void <= NO_VOID
         if own + other == 0.0 or (full and not meet and (zone or not w.tipton or not joins_solids(j, i, w.strong, w.vof))):

@@ -53,7 +53,7 @@ def dominant_body(j, i, w):
     """Body whose strength dominates in a cell of the hard zone, -1 outside it."""
     dominant = -1
     for m in range(w.vof.shape[0]):
-        if w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold:
+        if w.hard_bodies[m] and w.vof[m, j, i] >= w.threshold:
             dominant = m
     return dominant
 

@@ -1,8 +1,10 @@
 """Names that kernels of the step can use: every array and number of a `Handle`, each with one meaning.
 
-The arrays of the state are those of the tables of fields and of work (`hydro2d.mesh.fields`); the rest are here.
+The arrays of the state are those of the tables of fields and of work (`hydro2d.mesh.fields`). The numbers of the method are
+the keys of the deck that are numbers (`hydro2d.deck.method_sections`), with their meanings there. The rest are here.
 """
 
+from hydro2d.deck.method_sections import METHOD_SECTIONS, numbers
 from hydro2d.jit import declare
 from hydro2d.mesh import fields
 from hydro2d.mesh.fields import Work
@@ -30,11 +32,10 @@ OF_THE_CALL = (
     Work("sound_floor", "", "least square of the speed of sound, m^2/s^2"),
 )
 
-#: the mesh, its edges, and forces of sources
+#: the mesh
 MESH = (
     Work("nr", "", "number of columns", int),
     Work("nz", "", "number of rows", int),
-    Work("mesh_box", "4", "rows and columns of the mesh without ghosts: first and one past the last", int),
     Work("r", "I", "radii of the edges of columns, m"),
     Work("z", "J", "heights of the edges of rows, m"),
     Work("rc", "i", "radii of the centres of columns, m"),
@@ -43,6 +44,11 @@ MESH = (
     Work("dz", "j", "heights of rows, m"),
     Work("metrics", "8 I", "geometry of a column (`hydro2d.mesh.grid`)"),
     Work("volume", "j i", "volume of a cell, m^3"),
+)
+
+#: its edges, and forces of sources
+EDGES = (
+    Work("mesh_box", "4", "rows and columns of the mesh without ghosts: first and one past the last", int),
     Work("mirror_r_min", "", "whether the inner edge along r is a mirror", bool),
     Work("mirror_r_max", "", "whether the outer edge along r is a mirror", bool),
     Work("mirror_z_min", "", "whether the low edge along z is a mirror", bool),
@@ -57,8 +63,10 @@ MESH = (
     Work("pushed", "2 b J I", "velocity that forces of sources add in the step, m/s, or an empty array"),
 )
 
-#: blocks of the state whose rows have their own names, and views of them
+#: groups and rules of bodies in the state, its blocks whose rows have their own names, and views of them
 BLOCKS = (
+    Work("group", "m", "body group", int),
+    Work("rules", "m k 4", "rules by which the rows of q are remapped"),
     Work("q", "k m j i", "fields that the remap carries in addition to the volume fraction"),
     Work("centroid", "2 m j i", "centroid_r and centroid_z"),
     Work("velocity", "2 b J I", "u and v"),
@@ -69,10 +77,8 @@ BLOCKS = (
 
 #: bodies and their materials
 BODIES = (
-    Work("group", "m", "body group", int),
     Work("models", "m 5", "indices of the models of each body's material", int),
     Work("materials", "m k", "constants of the models"),
-    Work("rules", "m k 4", "rules by which the rows of q are remapped"),
     Work("carried", "m k", "rows of q that the remap carries: their number, then their indices", int),
     Work("gases", "m", "whether the body is a gas", bool),
     Work("strong", "m", "whether the body has strength", bool),
@@ -84,35 +90,30 @@ BODIES = (
     Work("soft_first", "m", "bodies in that order, group 0 first", int),
 )
 
-#: choices of a deck
-METHOD = (
-    Work("contact", "", "whether there are two groups of bodies", bool),
-    Work("remembers", "", "whether an equation of state has internal variables", bool),
+#: words of the deck, as `hydro2d.solver.method` translates them
+WORDS = (
     Work("slip_layer", "", "whether there is a slip layer", bool),
     Work("both", "", "whether the advection keeps energy and momentum", bool),
     Work("advection", "", "index of the advection, the quantity that the remap of momentum keeps", int),
-    Work("ke_bound", "", "bound of the kinetic energy that a vertex may gain in a sweep"),
-    Work("courant", "", "Courant number: share of the time in which a wave crosses a cell"),
-    Work("shock_courant", "", "Courant number in a shock"),
-    Work("advective_courant", "", "share of a cell that a vertex may cross in a step"),
-    Work("viscosity_linear", "", "linear coefficient of the viscosity"),
-    Work("viscosity_quadratic", "", "quadratic coefficient of the viscosity"),
-    Work("hourglass", "", "coefficient of the hourglass filter"),
-    Work("steepness", "", "steepness of the slopes of the remap"),
     Work("tipton", "", "whether mixed cells relax their pressures, Tipton's closure", bool),
-    Work("relaxation", "", "share of the pressure difference that a step removes"),
     Work("strength_mode", "", "index of the rule for the strength of a mixed cell", int),
     Work("by_what_is_solid", "", "whether that is the mean over the solids", bool),
-    Work("cutoff", "", "volume fraction below which a body is removed"),
-    Work("underfilled_density", "", "density of a dual cell below which its vertex is limited to speed_limit, kg/m^3"),
     Work("smallest_tension", "", "whether the weakest body decides where a cell fractures", bool),
-    Work("max_opening", "", "largest share of a cell that opens as void in a step"),
-    Work("hard_threshold", "", "hard fraction from which a cell is in the hard zone of a slip layer"),
-    Work("width_bl", "", "width of the boundary layer, m"),
-    Work("width_sl", "", "width of the slip layer, m"),
     Work("shear", "", "index of the slip layer's treatment of shear", int),
-    Work("friction", "", "coefficient of friction"),
-    Work("most_squares", "", "largest sum of the squares of an extension's weights"),
+)
+
+#: numbers of the deck, the keys of each of its sections about the method
+NUMBERS = {section: tuple(Work(name, "", meaning, kind) for name, (kind, meaning) in numbers(section).items())
+           for section in METHOD_SECTIONS}
+
+#: what follows from a deck with its materials
+DERIVED = (
+    Work("contact", "", "whether there are two groups of bodies", bool),
+    Work("remembers", "", "whether an equation of state has internal variables", bool),
+    Work("underfilled_density", "", "density of a dual cell below which its vertex is limited to speed_limit, kg/m^3"),
+    Work("width_bl", "", "width of the boundary layer, m; 0 without a slip layer"),
+    Work("width_sl", "", "width of the slip layer, m; 0 without"),
+    Work("most_squares", "", "largest sum of the squares of an extension's weights; 1 without a contact"),
 )
 
 #: data that contact keeps of every contact node, in slots (`solver.contact_ties.Ties`)
@@ -148,11 +149,13 @@ LIGHT = (
 
 _AXES = {"body": "m j i", "cell": "j i", "vertex": "b J I"}
 
+#: names of the state with any groups; which of it `hydro2d.mesh.state.State` has depends on these and on memory
+STATE = (*(Work(field.symbol, _AXES[field.centring], field.meaning) for field in fields.FIELDS), *fields.WORK, *BLOCKS)
+
 #: all names that kernels of the step can use
 NAMES = (
-    *(Work(field.symbol, _AXES[field.centring], field.meaning) for field in fields.FIELDS),
-    *fields.WORK, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *BLOCKS, *BODIES, *METHOD,
-    *TIES,
+    *STATE, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *EDGES, *BODIES, *WORDS,
+    *(name for some in NUMBERS.values() for name in some), *DERIVED, *TIES,
 )
 
 declare({name.symbol: (name.kind, len(name.axes.split())) for name in (*NAMES, *LIGHT)})

@@ -112,7 +112,7 @@ def slip_zones(w):
                   0.5 * max(w.dr[i], w.dz[j]), w)
     for j in range(j0, j1):
         for i in range(w.i0, w.i1):
-            if w.hard[j, i] >= w.hard_threshold:
+            if w.hard[j, i] >= w.threshold:
                 w.zone[j, i] = HARD
             elif w.distance[j, i] <= w.width_bl:
                 w.zone[j, i] = BOUNDARY_LAYER

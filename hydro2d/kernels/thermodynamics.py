@@ -42,7 +42,7 @@ from hydro2d.physics.viscosity import (
     smoothness,
     strongest_compression,
 )
-from hydro2d.physics.waves import step_limits
+from hydro2d.physics.waves import crossing_step, sound_step, volume_step
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
 #: least square of the speed of sound in an elastic energy, (m/s)^2
@@ -251,6 +251,18 @@ def row_minimum(a, first, number):
     return min(min(a0, a1), min(a2, a3))
 
 
+@point
+def viscosity(rho, bulk, cl, solid, jump, length, psi, w):
+    """Artificial viscosity of a cell, Pa, against a difference of velocity over a length, m/s: a jump < 0 where it compresses.
+
+    rho, bulk, cl, solid : of the cell;  psi : 1 where velocity is smooth (explanation/lagrangian-step, equation 11)
+    """
+    c = bulk / rho
+    c = sqrt(c) if c > 0.0 else cl
+    linear = linear_in_step(w.viscosity_linear, w.dt * cl / length)
+    return shut(solid) * directional_viscosity(rho, c, jump, psi, linear, w.viscosity_quadratic)
+
+
 @rowwise
 def viscosity_row(j, w):
     """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, no hoop stress.
@@ -305,15 +317,36 @@ def viscosity_row(j, w):
         psi_r = smoothness(n_r * du_l + n_z * sv_l, n_r * du + n_z * sv, n_r * du_r + n_z * sv_r)
         psi_z = smoothness(n_r * su_b + n_z * dv_b, n_r * su + n_z * dv, n_r * su_t + n_z * dv_t)
         psi = n_r * n_r * psi_r + n_z * n_z * psi_z
-        c = bulk_j[i] / rho
-        c = sqrt(c) if c > 0.0 else cl_j[i]
-        linear = linear_in_step(w.viscosity_linear, w.dt * cl_j[i] / length)
-        q = shut(solid_j[i]) * directional_viscosity(rho, c, jump, psi, linear, w.viscosity_quadratic)
-        q = 0.0 if void else q
+        q = 0.0 if void else viscosity(rho, bulk_j[i], cl_j[i], solid_j[i], jump, length, psi, w)
         qr_j[i] = q * (n_r * n_r)
         qz_j[i] = q * (n_z * n_z)
         qrz_j[i] = q * (n_r * n_z)
         qt_j[i] = 0.0
+
+
+@point
+def limit_of_sound(j, i, rho, q, w):
+    """Bound of the time step by sound in cell (j, i) with density rho and viscosity q, s (`sound_step`)."""
+    return sound_step(w.courant, w.shock_courant, min(w.dr[i], w.dz[j]), w.viscosity_linear, w.viscosity_quadratic, rho,
+                      w.cl[j, i], q)
+
+
+@point
+def step_limits(j, i, w):
+    """Four bounds of the time step in cell (j, i), s, in the order of CAUSES (explanation/lagrangian-step).
+
+    Axial velocities count relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
+    """
+    ub = w.u[0, j]
+    ut = w.u[0, j + 1]
+    vb = w.v[0, j]
+    vt = w.v[0, j + 1]
+    rho = w.rhobar[j, i] if w.rhobar[j, i] != 0.0 else 1.0
+    sound = limit_of_sound(j, i, rho, max(w.qr[j, i], w.qz[j, i]), w)
+    radial = crossing_step(w.advective_courant, w.dr[i], ub[i], ub[i + 1], ut[i], ut[i + 1])
+    axial = crossing_step(w.advective_courant, w.dz[j], vb[i] - w.mesh_speed, vb[i + 1] - w.mesh_speed,
+                          vt[i] - w.mesh_speed, vt[i + 1] - w.mesh_speed)
+    return sound, radial, axial, volume_step(-divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j]))
 
 
 @cell_rows
@@ -335,8 +368,6 @@ def limit_step(j, part, w):
     ut = w.u[0, j + 1]
     vb = w.v[0, j]
     vt = w.v[0, j + 1]
-    qr_j = w.qr[j]
-    qz_j = w.qz[j]
     rho_j = w.rhobar[j]
     cl_j = w.cl[j]
     step_j = w.scratch[1, part]
@@ -345,13 +376,9 @@ def limit_step(j, part, w):
     for x in range(n):
         i = lo + x
         void = rho_j[i] == 0.0
-        rho = 1.0 if void else rho_j[i]
         du = (ub[i + 1] - ub[i]) + (ut[i + 1] - ut[i])
         dv = (vt[i] - vb[i]) + (vt[i + 1] - vb[i + 1])
-        loss = -divergence(i, ub, ut, vb, vt, w.metrics, w.dz[j])
-        sound, radial, axial, volume = step_limits(
-            i, ub, ut, vb, vt, w.courant, w.shock_courant, w.advective_courant, w.viscosity_linear, w.viscosity_quadratic,
-            w.mesh_speed, w.dr, w.dz[j], rho, cl_j[i], max(qr_j[i], qz_j[i]), loss)
+        sound, radial, axial, volume = step_limits(j, i, w)
         hg_j[i] = 0.25 * w.hourglass * rho_j[i] * cl_j[i] * w.metrics[VOL_R, i] * w.dz[j] / max(w.dr[i], w.dz[j])
         step_j[i] = 1e300 if void else min(min(sound, radial), min(axial, volume))
         wrong += 0 if void or (abs(du) < 1e300 and abs(dv) < 1e300) else 1
@@ -385,10 +412,7 @@ def step_cause(w):
     best = 1e300
     for i in range(w.active_range[j, 0], w.active_range[j, 1]):
         if w.rhobar[j, i] > 0.0:
-            loss = -divergence(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.metrics, w.dz[j])
-            limits = step_limits(i, w.u[0, j], w.u[0, j + 1], w.v[0, j], w.v[0, j + 1], w.courant, w.shock_courant,
-                                 w.advective_courant, w.viscosity_linear, w.viscosity_quadratic, w.mesh_speed, w.dr, w.dz[j],
-                                 w.rhobar[j, i], w.cl[j, i], max(w.qr[j, i], w.qz[j, i]), loss)
+            limits = step_limits(j, i, w)
             for k in range(4):
                 if limits[k] < best:
                     best = limits[k]

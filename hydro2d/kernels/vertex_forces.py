@@ -23,7 +23,7 @@ SMALLEST_SPEED = 1e-20
 def mixed_stress(j, i, w):
     """(rr, zz, tt, rz) of a mixed cell without its pressure, Pa: of its bodies, or of the hard body in a hard zone."""
     for m in range(w.vof.shape[0]):
-        if w.hard_bodies[m] and w.vof[m, j, i] >= w.hard_threshold:
+        if w.hard_bodies[m] and w.vof[m, j, i] >= w.threshold:
             rr, zz = w.solid[j, i] * w.q[SRR, m, j, i], w.solid[j, i] * w.q[SZZ, m, j, i]
             return rr, zz, -(rr + zz), w.solid[j, i] * w.q[SRZ, m, j, i]
     return bodies_stress(-1, j, i, w)

@@ -5,7 +5,7 @@ from math import sqrt
 from hydro2d.jit import point
 from hydro2d.physics.traction import smoothstep
 
-#: causes of the time step, in the order of `step_limits`
+#: causes of the time step, in the order of `step_limits` in `hydro2d.kernels.thermodynamics`
 CAUSES = ("sound", "radial velocity", "axial velocity", "volume change")
 #: share of the largest stable step that no deck may exceed
 STABLE = 0.9
@@ -41,22 +41,15 @@ def sound_step(courant, shock_courant, length, linear, quadratic, rho, cl, q):
 
 
 @point
-def volume_step(loss):
-    """Time step in which a cell loses a fifth of its volume, s; loss : the rate, 1/s."""
-    return 0.2 / loss if loss > 0.0 else 1e300
+def crossing_step(advective, length, a, b, c, d):
+    """Time step in which the fastest of four vertices, m/s, crosses the permitted share `advective` of a length, s."""
+    return advective * length / max(max(abs(a), abs(b)), max(abs(c), abs(d)))
 
 
 @point
-def step_limits(i, ub, ut, vb, vt, courant, shock_courant, advective, linear, quadratic, mesh_speed, dr, h, rho, cl, q, loss):
-    """Four bounds of the time step in cell i, s, in the order of CAUSES (explanation/lagrangian-step).
-
-    Axial velocities count relative to the mesh, which travels at mesh_speed (explanation/following-mesh).
-    """
-    sound = sound_step(courant, shock_courant, min(dr[i], h), linear, quadratic, rho, cl, q)
-    radial = max(max(abs(ub[i]), abs(ub[i + 1])), max(abs(ut[i]), abs(ut[i + 1])))
-    axial = max(max(abs(vb[i] - mesh_speed), abs(vb[i + 1] - mesh_speed)),
-                max(abs(vt[i] - mesh_speed), abs(vt[i + 1] - mesh_speed)))
-    return sound, advective * dr[i] / radial, advective * h / axial, volume_step(loss)
+def volume_step(loss):
+    """Time step in which a cell loses a fifth of its volume, s; loss : the rate, 1/s."""
+    return 0.2 / loss if loss > 0.0 else 1e300
 
 
 @point

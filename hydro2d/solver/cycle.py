@@ -56,7 +56,7 @@ class Cycle:
         self.grid = state.grid
         self.time, self.dt, self.number, self.cause = 0.0, 0.0, 0, "start"
         self.contact = Contact(state) if state.groups > 1 else NoContact()
-        skips = method.active_region and self.mesh.leading is None and not self.sources
+        skips = method.numerics.active_region and self.mesh.leading is None and not self.sources
         self.edges, self.active = EdgeLines(method.boundaries, state.grid), ActiveBox(state, table, method.boundaries, skips)
         self.parts, self.courses = Parts(state), Courses(state)
         self.mesh_box, self.rows = self.active.mesh, self.active.rows
@@ -137,7 +137,7 @@ class Cycle:
 
     def find_slip_zones(self) -> None:
         """Distance to the hard bodies and the zones next to them, every few cycles."""
-        if self.method.slip_widths is not None and self.number % self.method.refresh == 0:
+        if self.method.slip_layer and self.number % self.method.sliding.refresh == 0:
             self.given.run(lagrangian_step.slip_zones)
 
     def close_cells(self) -> None:

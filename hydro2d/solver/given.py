@@ -20,9 +20,18 @@ from hydro2d.solver.contact_ties import most_squares
 AT_END, AT_BEGINNING = ("velocity", "u", "v"), ("velocity0", "u0", "v0")
 
 
-def _of(owner, some: Iterable[fields.Work]) -> dict:
-    """The attributes of an owner that have these names."""
-    return {name.symbol: getattr(owner, name.symbol) for name in some if hasattr(owner, name.symbol)}
+def values(*owned: tuple[object, Iterable[fields.Work]]) -> dict[str, object]:
+    """The values of names, each an attribute of its one owner.
+
+    Raises ValueError for a name with two owners, AttributeError for one that its owner does not have.
+    """
+    owner_of: dict[str, object] = {}
+    for owner, some in owned:
+        for symbol in (name.symbol for name in some):
+            if symbol in owner_of:
+                raise ValueError(f"the name {symbol} has two owners")
+            owner_of[symbol] = owner
+    return {symbol: getattr(owner, symbol) for symbol, owner in owner_of.items()}
 
 
 def _carried(table) -> np.ndarray:
@@ -48,16 +57,19 @@ class Given:
     def __init__(self, cycle, table):
         self._state, self._contact, self.handle = cycle.state, cycle.contact, Handle()
         state, method = cycle.state, cycle.method
-        arrays = _of(state, [name for name in names.NAMES if name not in names.TIES])
-        absent = (*(fields.CONTACT_WORK if state.groups == 1 else fields.HOLD_WORK),
-                  *(() if table.remembers else fields.MEMORY_WORK))
-        arrays |= {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind) for work in absent}
+        beside, absent = ((fields.CONTACT_WORK, fields.HOLD_WORK) if state.groups > 1 else
+                          (fields.HOLD_WORK, fields.CONTACT_WORK))
+        memory, no_memory = (fields.MEMORY_WORK, ()) if table.remembers else ((), fields.MEMORY_WORK)
+        sections = method.numerics, method.sliding, method.failure
+        owned = values((state, (*names.STATE, *beside, *memory)), (cycle.grid, names.MESH), (method, names.WORDS),
+                       *((section, names.NUMBERS[type(section)]) for section in sections))
+        empty = {work.symbol: np.zeros((0,) * len(work.axes.split()), dtype=work.kind) for work in (*absent, *no_memory)}
         order, own = method.interface_order, state.group[method.interface_order]
-        models, materials = rows.packed(table, method.strength_cutoff * table.rho0, method.yield_factor)
+        models, materials = rows.packed(table, method.failure.strength_cutoff * table.rho0, method.yield_factor)
         bodies = {
             "models": models, "materials": materials, "carried": _carried(table), "gases": materials[:, rows.GAS] > 0.0,
             "strong": models[:, rows.STRENGTH] != 0, "fades": materials[:, rows.FADES].copy(),
-            "tension": rows.tension(models, materials), "hard_bodies": method.hard, "interface_order": order,
+            "tension": rows.tension(models, materials), "hard_bodies": method.hard_bodies, "interface_order": order,
             "hard_first": np.concatenate([order[own != 0], order[own == 0]]),
             "soft_first": np.concatenate([order[own == 0], order[own != 0]]),
         }
@@ -68,15 +80,13 @@ class Given:
             "edge_pressure": method.boundaries.pressure,
             "void_only": cycle.edges.void_beyond(cycle.mesh.leading), "pushed": cycle.sources.pushed,
         }
-        choices = _of(method, [name for name in names.METHOD]) | {
-            "contact": state.groups > 1, "remembers": table.remembers, "slip_layer": method.slip_widths is not None,
-            "strength_mode": method.mixed_strength,
-            "hard_threshold": method.threshold, "underfilled_density": method.mass_floor * float(np.max(table.rho0)),
-            "most_squares": most_squares(table, method.courant) if state.groups > 1 else 1.0,
+        derived = {
+            "contact": state.groups > 1, "remembers": table.remembers,
+            "underfilled_density": method.numerics.mass_floor * float(np.max(table.rho0)),
+            "width_bl": method.slip_widths[0], "width_sl": method.slip_widths[1],
+            "most_squares": most_squares(table, method.numerics.courant) if state.groups > 1 else 1.0,
         }
-        if method.slip_widths is not None:
-            choices["width_bl"], choices["width_sl"] = method.slip_widths
-        self.handle.update(**arrays, **_of(cycle.grid, names.MESH), **bodies, **edges, **choices, anew=False)
+        self.handle.update(**owned, **empty, **bodies, **edges, **derived, anew=False)
         self._keep_up()
 
     def _keep_up(self) -> None:

@@ -61,7 +61,7 @@ class Refusals:
 
     def small_step(self, dt: float, cause: str) -> None:
         """Raises UnphysicalState for a time step below the least one; cause : the condition that set it."""
-        dt_min = self._cycle.method.dt_min
+        dt_min = self._cycle.method.numerics.dt_min
         if not dt_min < dt < 1e300:
             raise UnphysicalState(f"{self._when}: time step {dt:.3g} s, below dt_min = {dt_min:.3g} s, set by {cause}, in body "
                                   f'"{self._slowest}"')

@@ -426,7 +426,7 @@ class Simulation:
     def _refuse_collapse(self) -> None:
         """Raises UnphysicalState if the time steps have collapsed, to what no motion that the shot can have explains."""
         engine = self.engine
-        if engine.number <= engine.method.ramp_cycles or not self._steps.collapse(engine.dt, engine.cause):
+        if engine.number <= engine.method.numerics.ramp_cycles or not self._steps.collapse(engine.dt, engine.cause):
             return
         size = min(widths[inside].min() for widths, inside in zip((self.grid.dz, self.grid.dr), self.grid.inside, strict=True))
         hottest = float(np.max(self._reach.cell_highest + self._given()))

@@ -38,17 +38,18 @@ def speed_limit(state, sound_speeds) -> float:
 def chosen(cycle) -> tuple[float, str]:
     """The time step, s, and its cause: the term and the cell that set it, the ramp of the first cycles, the growth from step to
     step, or the velocity of an edge."""
-    s, g, method = cycle.state, cycle.grid, cycle.method
+    s, g, numerics = cycle.state, cycle.grid, cycle.method.numerics
     j, (cause, i) = int(s.least_row[0]), s.cause
-    ramp = min(1.0, method.initial_dt_factor + (1.0 - method.initial_dt_factor) * cycle.number / max(method.ramp_cycles, 1))
+    first = numerics.initial_dt_factor
+    ramp = min(1.0, first + (1.0 - first) * cycle.number / max(numerics.ramp_cycles, 1))
     dt, said = float(s.row_step[j]) * ramp, f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, z = {g.zc[j] * 1e3:.3f} mm"
     if ramp < 1.0:
         said += " (ramp)"
-    if cycle.dt > 0.0 and dt > method.max_growth * cycle.dt:
-        dt, said = method.max_growth * cycle.dt, GROWTH
-    crossing, edge = method.boundaries.least_crossing(cycle.edges.widths, cycle.time, cycle.time + dt)
-    if dt > method.advective_courant * crossing:
-        dt, said = method.advective_courant * crossing, f"velocity of the edge {edge}"
+    if cycle.dt > 0.0 and dt > numerics.max_growth * cycle.dt:
+        dt, said = numerics.max_growth * cycle.dt, GROWTH
+    crossing, edge = cycle.method.boundaries.least_crossing(cycle.edges.widths, cycle.time, cycle.time + dt)
+    if dt > numerics.advective_courant * crossing:
+        dt, said = numerics.advective_courant * crossing, f"velocity of the edge {edge}"
     return dt, said
 
 

@@ -48,9 +48,9 @@ def sweep_faces(engine) -> None:
 
 def tidy(engine) -> None:
     """Tidies cells, mixed ones as they are now, as after the second sweep of a step."""
-    s, g, method = engine.state, engine.grid, engine.method
+    s, g, numerics = engine.state, engine.grid, engine.method.numerics
     column_ranges.list_mixed(0, handle(parts=rows(engine), active_range=s.active_range, vof=s.vof, mixed_count=s.mixed_count,
                              mixed=s.mixed, scratch=s.scratch))
-    remap.tidy(0, handle(parts=rows(engine), cutoff=method.cutoff, metrics=g.metrics, volume=g.volume, group=s.group,
+    remap.tidy(0, handle(parts=rows(engine), cutoff=numerics.cutoff, metrics=g.metrics, volume=g.volume, group=s.group,
                mixed_count=s.mixed_count, mixed=s.mixed, pre_sweep_volume=s.pre_sweep_volume, dj=0, di=1, fr=s.fr, fz=s.fz,
                second=True, u=s.u, v=s.v, vof=s.vof, q=s.q, cell_mass=s.cell_mass, removed=s.removed, centroid=s.centroid))

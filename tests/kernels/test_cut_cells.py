@@ -362,7 +362,7 @@ def surfaces(vof, group=(1, 0), hard=(False, False), dr=1.0, dz=1.0, gas=(False,
         mixed[j, : count[j]] = np.nonzero(is_mixed[j])[0]
     cut_cells.find_surfaces(0, handle(parts=MESH_BOX[:2], i0=2, i1=SIZE_OF_MESH - 2, mesh_box=MESH_BOX,
                             dr=np.full(SIZE_OF_MESH, dr), dz=np.full(SIZE_OF_MESH, dz), tipton=tipton, group=np.array(group),
-                            hard_bodies=np.array(hard), hard_threshold=0.5, strong=np.array(strong), gases=np.array(gas),
+                            hard_bodies=np.array(hard), threshold=0.5, strong=np.array(strong), gases=np.array(gas),
                             mixed_count=count, mixed=mixed, vof=vof, skin=skin))
     return skin
 

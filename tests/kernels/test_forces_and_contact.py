@@ -57,7 +57,7 @@ def stressed(**q) -> Cells:
 
 def sums(cells: Cells, **given) -> list:
     cells.call(vertex_forces.total_stress, **{"dt": 0.4, "by_what_is_solid": False, "hard_bodies": np.array([False, False]),
-                                             "hard_threshold": 0.5, **given})  # fmt: skip
+                                             "threshold": 0.5, **given})  # fmt: skip
     return [getattr(cells, name)[3, 3] for name in ("ph", "sig_rr", "sig_zz", "sig_tt", "sig_rz")]
 
 
@@ -74,7 +74,7 @@ def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
     cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
     assert sums(cells)[1] == pytest.approx(0.25 * (10 + 30) - 90 - 5)
     assert sums(cells, by_what_is_solid=True)[1] == pytest.approx(0.5 * (10 + 30) - 90 - 5)
-    assert sums(cells, hard_bodies=np.array([False, True]), hard_threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
+    assert sums(cells, hard_bodies=np.array([False, True]), threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
 
 
 def test_the_deviator_of_a_crumb_is_not_swallowed_by_the_pressure_of_a_full_cell():

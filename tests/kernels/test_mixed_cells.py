@@ -63,7 +63,7 @@ class Cell(Cells):
         nobody = np.array([False, False])
         self.known |= {"j": 2, "i": 2, "dt": 0.1, "h": 1.0, "rate": 0.1, "total": 1.0, "firm": 1.0, "volume": 1.0,
                        "models": models, "materials": materials, "gases": nobody.copy(), "strong": models[:, STRENGTH] != 0,
-                       "hard_bodies": nobody, "hard_threshold": 0.5, "strength_mode": VOLUME,
+                       "hard_bodies": nobody, "threshold": 0.5, "strength_mode": VOLUME,
                        "internal": np.zeros((5, 4))}  # fmt: skip
 
     def moving(self, **gradient: float) -> None:
@@ -252,7 +252,7 @@ def test_the_body_that_dominates_is_hard_and_fills_enough():
     hard = np.array([False, True])
     assert cell.run(mixed_strength.dominant_body) == -1
     assert cell.run(mixed_strength.dominant_body, hard_bodies=hard) == 1
-    assert cell.run(mixed_strength.dominant_body, hard_bodies=hard, hard_threshold=0.6) == -1
+    assert cell.run(mixed_strength.dominant_body, hard_bodies=hard, threshold=0.6) == -1
 
 
 def test_deviators_work_by_their_share():

@@ -22,7 +22,7 @@ def layer(share: float, along: int = AXIAL, sign: int = 1) -> Cells:
     low, past_z, first, past_r = cells.mesh_box
     walls, strong = np.array([first, past_r, low, past_z, -1, -1, -1, -1]), np.zeros(1, dtype=bool)
     cells.known |= {"constrained": walls, "edge_velocity": np.zeros(8), "group": np.zeros(1, dtype=int), "strong": strong,
-                    "hard_bodies": strong, "hard_threshold": 1.0, "tipton": True, "dt": 1 / 3,
+                    "hard_bodies": strong, "threshold": 1.0, "tipton": True, "dt": 1 / 3,
                     "tension": np.zeros(1), "fades": np.zeros(1)}
     cells.call(vertex_forces.vertex_masses)
     for j in range(low, past_z):

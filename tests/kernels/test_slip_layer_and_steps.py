@@ -18,7 +18,7 @@ def zoned() -> Cells:
     """A hard body in columns 2 and 3, with a boundary layer and a slip layer of 1 m each next to it."""
     cells = Cells(nr=6, nz=4, bodies=2)
     cells.vof[1, :, 2:4], cells.vof[0, :, 4:8] = 1.0, 1.0
-    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, hard_threshold=0.5, hard_bodies=np.array([False, True]),
+    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_bodies=np.array([False, True]),
                normal=cells.normal)  # fmt: skip
     return cells
 
@@ -34,7 +34,7 @@ def test_the_surface_in_a_mixed_cell_lies_where_its_fraction_says():
     """Column 4 is filled by 0.25: its surface is at 2.25 m, a quarter of a metre before its middle."""
     cells = zoned()
     cells.vof[1, :, 4] = 0.25
-    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, hard_threshold=0.5, hard_bodies=np.array([False, True]),
+    cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_bodies=np.array([False, True]),
                normal=cells.normal)  # fmt: skip
     assert cells.distance[3, 4:6] == pytest.approx([0.25, 1.25])
     assert cells.zone[3, 4:7].tolist() == [BOUNDARY_LAYER, SLIP_LAYER, OUTSIDE]

@@ -207,7 +207,8 @@ def test_a_collapsed_time_step_names_its_body(shot):
 
 
 def step_with(simulation, **changes):
-    simulation.engine.method = dataclasses.replace(simulation.engine.method, **changes)
+    method = simulation.engine.method
+    simulation.engine.method = dataclasses.replace(method, numerics=method.numerics.model_copy(update=changes))
     simulation.step()
 
 

@@ -7,124 +7,15 @@ import pytest
 
 from hydro2d.physics import waves
 
-step_limits = waves.step_limits.py_func
 impedances = waves.impedances.py_func
 
-#: a slow cell of 1 by 2 mm: the first and the last vertex of a row belong to other cells
-CELL = {
-    "ub": [9e9, 1.0, 1.0, 9e9],
-    "ut": [9e9, 1.0, 1.0, 9e9],
-    "vb": [9e9, 1.0, 1.0, 9e9],
-    "vt": [9e9, 1.0, 1.0, 9e9],
-    "courant": 0.5,
-    "shock_courant": 0.5,
-    "advective": 0.4,
-    "linear": 0.0,
-    "quadratic": 1.0,
-    "mesh_speed": 0.0,
-    "dr": [9e-9, 1e-3, 9e-9],
-    "h": 2e-3,
-    "rho": 8000.0,
-    "cl": 5000.0,
-    "q": 0.0,
-    "loss": 0.0,
-}
-
-
-def limits(**changed) -> dict[str, float]:
-    """Bounds by cause, with some of CELL changed."""
-    given = (np.array(value) if isinstance(value, list) else value for value in (CELL | changed).values())
-    return dict(zip(waves.CAUSES, step_limits(1, *given), strict=True))
-
-
-def changed_by(**changed) -> set[str]:
-    """The bounds that differ from those of CELL."""
-    before, after = limits(), limits(**changed)
-    return {cause for cause in before if after[cause] != before[cause]}
-
-
-def row(first: float, last: float) -> list[float]:
-    return [9e9, first, last, 9e9]
-
-
-# ---------------------------------------------------------------------------------------------------------- sound
-
-
-def test_sound_may_cross_half_of_the_smaller_side():
-    """0.5 * 1 mm at 5 km/s."""
-    assert limits()["sound"] == pytest.approx(1e-7)
-
-
-def test_the_height_counts_where_it_is_the_smaller_side():
-    assert limits(h=0.25e-3)["sound"] == pytest.approx(0.25e-7)
-
-
-def test_viscosity_adds_twice_its_pressure_over_density_to_the_square_of_the_speed():
-    """q = 3/2 rho c^2 makes the wave twice as fast."""
-    assert limits(q=1.5 * 8000.0 * 5000.0**2)["sound"] == pytest.approx(0.5e-7)
-
-
-def test_courant_and_the_wave_bear_on_the_sound_limit_alone():
-    assert changed_by(courant=0.25) == changed_by(cl=6000.0) == changed_by(q=1e9) == {"sound"}
-
-
-# ------------------------------------------------------------------------------------------------------- velocity
-
-
+@pytest.mark.parametrize("fastest", range(4))
 @pytest.mark.parametrize("speed", [800.0, -800.0])
-@pytest.mark.parametrize("name", ["ub", "ut"])
-@pytest.mark.parametrize("end", [0, 1])
-def test_the_fastest_vertex_may_cross_two_fifths_of_the_width(speed, name, end):
-    changed = {name: row(*((speed, 1.0) if end == 0 else (1.0, speed)))}
-    assert limits(**changed)["radial velocity"] == pytest.approx(0.4 * 1e-3 / 800.0)
-    assert changed_by(**changed) == {"radial velocity"}
+def test_the_fastest_vertex_may_cross_two_fifths_of_a_length(speed, fastest):
+    speeds = [1.0, -1.0, 1.0, -1.0]
+    speeds[fastest] = speed
+    assert waves.crossing_step.py_func(0.4, 1e-3, *speeds) == pytest.approx(0.4 * 1e-3 / 800.0)
 
-
-@pytest.mark.parametrize("speed", [800.0, -800.0])
-@pytest.mark.parametrize("name", ["vb", "vt"])
-@pytest.mark.parametrize("end", [0, 1])
-def test_the_fastest_vertex_may_cross_two_fifths_of_the_height(speed, name, end):
-    changed = {name: row(*((speed, 1.0) if end == 0 else (1.0, speed)))}
-    assert limits(**changed)["axial velocity"] == pytest.approx(0.4 * 2e-3 / 800.0)
-    assert changed_by(**changed) == {"axial velocity"}
-
-
-@pytest.mark.parametrize(("name", "end"), [("vb", 0), ("vb", 1), ("vt", 0), ("vt", 1)])
-def test_along_the_axis_only_the_motion_through_the_mesh_counts(name, end):
-    """Three vertices go with the mesh, one is 200 m/s slower."""
-    moving = {"vb": row(1000.0, 1000.0), "vt": row(1000.0, 1000.0)}
-    moving[name] = row(*((800.0, 1000.0) if end == 0 else (1000.0, 800.0)))
-    assert limits(mesh_speed=1000.0, **moving)["axial velocity"] == pytest.approx(0.4 * 2e-3 / 200.0)
-    assert limits(mesh_speed=1000.0, **moving)["radial velocity"] == limits()["radial velocity"]
-
-
-def test_a_cell_at_rest_in_the_mesh_is_bound_by_sound_alone():
-    still = {name: row(0.0, 0.0) for name in ("ub", "ut", "vb", "vt")}
-    with np.errstate(divide="ignore"):
-        bounds = limits(**still)
-    assert min(bounds, key=bounds.get) == "sound"
-    assert min(bound for cause, bound in bounds.items() if cause != "sound") >= 1e300
-
-
-def test_the_advective_share_bears_on_both_velocities():
-    assert changed_by(advective=0.2) == {"radial velocity", "axial velocity"}
-
-
-# --------------------------------------------------------------------------------------------------------- volume
-
-
-def test_a_cell_may_lose_a_fifth_of_its_volume():
-    assert limits(loss=1e5)["volume change"] == pytest.approx(2e-6)
-    assert limits(loss=0.5)["volume change"] == pytest.approx(0.4)
-    assert changed_by(loss=1e5) == {"volume change"}
-
-
-@pytest.mark.parametrize("loss", [0.0, -1e5, -1e30])
-def test_expansion_bounds_no_step(loss):
-    assert limits(loss=loss)["volume change"] >= 1e300
-
-
-# ------------------------------------------------------------------------------------------------------ impedances
 
 RHO, K, SHEAR = 7850.0, 160e9, 80e9
 C_LONG, C_SHEAR = math.sqrt((K + 4.0 / 3.0 * SHEAR) / RHO), math.sqrt(SHEAR / RHO)

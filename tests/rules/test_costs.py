@@ -10,6 +10,7 @@ from tests.rules import source
 NAMED = {
     "kinematic_hardening": r"kinematic[-_]hardening",
     "p_alpha": r"p[-_]alpha",
+    "hourglass": r"^    hourglass: |\.hourglass\b|\bhourglass=|['\"]hourglass['\"]",
     "piston": r"\bpiston|Piston",
     "heating": r"sources\.heating|class Heating\(Source",
     "sphere": r"shapes\.sphere|\bSphere\b",

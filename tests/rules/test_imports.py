@@ -45,7 +45,7 @@ NARROW = {
     "strength": ("strength", "hydro2d.base.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
-                        "hydro2d.materials.rows", "eos", "strength"),
+                        "hydro2d.materials.rows", "hydro2d.deck.method_sections", "eos", "strength"),
     "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.noses", "hydro2d.base.units", "hydro2d.base.parameters",
                             "hydro2d.base.errors"),
 }

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
+from hydro2d.kernels.sliding import SHEARS
 from hydro2d.measure import tracers
 from hydro2d.mesh import quantities
 from hydro2d.output import derived_quantities, snapshot
@@ -63,9 +64,9 @@ def test_method():
     assert method.group.tolist() == [0, 0, 1]
     assert method.yield_factor.tolist() == [1.0, 1.0, 1.25]
     assert method.interface_order.tolist() == [2, 0, 1]
-    assert not method.hard.any()
-    assert method.slip_widths is None
-    assert method.friction == 0.1
+    assert not method.hard_bodies.any()
+    assert not method.slip_layer
+    assert method.slip_widths == (0.0, 0.0)
 
 
 def test_method_of_a_slip_layer():
@@ -73,7 +74,9 @@ def test_method_of_a_slip_layer():
     method = Method.from_deck(d, deck.slots(d), deck.sliding_widths(d), deck.yield_factor(d))
     assert method.group.tolist() == [0, 0, 0]
     assert method.yield_factor.tolist() == [1.25, 1.0, 1.0]
-    assert method.hard.tolist() == [True, False, False]
+    assert method.hard_bodies.tolist() == [True, False, False]
+    assert method.slip_layer
+    assert method.shear == SHEARS.index("shear")
 
 
 def test_check_prints_the_contact_and_counts_its_memory():

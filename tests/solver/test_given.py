@@ -1,6 +1,7 @@
 """The names given to the phases of a step: each has a value, always the array in use, and of one type."""
 
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,9 +9,10 @@ import pytest
 from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.kernels import lagrangian_step, names, remap_step
+from hydro2d.mesh.fields import Work
 from hydro2d.solver.contact_ties import Ties, slots
 from hydro2d.solver.first_cycle import calls_of_a_cycle
-from hydro2d.solver.given import Given
+from hydro2d.solver.given import Given, values
 from hydro2d.solver.simulation import Simulation
 from tests.regression.test_bitwise import CONTACT, FOLLOWING, SHOT
 
@@ -41,8 +43,38 @@ def test_every_name_is_used_by_a_phase():
     """A name that no kernel uses is not a name of the step; the rows of q have names for those who read results."""
     used = frozenset().union(*(phase.takes for phase in PHASES.values()))
     assert used <= {name.symbol for name in names.NAMES}
-    stated = (*names.OF_THE_CALL, *names.MESH, *names.BODIES, *names.METHOD, *names.TIES)
+    stated = (*names.OF_THE_CALL, *names.MESH, *names.EDGES, *names.BODIES, *names.WORDS, *names.DERIVED, *names.TIES)
     assert {name.symbol for name in stated} - used == set()
+
+
+def owner(**attributes) -> tuple[SimpleNamespace, list[Work]]:
+    """An owner and the names of its attributes."""
+    return SimpleNamespace(**attributes), [Work(symbol, "", "") for symbol in attributes]
+
+
+def test_values_are_those_of_the_owners():
+    assert values(owner(courant=0.7), owner(friction=0.1, refresh=5)) == {"courant": 0.7, "friction": 0.1, "refresh": 5}
+
+
+def test_a_name_that_its_owner_does_not_have_is_refused():
+    with pytest.raises(AttributeError, match="couratn"):
+        values(owner(courant=0.7), (SimpleNamespace(courant=0.7), [Work("couratn", "", "")]))
+
+
+def test_a_name_with_two_owners_is_refused():
+    with pytest.raises(ValueError, match="the name courant has two owners"):
+        values(owner(courant=0.7), owner(courant=0.7))
+
+
+def test_numbers_of_the_deck_are_those_of_its_sections():
+    """Every key that is always a number, with its value in the deck."""
+    simulation = started(("numerics.courant=0.3", "sliding.threshold=0.4", "failure.record=true", "numerics.ramp_cycles=7"))
+    handle = simulation.engine.given.handle
+    assert (handle.courant, handle.threshold, handle.record, handle.ramp_cycles) == (0.3, 0.4, True, 7)
+    for section in (simulation.deck.numerics, simulation.deck.sliding, simulation.deck.failure):
+        stated = {key: value for key, value in section.model_dump().items()
+                  if isinstance(value, (float, int)) and key not in ("boundary_layer", "slip_layer", "yield_factor")}
+        assert {name.symbol: getattr(handle, name.symbol) for name in names.NUMBERS[type(section)]} == stated
 
 
 def test_ties_are_those_of_the_table():
@@ -53,13 +85,12 @@ def test_ties_are_those_of_the_table():
 def test_every_name_has_a_value(options):
     simulation = started(options)
     simulation.step()
-    engine, values = simulation.engine, simulation.engine.given.handle.values
-    missing = {name.symbol for name in names.NAMES} - set(values)
-    assert missing <= {"width_bl", "width_sl"}
-    assert (missing == set()) == (engine.method.slip_widths is not None)
+    engine, known = simulation.engine, simulation.engine.given.handle.values
+    assert {name.symbol for name in names.NAMES} == set(known)
+    assert (known["width_bl"] > 0.0) is engine.method.slip_layer
     for name in (each.symbol for each in names.NAMES):
         if getattr(engine.state, name, np.zeros(0)).size:
-            assert np.shares_memory(values[name], getattr(engine.state, name)), name
+            assert np.shares_memory(known[name], getattr(engine.state, name)), name
 
 
 def test_one_compiled_phase_serves_all_decks():

@@ -15,6 +15,7 @@ from hydro2d.kernels.cut_cells import (
     pull_of_ties,
     ties,
 )
+from hydro2d.kernels.thermodynamics import limit_of_sound, viscosity
 from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
@@ -24,8 +25,7 @@ from hydro2d.physics.corner import corner, corner_force
 from hydro2d.physics.edges import is_constrained
 from hydro2d.physics.stress import normal_pressure
 from hydro2d.physics.traction import strained_pressure
-from hydro2d.physics.viscosity import directional_viscosity, linear_in_step, shut
-from hydro2d.physics.waves import sound_step, volume_step
+from hydro2d.physics.waves import volume_step
 
 #: void given to full cells without pressure whose groups separate, so that the void opens and no body is stretched
 SEED = 1e-11
@@ -81,21 +81,16 @@ def contact_viscosity(j, w):
         w.qt[j, i] = 0.0
         w.qrz[j, i] = 0.0
         if rho > 0.0:
-            shock = shut(w.solid[j, i])
-            c = w.bulk[j, i] / rho
-            c = sqrt(c) if c > 0.0 else w.cl[j, i]
             slope_r = abs(w.line[HARD_R, j, i] + w.line[SOFT_R, j, i])
             slope_z = abs(w.line[HARD_Z, j, i] + w.line[SOFT_Z, j, i])
             steep = sqrt(slope_r * slope_r + slope_z * slope_z)
             length = steep / (slope_r / w.dr[i] + slope_z / h) if steep > 0.0 else min(w.dr[i], h)
-            linear = linear_in_step(w.viscosity_linear, w.dt * w.cl[j, i] / length)
-            viscosity = shock * directional_viscosity(rho, c, -max(loss, 0.0) * length, 0.0, linear, w.viscosity_quadratic)
-            w.qr[j, i] = viscosity
-            w.qz[j, i] = viscosity
-            w.qt[j, i] = viscosity
-            sound = sound_step(w.courant, w.shock_courant, min(w.dr[i], h), w.viscosity_linear, w.viscosity_quadratic, rho,
-                               w.cl[j, i], viscosity)
-            w.row_step[j] = min(w.row_step[j], min(sound, volume_step(loss)))
+            jump = -max(loss, 0.0) * length
+            q = viscosity(rho, w.bulk[j, i], w.cl[j, i], w.solid[j, i], jump, length, 0.0, w)
+            w.qr[j, i] = q
+            w.qz[j, i] = q
+            w.qt[j, i] = q
+            w.row_step[j] = min(w.row_step[j], min(limit_of_sound(j, i, rho, q, w), volume_step(loss)))
     if seeded:
         mixed_row(j, w.group_ranges[0, 0], w.kinds[j], w)
 
