@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from hydro2d.study.ensemble.chance import bias_and_scatter, wilson
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
+    from hydro2d.study.records.runs import runs
     from hydro2d.study.records.study_directory import Case
     from hydro2d.study.samples.kept import kept_samples
     from hydro2d.study.samples.objective import Objective
@@ -61,6 +62,7 @@ _PLACES = {
     "Case": "hydro2d.study.records.study_directory",
     "Samples": "hydro2d.study.samples.results",
     "Objective": "hydro2d.study.samples.objective",
+    "runs": "hydro2d.study.records.runs",
     "kept_rows": "hydro2d.study.records.keeping",
     "kept_samples": "hydro2d.study.samples.kept",
     "KeptRow": "hydro2d.study.records.keeping",
@@ -120,6 +122,7 @@ __all__ = [
     "penetration_models",
     "register",
     "run",
+    "runs",
     "save_figure",
     "sweep",
     "to_si",

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydro2d.analytic import beside, model_deck, models
-from hydro2d.base.errors import UnphysicalState, from_extra
+from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
@@ -114,11 +114,8 @@ class Study(study_directory.Study):
             members under the names that single runs have, next to them the 10 and 90 % quantiles (``depth_low_m``,
             ``depth_high_m``), and the fraction of each regime with a 90 % Wilson interval (``rigid_fraction``,
             ``rigid_fraction_low``, ``rigid_fraction_high``); ``as_experiment_fraction`` is that of the experiment's outcome
-
-        Raises MissingPackage.
         """
-        with from_extra("data", "the table of a study"):
-            import pandas
+        import pandas
 
         collected = contents.collect(self)
         repeated = self.ensembles and not members
@@ -173,7 +170,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
         One row for each case, indexed by its name: the axes as text, ``status``, depths, lengths and the other columns that
         `hydro2d report` lists, in SI units. For a case that failed or has a wrong deck, ``message`` gives the reason.
 
-    Raises MissingPackage, StudyError (also if no case has a valid deck), DeckError, LockError; KeyboardInterrupt if the sweep
+    Raises StudyError (also if no case has a valid deck), DeckError, LockError; KeyboardInterrupt if the sweep
     was interrupted (``resume=True`` continues it).
 
     Worker processes are spawned, so a script must call this below ``if __name__ == "__main__":``.
@@ -181,8 +178,6 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
     for name, number in (("workers", workers), ("threads", threads)):
         if number is not None and number < 1:
             raise StudyError(f"{name} = {number}: at least one is needed")
-    with from_extra("data", "the table of a study"):
-        import pandas  # noqa: F401  (without it the table cannot be made: fail before the runs, not after them)
     plan = _plan(study, axes, overrides, directory)
     place = Path(directory or plan.out)
     choice = Choice(plan, only, again=overwrite and not resume)

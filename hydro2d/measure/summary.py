@@ -98,6 +98,8 @@ class Ended(Result):
     deck: str | None = result("name of the deck")
     title: str | None = result("title of the deck")
     deck_sha256: str | None = result("hash of the resolved deck, the same for the same case")
+    setup: str | None = result("hash of everything in the deck that can change a result")
+    cells_across: Number = result("number of cells across the radius of the projectile, or of the first body that has one")
     version: str | None = result("version of hydro2d")
     method: str | None = result("version of the method: results of one version can be compared")
     status: str | None = result("done, interrupted or unphysical")

@@ -198,12 +198,8 @@ def _numbers(name: str, values) -> np.ndarray:
 
 
 def frame(columns: dict[str, np.ndarray]) -> pandas.DataFrame:
-    """Columns as a pandas.DataFrame with time in s as index and the regime in words; `attrs["units"]` has every unit.
-
-    Raises MissingPackage.
-    """
-    with from_extra("data", "a history as a table"):
-        import pandas
+    """Columns as a pandas.DataFrame with time in s as index and the regime in words; `attrs["units"]` has every unit."""
+    import pandas
 
     shown: dict = dict(columns) or {"time": np.empty(0)}
     if "regime" in shown:

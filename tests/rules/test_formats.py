@@ -197,7 +197,7 @@ UNGUARDED = {
     ELSEWHERE: {
         "cli.main.schema: JSON", "cli.model._show: JSON", "files.whole.write_json: JSON", "output.snapshot.texts: JSON",
         "output.snapshot.write: HDF5", "results.cutaway.draw: JSON", "running.bench_compilation.main: JSON",
-        "solver.first_cycle.kernels: JSON", "study.records.keeping.setup: JSON",
+        "solver.first_cycle.kernels: JSON", "deck.identity.setup: JSON",
         "output.history._write: HDF5", "output.history._write_debris: HDF5", "output.history._write_stations: HDF5",  # no /
         "output.vtk._array: VTK",  # in_xml, in _write
         "results.viewer.page._repr_html_: page",  # a whole page in an attribute

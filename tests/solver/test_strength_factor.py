@@ -6,8 +6,8 @@ import pytest
 from hydro2d.analytic import model_deck
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
+from hydro2d.deck import identity
 from hydro2d.solver.simulation import Simulation
-from hydro2d.study.records import keeping
 
 QUICK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 SOFT = ["body.rod.material=own", "materials.own.based_on=W_alloy", "materials.own.strength.model=elastic-plastic",
@@ -34,7 +34,7 @@ def test_a_factor_is_the_same_as_a_stronger_material():
 def test_without_a_factor_nothing_changes():
     plain = decks.load(QUICK)
     assert "strength_factor" not in plain.to_toml()
-    assert keeping.setup(plain) != keeping.setup(decks.load(QUICK, ["body.rod.strength_factor=1.1"]))
+    assert identity.setup(plain) != identity.setup(decks.load(QUICK, ["body.rod.strength_factor=1.1"]))
     assert decks.strength_factors(plain).tolist() == [1.0, 1.0]
     assert decks.strength_factors(decks.load(QUICK, ["body.plate.strength_factor=0.9"])).tolist() == [1.0, 0.9]
 

@@ -9,6 +9,7 @@ import pytest
 from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
+from hydro2d.deck import identity
 from hydro2d.study.ensemble import convergence, extrapolation
 from hydro2d.study.ensemble.contents import collect
 from hydro2d.study.plan import members, meshes
@@ -61,10 +62,10 @@ def test_two_meshes_show_no_order():
 def test_a_mesh_is_refined_by_one_factor(file):
     """Exactly so many cells across the rod; the ends of the mesh move by less than a cell; cells grow as fast over a length."""
     before = decks.load(file)
-    _, radius = members.projectile(before)
+    _, radius = identity.with_radius(before)
     after = decks.load(file, meshes.settings(before, 11.5))
-    assert members.cells_across(after, radius) == pytest.approx(11.5, abs=1e-9)
-    factor = 11.5 / members.cells_across(before, radius)
+    assert identity.cells_to(after, radius) == pytest.approx(11.5, abs=1e-9)
+    factor = 11.5 / identity.cells_to(before, radius)
     for old, new in zip(decks.edges(before), decks.edges(after), strict=True):
         assert len(new) - 1 == pytest.approx(factor * (len(old) - 1), rel=0.03)
         assert abs(new[-1] - old[-1]) < 1.01 * np.diff(old)[-1]

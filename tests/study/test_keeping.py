@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.deck import identity
 from hydro2d.files.whole import write_json
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
@@ -121,23 +122,23 @@ def test_members_and_cells_of_another_size(study, tmp_path):
 
 def test_a_default_does_not_count_in_a_setup():
     plain = decks.load(fake.BASE)
-    assert keeping.setup(plain) == keeping.setup(decks.load(fake.BASE, [f"numerics.courant={plain.numerics.courant}"]))
-    assert keeping.setup(plain) != keeping.setup(decks.load(fake.BASE, ["numerics.courant=0.4"]))
+    assert identity.setup(plain) == identity.setup(decks.load(fake.BASE, [f"numerics.courant={plain.numerics.courant}"]))
+    assert identity.setup(plain) != identity.setup(decks.load(fake.BASE, ["numerics.courant=0.4"]))
     alloy = ["body.rod.material=alloy", "materials.alloy.based_on=W_alloy"]
     stronger = [*alloy, "materials.alloy.strength.yield_stress=1.9 GPa"]
     titled = [*alloy, "materials.alloy.title=another"]
-    first, second, third = (keeping.setup(decks.load(fake.BASE, each)) for each in (alloy, stronger, titled))
+    first, second, third = (identity.setup(decks.load(fake.BASE, each)) for each in (alloy, stronger, titled))
     assert first == third != second
 
 
 def test_a_parameter_that_is_later_than_kept_rows_does_not_count_until_it_is_used():
     """The hash of a shot as it was before mie-grueneisen had S2 and S3."""
     shot = "problems/cth_nose_shape/hemi_5083_1086.toml"
-    assert keeping.setup(decks.load(shot)) == "f2195a01cbe5"
+    assert identity.setup(decks.load(shot)) == "f2195a01cbe5"
     curved = ["materials.alloy.based_on=W_alloy", "body.rod.material=alloy", "materials.alloy.eos.hugoniot_slope_2=0.1"]
     straight = [*curved[:2], "materials.alloy.eos.hugoniot_slope_2=0"]
-    assert keeping.setup(decks.load(shot, curved)) != keeping.setup(decks.load(shot, straight))
-    assert keeping.setup(decks.load(shot, straight)) == keeping.setup(decks.load(shot, curved[:2]))
+    assert identity.setup(decks.load(shot, curved)) != identity.setup(decks.load(shot, straight))
+    assert identity.setup(decks.load(shot, straight)) == identity.setup(decks.load(shot, curved[:2]))
 
 
 def test_a_file_of_something_else_is_refused(study):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.deck import identity
 from hydro2d.study.ensemble import chance
 from hydro2d.study.plan import cases, members
 from hydro2d.study.plan.definition import Ensemble, StudyError
@@ -46,10 +47,10 @@ def test_the_mesh_is_shifted_by_a_fraction_of_its_smallest_cell():
 
 def test_the_flank_moves_within_its_cell_and_no_cell_is_lost():
     before = decks.load(SHOT)
-    _, radius = members.projectile(before)
+    _, radius = identity.with_radius(before)
     for case in planned(by=["flank offset"])[1:]:
         after = decks.loads(case.text)
-        assert members.cells_across(after, radius) == pytest.approx(5.5 + case.changed["flank offset"], abs=1e-9)
+        assert identity.cells_to(after, radius) == pytest.approx(5.5 + case.changed["flank offset"], abs=1e-9)
         assert abs(case.changed["flank offset"]) <= 0.25
         assert [len(one) for one in decks.edges(after)] == [len(one) for one in decks.edges(before)]
 

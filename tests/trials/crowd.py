@@ -27,8 +27,8 @@ from tests.measure.test_audit import unexplained_by_sound
 from tests.trials.campaign import judged, kept
 
 CYCLES = 100
-#: limits: of totals, and next to products of an explosive (tests/measure/test_audit.py); of sums of twins; of the deviation of a
-#: body from its course, in cells; of the velocity of the rod in other frames, over the closing speed
+#: limits: of totals, and next to products of an explosive (tests/measure/test_audit.py); of sums of twins; of the deviation of
+#: a body from its course, in cells; of the velocity of the rod in other frames, over the closing speed
 CLOSES, CLOSES_BESIDE_PRODUCTS, TWINS, COURSE, FRAMES = 1e-12, 1e-9, 1e-9, 0.1, 0.1
 #: size of the cells of a crowd, m: edges of their meshes are mirrored to the bit
 CELL = 2.0**-10

@@ -18,6 +18,7 @@ import numpy as np
 from hydro2d.base import units
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
+from hydro2d.deck.identity import cells_to, with_radius
 from hydro2d.files import toml
 from hydro2d.mesh.edges.registry import BY_NAME
 from hydro2d.study.plan.definition import Ensemble
@@ -77,27 +78,15 @@ def _shifted(deck: decks.Deck, fraction: float) -> list[str]:
     return [start, *_segments(deck, "z", lambda key, value: value + shift if key in POSITIONS else value)]
 
 
-def projectile(deck: decks.Deck) -> tuple[str, float] | tuple[None, None]:
-    """Name and radius in m of the penetrating body, or of the first body that has a radius; None without such a body."""
-    names = [deck.penetration.rod] if deck.penetration else [body.name for body in deck.body]
-    return next(((name, radius) for name in names if (radius := decks.body_radius(deck, name)) is not None), (None, None))
-
-
-def cells_across(deck: decks.Deck, radius: float) -> float:
-    """Number of cells from the axis to a radius, counted in fractions of the cell that the radius cuts."""
-    edges = decks.edges(deck)[0]
-    return float(np.interp(radius, edges, np.arange(len(edges))))
-
-
 def _stretched(deck: decks.Deck, fraction: float) -> list[str]:
     """The mesh stretched along r so that the flank of the projectile lies a fraction of a cell farther in, counted in cells."""
-    _, radius = projectile(deck)
+    _, radius = with_radius(deck)
     if radius is None:
         raise DeckError(f"flank offset: the deck has no projectile with a radius; {OTHER}")
     if deck.mesh.r_start != 0.0:
         raise DeckError(f"flank offset: the mesh does not begin at r = 0; {OTHER}")
     _free(deck, "flank offset", ("r_max",))
-    across = cells_across(deck, radius)
+    across = cells_to(deck, radius)
     factor = across / (across + fraction)
     return _segments(deck, "r", lambda key, value: value / factor if key == "cells_across" else value * factor)
 

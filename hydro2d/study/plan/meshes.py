@@ -9,8 +9,8 @@ import numpy as np
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
+from hydro2d.deck.identity import cells_to, with_radius
 from hydro2d.deck.mesh_sections import Segment, as_text
-from hydro2d.study.plan.members import cells_across, projectile
 
 
 def settings(deck: decks.Deck, cells: float) -> dict[str, Any]:
@@ -19,10 +19,10 @@ def settings(deck: decks.Deck, cells: float) -> dict[str, Any]:
     The first segment in r then has exactly this number; in the others a number of cells is rounded, and their ends stay. Graded
     segments keep the growth of their cells over a length: ratio becomes ratio^(1 / factor). Raises DeckError.
     """
-    name, radius = projectile(deck)
+    name, radius = with_radius(deck)
     if name is None:
         raise DeckError("no body of the deck has a radius, so cells across it cannot be counted")
-    factor = cells / cells_across(deck, radius)
+    factor = cells / cells_to(deck, radius)
     (inner, _, end), *rest = _laid(deck, "r")
     if _is_graded(inner) or end < radius:
         raise DeckError(f'mesh.r[0]: the cells across "{name}" are not all of one size, so their number cannot be set')

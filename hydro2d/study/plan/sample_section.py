@@ -152,7 +152,7 @@ def different(values: tuple) -> tuple:
 
 
 #: results that are words, which every table of results has
-WORDS = ("status", "stop_reason", "trustworthy", "regime", "perforated")
+WORDS = ("status", "stop_reason", "trustworthy", "regime", "perforated", "final", "depth_is", "depth_error_is")
 
 
 def _numbers(names: tuple[str, ...]) -> tuple[str, ...]:

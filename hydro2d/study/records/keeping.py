@@ -9,13 +9,11 @@ The row of a run of a sample has the values of its inputs as well, and the resul
 from __future__ import annotations
 
 import csv
-import hashlib
 import io
-import json
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -23,18 +21,18 @@ from hydro2d.base.formats import cell
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import several
 from hydro2d.deck import deck as decks
+from hydro2d.deck.identity import LETTERS, cells_across, setup
 from hydro2d.files import csv_tables
 from hydro2d.files.csv_tables import Column, flag, like, number, one_of, whole
 from hydro2d.files.locks import locked
 from hydro2d.files.whole import read_text, write_text
-from hydro2d.measure.outcome import Outcome
-from hydro2d.measure.regime import REGIMES
+from hydro2d.measure.outcome import AT_LEAST, AT_MOST, COMPUTED, CUT, EXACT, NONE, Outcome, rested
+from hydro2d.measure.regime import LEFT, REGIMES
 from hydro2d.measure.result import is_number
 from hydro2d.output.directory import DECK
 from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
-from hydro2d.study.plan.members import cells_across, projectile
 from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.differences import flatten
@@ -42,15 +40,15 @@ from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case
 
 #: statuses of runs that have a row
 ENDED = (DONE, UNPHYSICAL)
-#: tables and keys of a deck that change no result
-TOLD = ("name", "title", "output", "experiment", "tracer", "materials")
-#: letters of a hash, and significant digits of a number, in a row
-LETTERS, DIGITS = 12, 6
+#: significant digits of a number in a row
+DIGITS = 6
 
 CELLS, MEMBER, SETUP, OF_METHOD = "cells_across", "member", "setup", "method"
 #: columns after the labels of a case
-RESULTS = ("status", "stop_reason", "trustworthy", "depth_m", "length_ratio", "radius_ratio", "mass_ratio", "tail_velocity_m_s",
-           "residual_velocity_m_s", "regime", "hole_m3", "energy_dropped", "time_s", "cycles", "wall_s")  # fmt: skip
+RESULTS = ("status", "stop_reason", "trustworthy", *Outcome.model_fields, "tail_velocity_m_s", "regime", "hole_m3", "time_s",
+           "cycles", "wall_s")  # fmt: skip
+#: those that rows of earlier versions lack
+LATER = ("perforated", "final", "depth_is", "depth_error_m", "depth_error_percent", "depth_error_is", "residual_error_m_s")
 ORIGIN = (SETUP, OF_METHOD, "commit", "date")
 #: results that depend on the machine
 OF_MACHINE = ("wall_s",)
@@ -58,8 +56,11 @@ OF_MACHINE = ("wall_s",)
 UNDECIDED = "rigid or deforming"
 #: the columns of results, and of every file of kept rows but for the labels of the cases
 _WORDS = {"status": Column("status", one_of(*ENDED), empty=False), "stop_reason": Column("stop_reason"),
-          "trustworthy": Column("trustworthy", flag), "regime": Column("regime", one_of(*REGIMES, UNDECIDED))}  # fmt: skip
-OF_RESULTS = tuple(_WORDS.get(name) or Column(name, number) for name in RESULTS)
+          "trustworthy": Column("trustworthy", flag), "regime": Column("regime", one_of(*REGIMES, UNDECIDED)),
+          "perforated": Column("perforated", flag), "final": Column("final", flag),
+          "depth_is": Column("depth_is", one_of(COMPUTED, AT_LEAST)),
+          "depth_error_is": Column("depth_error_is", one_of(EXACT, AT_LEAST, AT_MOST, NONE))}  # fmt: skip
+OF_RESULTS = tuple(replace(_WORDS.get(name) or Column(name, number), required=name not in LATER) for name in RESULTS)
 COLUMNS = (
     Column(CELLS, number), Column(MEMBER, whole, empty=False), *OF_RESULTS,
     Column(SETUP, like(rf"[0-9a-f]{{{LETTERS}}}", f"a hash of {LETTERS} digits from 0 to f")),
@@ -73,8 +74,6 @@ REMEDY = "correct it, or bring back the file as a sweep of this study wrote it"
 #: how long a sweep waits for another one that writes into the file, s
 PATIENCE = 60.0
 
-#: parameters of materials that are later than the first kept rows, with the values at which they change nothing
-LATER = {"hugoniot_slope_2": 0.0, "hugoniot_slope_3": 0.0}
 
 Row = dict[str, str]
 
@@ -93,26 +92,6 @@ class KeptRow(csv_tables.Row):
         """The labels of the case by axis, the inputs of a sample, and ``cells_across``, without those that are empty."""
         others = {MEMBER, *RESULTS, *ORIGIN}
         return {name: text for name, text in self.items() if text and name not in others}
-
-
-def setup(deck: decks.Deck) -> str:
-    """A hash of everything in a deck that can change its results, without keys that have their default values.
-
-    Titles, outputs, tracers and the experiment are left out. A new key of a later version leaves the hash alone, as does a new
-    parameter of a material that is in LATER.
-    """
-    data = deck.model_dump(mode="json", exclude=set(TOLD), exclude_defaults=True)
-    materials = {name: {key: _without_later(value) for key, value in material.as_deck().items() if key != "title"}
-                 for name, material in deck.materials.items()}  # fmt: skip
-    text = json.dumps(data | {"materials": materials}, sort_keys=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()[:LETTERS]
-
-
-def _without_later(part):
-    """A part of a material without parameters that are in LATER and change nothing."""
-    if not isinstance(part, dict):
-        return part
-    return {key: value for key, value in part.items() if not (key in LATER and value == LATER[key])}
 
 
 @dataclass(frozen=True)
@@ -138,8 +117,8 @@ class Wanted:
     @cached_property
     def about(self) -> Row:
         """The columns that identify the run."""
-        radius = projectile(self.deck)[1]
-        cells = "" if radius is None else f"{cells_across(self.deck, radius):.4g}"
+        across = cells_across(self.deck)
+        cells = "" if across is None else f"{across:.4g}"
         return {**{name: self.case.values[name].strip() for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
 
     def row(self, case: Case) -> Row:
@@ -212,6 +191,7 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
     columns = (*COLUMNS, *(column for column in own if column.name not in common))
     kept: dict[tuple, KeptRow] = {}
     for row in csv_tables.read(path, columns, StudyError, REMEDY, others=Column, of=KeptRow):
+        _renew(row)
         run = tuple(row.labels.items() if labels is None else (row[name] for name in labels)), row[CELLS], row[MEMBER]
         of_setup = (row[SETUP], row[OF_METHOD]) if row[SETUP] else run
         for same, what in ((run, "run"), (of_setup, "set-up")):
@@ -221,6 +201,25 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
                 here, there = row[name], f'line {other.line} has "{other[name]}" for the same {what}'
                 raise StudyError(f'{path}:{row.line}: column "{name}": "{here}", and {there}; remove the line that is wrong')
     return [row for (what, *_), row in kept.items() if what == "run"]
+
+
+def _renew(row: KeptRow) -> None:
+    """Adds to a row of an earlier version what its shot came to.
+
+    Such a row of a shot that perforates has the place where its nose was: its depth, the thickness of the target, is not known.
+    """
+    row.update({name: "" for name in LATER if name not in row})
+    if row["perforated"] or not row["depth_m"]:
+        return
+    left = row["regime"] == LEFT
+    stopped = not row["residual_velocity_m_s"] or rested(row["stop_reason"])
+    row["perforated"] = "" if left else str(not stopped)
+    row["depth_is"] = COMPUTED if stopped and not left else AT_LEAST
+    row["final"] = str(row["status"] == DONE and (not stopped or left or row["stop_reason"] not in CUT))
+    if stopped and not left and row["final"] == "True":
+        row["residual_velocity_m_s"] = "0"
+    if not stopped and not left:
+        row["depth_m"] = ""
 
 
 def input_column(each: Distribution, stale: bool = False) -> Column:

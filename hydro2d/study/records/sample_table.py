@@ -14,7 +14,6 @@ from hydro2d.files import csv_tables
 from hydro2d.files.csv_tables import Column, number, one_of, whole
 from hydro2d.files.strange import own
 from hydro2d.files.whole import write_text
-from hydro2d.measure.outcome import CUT, RESTED
 from hydro2d.measure.result import is_number
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError
@@ -23,12 +22,12 @@ from hydro2d.study.records import keeping, table
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.keeping import MEMBER
 from hydro2d.study.records.responses import OF_BODY
-from hydro2d.study.records.study_directory import DONE, STATUSES, Case, Study
+from hydro2d.study.records.study_directory import STATUSES, Case, Study
 
 FILE = "samples.csv"
-STATUS, PERFORATED, RESIDUAL, REGIME = "status", "perforated", "residual_velocity_m_s", "regime"
-#: results of a projectile; those of a kept row, without its cost, and whether it perforates
-RESULTS = (*(name for name in keeping.RESULTS if name not in (STATUS, "wall_s")), PERFORATED)
+STATUS, PERFORATED, FINAL, REGIME = "status", "perforated", "final", "regime"
+#: results of a projectile; those of a kept row, without its cost
+RESULTS = tuple(name for name in keeping.RESULTS if name not in (STATUS, "wall_s"))
 YES, NO = "yes", "no"
 #: what to do about a table that is not as a sweep wrote it
 REMEDY = "remove the file, and hydro2d sweep with --resume writes it anew"
@@ -77,8 +76,7 @@ def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
         return kept or {STATUS: case.status}
     summary = case.summary
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
-    perforated = (summary.get("outcome") or {}).get(PERFORATED)
-    row[PERFORATED] = None if perforated is None else YES if perforated else NO
+    row[PERFORATED] = None if row[PERFORATED] is None else YES if row[PERFORATED] else NO
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     others = [name for name in numbers if name.startswith("derived.")]
     if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
@@ -89,13 +87,8 @@ def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
 
 def of_kept(kept: keeping.Row, more: Sequence[str]) -> Row:
     """State and results of a row that the study keeps. ``more`` : names of the results that the sample asks for."""
-    row: Row = {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more) if name != PERFORATED}
-    if kept.get("depth_m") and kept[REGIME] != "left the mesh":
-        stopped = not kept[RESIDUAL] or kept["stop_reason"].startswith(RESTED)
-        row[PERFORATED] = NO if stopped else YES
-        if stopped and kept[STATUS] == DONE and kept["stop_reason"] not in CUT:
-            row[RESIDUAL] = "0"
-    return row
+    said = {"True": YES, "False": NO}.get(kept[PERFORATED], "")
+    return {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more)} | {PERFORATED: said}
 
 
 class Table(NamedTuple):
@@ -150,7 +143,8 @@ def _texts(row: Row) -> tuple[str, ...]:
 
 def _columns(sample: Points, heads: Sequence[str]) -> list[Column]:
     """The columns of the table; ``heads`` : those of number of the row, labels of the axes, and member."""
-    results = [replace(column, required=False) for column in keeping.OF_RESULTS if column.name in RESULTS]
+    results = [replace(column, required=False) for column in keeping.OF_RESULTS if column.name in RESULTS
+               and column.name != PERFORATED]  # fmt: skip
     return [
         *(Column(head, whole if head in (sampling.AXIS, MEMBER) else str, empty=head not in (sampling.AXIS, MEMBER))
           for head in heads),

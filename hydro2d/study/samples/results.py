@@ -12,7 +12,6 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from hydro2d.base.errors import unknown
-from hydro2d.measure.outcome import CUT
 from hydro2d.measure.regime import REGIMES
 from hydro2d.measure.result import is_number
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
@@ -22,7 +21,7 @@ from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
 from hydro2d.study.records.differences import flatten
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
-from hydro2d.study.records.sample_table import NO, PERFORATED, REGIME, RESIDUAL, STATUS, YES
+from hydro2d.study.records.sample_table import FINAL, NO, PERFORATED, REGIME, STATUS, YES
 from hydro2d.study.records.study_directory import DONE, Study
 from hydro2d.study.samples import sobol, surrogates
 
@@ -31,7 +30,7 @@ OUTCOMES = (REGIME, PERFORATED)
 #: their words, whether or not a run has them
 WORDS = {REGIME: REGIMES, PERFORATED: (YES, NO)}
 #: results that the summary of a sample shows if they vary; most of them beside those that the study asks for
-USUAL, MOST_USUAL = ("depth_m", RESIDUAL, "length_ratio"), 3
+USUAL, MOST_USUAL = ("depth_m", "residual_velocity_m_s", "length_ratio"), 3
 #: points of the cube at which the effect of an input is taken: 10 % and 90 % of its values
 LOW, HIGH = 0.1, 0.9
 #: an outcome as a condition on a column
@@ -137,11 +136,9 @@ class Samples:
         doubts, count = [*self._wrong], int(self.ended.sum())
         if "trustworthy" in self.columns and (poor := int(np.sum(self.ended & (self.columns["trustworthy"] == "False")))):
             doubts.append(f"{poor} of {count} runs are not trustworthy; the summary of each says why")
-        if {"stop_reason", "depth_m", PERFORATED} <= self.columns.keys():
-            cut = np.isin(self.columns["stop_reason"], CUT) & (self.columns[PERFORATED] != YES)
-            if short := int(np.sum(self.ended & cut & np.isfinite(self.columns["depth_m"]))):
-                doubts.append(f"{short} of {count} runs ended at their end time or number of cycles: if the projectile still "
-                              "moves, their depths and outcomes are not final")  # fmt: skip
+        if FINAL in self.columns and (short := int(np.sum(self.ended & (self.columns[FINAL] == "False")))):
+            doubts.append(f"{short} of {count} runs ended at their end time or number of cycles with the projectile still "
+                          "moving: their depths and outcomes are not final")  # fmt: skip
         return doubts
 
     # ------------------------------------------------------------------------------------------------ one number a run

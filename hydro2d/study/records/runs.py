@@ -1,0 +1,103 @@
+"""One table of runs: a row for each, with the same columns from run directories, studies and files of kept rows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hydro2d.deck import deck as decks
+from hydro2d.deck.identity import cells_across, setup
+from hydro2d.files.csv_tables import flag, number, whole
+from hydro2d.measure.result import is_number, unit
+from hydro2d.output.directory import STUDY
+from hydro2d.study.plan import sampling
+from hydro2d.study.records import keeping, study_directory
+from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.keeping import CELLS, MEMBER, OF_METHOD, RESULTS, SETUP
+from hydro2d.study.records.study_directory import Case, Study
+
+if TYPE_CHECKING:
+    import pandas
+
+#: how the text of a kept row becomes a value, by the check of its column; that of any other column is a word
+VALUES = {number: float, whole: int, flag: lambda text: text == "True"}
+
+Row = dict[str, object]
+
+
+def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
+    """All runs of some places in one table, a row for each run, indexed by case and member; SI.
+
+    places : run directories, directories of studies, folders of run directories, and files of kept rows
+    results : further numbers of summary.json by their dotted names, such as "crater.mean_diameter_m"
+
+    The columns are the labels on the axes, the inputs of a sample, ``cells_across``, the results of a kept row
+    (`KeptRow`), what the deck derives, ``setup`` and ``method``. A run that has not ended has a status only. A result that
+    a run does not have is missing. ``attrs["units"]`` has the unit of every column that is a quantity. Numbers of a file of
+    kept rows have six digits; it has those of ``results`` that its study asks for.
+
+    Raises StudyError for a place without runs, and for a file that is not as a sweep wrote it.
+    """
+    import pandas
+
+    rows = [row for place in map(Path, places) for row in (_kept(place) if place.is_file() else _made(place, results))]
+    last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, SETUP, OF_METHOD)
+    first = dict.fromkeys(name for row in rows for name in row if name not in last)
+    table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
+    table.attrs["units"] = {name: unit(name) for name in dict.fromkeys((CELLS, *last)) if _is_quantity(name)}
+    return table
+
+
+def _is_quantity(name: str) -> bool:
+    column = next((each for each in keeping.COLUMNS if each.name == name), None)
+    return column is None or column.check is number
+
+
+def _kept(file: Path) -> list[Row]:
+    """The runs of a file of kept rows."""
+    checks = {column.name: column.check for column in keeping.COLUMNS}
+    return [{"case": "_".join(text for name, text in row.labels.items() if name != CELLS), **_typed(row, checks)}
+            for row in keeping.read(file)]  # fmt: skip
+
+
+def _typed(row: Mapping[str, str], checks: Mapping[str, object]) -> Row:
+    """The entries of a kept row as values; None for an empty one. Columns of the study's own are numbers if they can be."""
+    return {name: None if not text else VALUES[checks[name]](text) if checks.get(name) in VALUES else
+            text if name in checks else _number(text) for name, text in row.items()}  # fmt: skip
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(number(text))
+    except ValueError:
+        return text
+
+
+def _made(directory: Path, more: Sequence[str]) -> list[Row]:
+    """The runs of a directory: itself, those of a study, or those in it."""
+    study = study_directory.read(directory) if (directory / STUDY).is_file() else study_directory.gather([directory])
+    return [_row(study, case, more) for case in study.cases]
+
+
+def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
+    labels = {axis.name: case.values.get(axis.name) for axis in study.axes}
+    row: Row = {"case": case.group, MEMBER: case.member, **labels, **_inputs(study, case), "status": case.status}
+    if case.status not in keeping.ENDED:
+        return row
+    summary = case.summary
+    if summary.get(SETUP) is None and case.deck:  # of version 0.3
+        deck = decks.of_tables(case.deck)
+        summary = summary | {SETUP: setup(deck), CELLS: cells_across(deck)}
+    numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
+    return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
+            **{name: value for name, value in numbers.items() if name.startswith("derived.")},
+            **{name: numbers.get(name) for name in more}, **{name: summary.get(name) for name in (SETUP, OF_METHOD)}}
+
+
+def _inputs(study: Study, case: Case) -> Row:
+    """The inputs of a case of a sample by their heads."""
+    if study.sample is None:
+        return {}
+    values = study.sample.rows[int(case.values[sampling.AXIS]) - 1]
+    return {each.head: value for each, value in zip(study.sample.inputs, values, strict=True)}
