@@ -124,10 +124,7 @@ class Wanted:
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
         summary = case.summary
-        origin = summary.get("provenance") or {}
-        commit = (origin.get("git_commit") or "")[:LETTERS] + ("+" if origin.get("git_dirty") else "")
-        entries = {**results(summary), SETUP: self.setup, OF_METHOD: summary.get("method", ""), "commit": commit,
-                   "date": (origin.get("written") or "")[:10]}  # fmt: skip
+        entries = {**results(summary), **origin(summary), SETUP: self.setup}
         numbers = flatten(summary) if self.more else {}
         entries |= {name: value if is_number(value := numbers.get(name)) else None for name in self.more if name not in entries}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
@@ -150,6 +147,14 @@ def results(summary: Mapping) -> dict[str, object]:
     values |= {"tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
                "hole_m3": (summary.get("crater") or {}).get("volume_m3")}  # fmt: skip
     return {name: values[name] for name in RESULTS}
+
+
+def origin(summary: Mapping) -> dict[str, str | None]:
+    """The set-up, the version of the method, the commit and the date of a run by the names of ORIGIN."""
+    about = summary.get("provenance") or {}
+    commit = (about.get("git_commit") or "")[:LETTERS] + ("+" if about.get("git_dirty") else "")
+    return {SETUP: summary.get(SETUP), OF_METHOD: summary.get(OF_METHOD), "commit": commit,
+            "date": (about.get("written") or "")[:10]}  # fmt: skip
 
 
 def _text(value) -> str:

@@ -12,9 +12,10 @@ from hydro2d.files.csv_tables import flag, number, whole
 from hydro2d.measure.result import is_number, unit
 from hydro2d.output.directory import STUDY
 from hydro2d.study.plan import sampling
+from hydro2d.study.plan.planned import short
 from hydro2d.study.records import keeping, study_directory
 from hydro2d.study.records.differences import flatten
-from hydro2d.study.records.keeping import CELLS, MEMBER, OF_METHOD, RESULTS, SETUP
+from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS, SETUP
 from hydro2d.study.records.study_directory import Case, Study
 
 if TYPE_CHECKING:
@@ -32,17 +33,17 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
     places : run directories, directories of studies, folders of run directories, and files of kept rows
     results : further numbers of summary.json by their dotted names, such as "crater.mean_diameter_m"
 
-    The columns are the labels on the axes, the inputs of a sample, ``cells_across``, the results of a kept row
-    (`KeptRow`), what the deck derives, ``setup`` and ``method``. A run that has not ended has a status only. A result that
-    a run does not have is missing. ``attrs["units"]`` has the unit of every column that is a quantity. Numbers of a file of
-    kept rows have six digits; it has those of ``results`` that its study asks for.
+    The columns are the labels on the axes, the inputs of a sample, ``cells_across``, the results of a kept row (`KeptRow`),
+    what the deck derives, ``results``, and ``setup``, ``method``, ``commit`` and ``date``. A run that has not ended has a
+    status only, and a result that a run does not have is missing. ``attrs["units"]`` has the unit of every column that is a
+    quantity. Numbers of a file of kept rows have six digits; of ``results`` it has those that its study asks for.
 
     Raises StudyError for a place without runs, and for a file that is not as a sweep wrote it.
     """
     import pandas
 
     rows = [row for place in map(Path, places) for row in (_kept(place) if place.is_file() else _made(place, results))]
-    last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, SETUP, OF_METHOD)
+    last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, *ORIGIN)
     first = dict.fromkeys(name for row in rows for name in row if name not in last)
     table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
     table.attrs["units"] = {name: unit(name) for name in dict.fromkeys((CELLS, *last)) if _is_quantity(name)}
@@ -57,8 +58,14 @@ def _is_quantity(name: str) -> bool:
 def _kept(file: Path) -> list[Row]:
     """The runs of a file of kept rows."""
     checks = {column.name: column.check for column in keeping.COLUMNS}
-    return [{"case": "_".join(text for name, text in row.labels.items() if name != CELLS), **_typed(row, checks)}
-            for row in keeping.read(file)]  # fmt: skip
+    return [{"case": _case(row.labels), **_typed(row, checks)} for row in keeping.read(file)]
+
+
+def _case(labels: Mapping[str, str]) -> str:
+    """The name of a case by its labels on the axes, of which the row of a sample is the last one."""
+    names = [name for name in labels if name != CELLS]
+    axes = names[: names.index(sampling.AXIS) + 1] if sampling.AXIS in names else names
+    return "_".join(short(labels[name]) for name in axes)
 
 
 def _typed(row: Mapping[str, str], checks: Mapping[str, object]) -> Row:
@@ -92,7 +99,7 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
             **{name: value for name, value in numbers.items() if name.startswith("derived.")},
-            **{name: numbers.get(name) for name in more}, **{name: summary.get(name) for name in (SETUP, OF_METHOD)}}
+            **{name: numbers.get(name) for name in more}, **keeping.origin(summary)}
 
 
 def _inputs(study: Study, case: Case) -> Row:
