@@ -24,6 +24,7 @@ class FakeDeck:
     """The part of a deck that run.py uses; a real one has the same names."""
 
     _layout = None
+    setup, cells_across = "0123456789ab", 2.5
 
     def __init__(self, **output):
         self.name, self.title = "fake", "a rod that meets a plate"

@@ -143,6 +143,20 @@ class Deck(sections.Deck):
         """Edges of the cells along r and along z, m, shapes (nr + 1,) and (nz + 1,)."""
         return edges(self)
 
+    @property
+    def setup(self) -> str:
+        """A hash of everything that can change the results: two runs with the same one are the same run."""
+        from hydro2d.deck import identity
+
+        return identity.setup(self)
+
+    @property
+    def cells_across(self) -> float | None:
+        """Number of cells across the radius of the projectile, or of the first body that has one; None without such a body."""
+        from hydro2d.deck import identity
+
+        return identity.cells_across(self)
+
     def body_named(self, name: str) -> AnyBody:
         """The entry of ``body`` with this name. Raises KeyError if there is none."""
         return body(self, name)

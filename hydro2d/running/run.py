@@ -29,7 +29,6 @@ from hydro2d.base.errors import UnphysicalState
 from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.version import __version__
-from hydro2d.deck.identity import cells_across, setup
 from hydro2d.deck.warnings import warnings
 from hydro2d.files.locks import locked, remove
 from hydro2d.files.toml import model_tables
@@ -426,7 +425,7 @@ class Run:
         return Summary(
             **(projectile or {}),
             deck=self.deck.name, title=self.deck.title, deck_sha256=deck_hash(self.deck_text),
-            setup=setup(self.deck), cells_across=cells_across(self.deck), version=__version__,
+            setup=self.deck.setup, cells_across=self.deck.cells_across, version=__version__,
             method=METHOD, status=status, stop_reason=reason, trustworthy=not faults, faults=faults, notes=sim.notes(),
             time_s=sim.time, cycles=sim.cycle, wall_s=self.wall, **self.costs(), cells=sim.grid.cells,
             ns_per_cell_cycle=1e9 * pace / (sim.grid.cells * cycles) if cycles > 0 else None,

@@ -192,7 +192,7 @@ def thin(shape: str, planar: bool = False, cycles: int = 0) -> dict[str, float]:
     sim = Simulation(decks.loads(mesh(("1 mm", 10), ("4 mm", 40), **kind) + shape + stop("10 us")))
     for _ in range(cycles):
         sim.step()
-    lengths = {name: None if value is None else 1e3 * value for name, value in bodies.measure(sim)["thin"].items()
+    lengths = {name: None if value is None else 1e3 * value for name, value in bodies.measure(sim)["thin"]
                if name.endswith("_m")}
     return lengths | {"way": 1e6 * sim.time}
 

@@ -56,7 +56,7 @@ def depths(sim, z):
 
 def test_before_impact():
     sim = simulation()
-    assert sim.craters[0].measure() == {"entrance_diameter_m": None, "exit_diameter_m": None, "mean_diameter_m": None,
+    assert dict(sim.craters[0].measure()) == {"entrance_diameter_m": None, "exit_diameter_m": None, "mean_diameter_m": None,
                                     "hole_diameter_m": None, "volume_m3": 0.0, "depth_m": 0.0, "ejected_mass_kg": 0.0,
                                     "ejected_velocity_m_s": None,
                                     "volume_per_energy_m3_J": 0.0, "efficiency": 0.0}

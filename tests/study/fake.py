@@ -55,10 +55,9 @@ def with_outcome(summary: dict, text: str) -> dict:
     if made.penetration is None:
         return summary
     thickness = targets.thickness(made)
-    if thickness is not None and (summary.get("penetration_depth_m") or 0.0) >= thickness:
-        summary = {"exit_time_s": summary["time_s"]} | summary
+    if thickness is not None and (summary.get("penetration_depth_m") or 0.0) >= thickness and "exit_time_s" not in summary:
         rested = summary["stop_reason"].startswith(outcome.RESTED)
-        summary |= {"stop_reason": "perforation of plate"} if rested else {}
+        summary = summary | {"exit_time_s": summary["time_s"]} | ({"stop_reason": "perforation of plate"} if rested else {})
     measured = Projectile(**{name: summary.get(name) for name in Projectile.model_fields})
     came = outcome.of(measured, status=summary["status"], stop_reason=summary["stop_reason"],
                       impact_velocity=deck.impact_velocity(made), thickness=thickness, dropped=None,

@@ -18,12 +18,12 @@ from tests.study import fake
 #: a rod that perforates a thin plate, or stops in a thick one, and an experiment with the thin one
 SHOT = (
     mesh(("8 mm", 8), ("-24 mm", "40 mm", 64))
-    + rod("4 mm", "20 mm", tip="-0.1 mm", velocity="1500 m/s")
+    + rod("4 mm", "20 mm", tip="-0.1 mm", velocity="230 m/s")
     + plate("3 mm")
     + table("penetration", rod="rod", target="plate")
     + table("experiment", penetration="2 mm", qualifier="at least", source="made up")
     + '[derived]\n"L/L0" = "length / length0"\n'
-    + stop(time="30 us", perforation=True, body="rod", speed_below="20 m/s")
+    + stop(time="300 us", perforation=True, body="rod", speed_below="20 m/s")
     + table("output", history_interval="1 us", vtk_interval="1 ms")
 )
 STUDY = """
@@ -36,7 +36,7 @@ n = 2
 seed = 1
 results = ["crater.mean_diameter_m"]
 [sample.input]
-"body.rod.velocity" = { uniform = ["1490 m/s", "1510 m/s"] }
+"body.rod.length" = { uniform = ["19.9 mm", "20.1 mm"] }
 [[axis]]
 name = "thickness"
 key = "body.plate.thickness"
@@ -110,7 +110,7 @@ def test_a_plate_that_is_perforated_has_its_thickness_as_depth_everywhere(study,
     assert samples.fractions("depth_m > 0.005")["no"].share.fraction == 1.0
     call(["sweep", str(study / "out"), "--status"])
     assert "0.30 cm" in capsys.readouterr().out
-    log = (study / "out" / "cases" / "3mm_1" / "log.txt").read_text()
+    log = (study / "out" / "cases" / "3mm_row1" / "log.txt").read_text()
     assert "experiment          at least 0.20 cm  made up" in log
     assert "error" not in log.split("experiment")[1].splitlines()[0]
 

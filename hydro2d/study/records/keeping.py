@@ -21,7 +21,7 @@ from hydro2d.base.formats import cell
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.terminal import several
 from hydro2d.deck import deck as decks
-from hydro2d.deck.identity import LETTERS, cells_across, setup
+from hydro2d.deck.identity import LETTERS
 from hydro2d.files import csv_tables
 from hydro2d.files.csv_tables import Column, flag, like, number, one_of, whole
 from hydro2d.files.locks import locked
@@ -112,12 +112,12 @@ class Wanted:
 
     @cached_property
     def setup(self) -> str:
-        return setup(self.deck)
+        return self.deck.setup
 
     @cached_property
     def about(self) -> Row:
         """The columns that identify the run."""
-        across = cells_across(self.deck)
+        across = self.deck.cells_across
         cells = "" if across is None else f"{across:.4g}"
         return {**{name: self.case.values[name].strip() for name in self.axes}, CELLS: cells, MEMBER: str(self.case.member)}
 

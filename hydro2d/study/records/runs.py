@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydro2d.deck import deck as decks
-from hydro2d.deck.identity import cells_across, setup
 from hydro2d.files.csv_tables import flag, number, whole
 from hydro2d.measure.result import is_number, unit
 from hydro2d.output.directory import STUDY
@@ -65,7 +64,7 @@ def _case(labels: Mapping[str, str]) -> str:
     """The name of a case by its labels on the axes, of which the row of a sample is the last one."""
     names = [name for name in labels if name != CELLS]
     axes = names[: names.index(sampling.AXIS) + 1] if sampling.AXIS in names else names
-    return "_".join(short(labels[name]) for name in axes)
+    return "_".join(sampling.NAME.format(labels[name]) if name == sampling.AXIS else short(labels[name]) for name in axes)
 
 
 def _typed(row: Mapping[str, str], checks: Mapping[str, object]) -> Row:
@@ -95,7 +94,7 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     summary = case.summary
     if summary.get(SETUP) is None and case.deck:  # of version 0.3
         deck = decks.of_tables(case.deck)
-        summary = summary | {SETUP: setup(deck), CELLS: cells_across(deck)}
+        summary = summary | {SETUP: deck.setup, CELLS: deck.cells_across}
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
             **{name: value for name, value in numbers.items() if name.startswith("derived.")},
