@@ -7,7 +7,9 @@ import json
 
 import numpy as np
 
-from hydro2d.deck import deck as decks
+from hydro2d.deck.layout import edges
+from hydro2d.deck.mesh import body_radius
+from hydro2d.deck.sections import Deck
 
 #: letters of a hash
 LETTERS = 12
@@ -17,7 +19,7 @@ TOLD = ("name", "title", "output", "experiment", "tracer", "materials")
 LATER = {"hugoniot_slope_2": 0.0, "hugoniot_slope_3": 0.0}
 
 
-def setup(deck: decks.Deck) -> str:
+def setup(deck: Deck) -> str:
     """A hash of everything in a deck that can change its results, without keys that have their default values.
 
     Titles, outputs, tracers and the experiment are left out. A new key of a later version leaves the hash alone, as does a new
@@ -37,19 +39,19 @@ def _without_later(part):
     return {key: value for key, value in part.items() if not (key in LATER and value == LATER[key])}
 
 
-def with_radius(deck: decks.Deck) -> tuple[str, float] | tuple[None, None]:
+def with_radius(deck: Deck) -> tuple[str, float] | tuple[None, None]:
     """Name and radius in m of the penetrating body, or of the first body that has a radius; None without such a body."""
     names = [deck.penetration.rod] if deck.penetration else [body.name for body in deck.body]
-    return next(((name, radius) for name in names if (radius := decks.body_radius(deck, name)) is not None), (None, None))
+    return next(((name, radius) for name in names if (radius := body_radius(deck, name)) is not None), (None, None))
 
 
-def cells_to(deck: decks.Deck, radius: float) -> float:
+def cells_to(deck: Deck, radius: float) -> float:
     """Number of cells from the axis to a radius, counted in fractions of the cell that the radius cuts."""
-    edges = decks.edges(deck)[0]
-    return float(np.interp(radius, edges, np.arange(len(edges))))
+    along_r = edges(deck)[0]
+    return float(np.interp(radius, along_r, np.arange(len(along_r))))
 
 
-def cells_across(deck: decks.Deck) -> float | None:
+def cells_across(deck: Deck) -> float | None:
     """Number of cells across the radius of the projectile, or of the first body that has one; None without such a body."""
     radius = with_radius(deck)[1]
     return None if radius is None else cells_to(deck, radius)

@@ -17,9 +17,9 @@ from hydro2d.base.keys import (
     Section,
     Words,
 )
+from hydro2d.base.method_sections import Failure, Numerics, Sliding
 from hydro2d.deck.boundary_section import Boundaries
 from hydro2d.deck.mesh_sections import Mesh
-from hydro2d.deck.method_sections import Failure, Numerics, Sliding
 from hydro2d.deck.shapes.registry import AnyBody
 from hydro2d.sources.registry import AnySource
 

@@ -1,10 +1,10 @@
 """Names that kernels of the step can use: every array and number of a `Handle`, each with one meaning.
 
 The arrays of the state are those of the tables of fields and of work (`hydro2d.mesh.fields`). The numbers of the method are
-the keys of the deck that are numbers (`hydro2d.deck.method_sections`), with their meanings there. The rest are here.
+the keys of the deck that are numbers (`hydro2d.base.method_sections`), with their meanings there. The rest are here.
 """
 
-from hydro2d.deck.method_sections import METHOD_SECTIONS, numbers
+from hydro2d.base.method_sections import METHOD_SECTIONS, numbers
 from hydro2d.jit import declare
 from hydro2d.mesh import fields
 from hydro2d.mesh.fields import Work

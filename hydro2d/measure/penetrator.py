@@ -62,7 +62,7 @@ class Projectile(Result):
     regime: str | None = result("rigid, deforming, eroding or left the mesh")
 
 
-class Perforation(Result):
+class Passage(Result):
     """The projectile as it was through a target; None until then. SI."""
 
     exit_time_s: Number = result("time at which the projectile's leading end was its radius beyond the rear of this target")
@@ -80,16 +80,6 @@ class Exit(NamedTuple):
     depth: float
     outflow: float
     pieces: bool = False
-
-
-class Passage(NamedTuple):
-    """A rod when it was found to be through a target: time in s, velocity in m/s and mass in kg of its core or, if it has none,
-    of all of it, and length in m."""
-
-    time: float
-    velocity: float
-    mass: float
-    length: float
 
 
 class Penetrator:
@@ -347,7 +337,8 @@ class Penetrator:
             self.passed.pop()
         while looks and len(self.passed) < len(self.targets) and self._is_through(len(self.passed)):
             flying = self._whole() if self._in_pieces() else self._whole_core()
-            self.passed.append(Passage(self.sim.time, *flying, self._stretch * self._length()[0]))
+            self.passed.append(Passage(exit_time_s=self.sim.time, exit_velocity_m_s=flying[0], exit_mass_kg=flying[1],
+                                       exit_length_m=self._stretch * self._length()[0]))
         grid, dt = self.sim.grid, self.sim.dt
         drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
         self._offset = grid.offset
@@ -407,13 +398,14 @@ class Penetrator:
 
     def saved(self) -> dict:
         """Data for a restart file."""
-        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "passed": self.passed,
-                "deepest": self._deepest}
+        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "deepest": self._deepest,
+                "passed": [list(one.model_dump().values()) for one in self.passed]}
 
     def resume(self, saved: dict) -> None:
         """Continues from the result of `saved`."""
         self.exit = Exit(**saved["exit"]) if saved["exit"] else None
-        self._offset, self.passed = saved["offset"], [Passage(*one) for one in saved["passed"]]
+        self._offset = saved["offset"]
+        self.passed = [Passage(**dict(zip(Passage.model_fields, one, strict=True))) for one in saved["passed"]]
         self._deepest = saved["deepest"]
 
     # ------------------------------------------------------------------------------------------------ results
@@ -449,10 +441,9 @@ class Penetrator:
     def _through(self, nose: float, number: int = -1) -> bool:
         return nose >= self._rears[number] + self.radius
 
-    def passages(self) -> list[Perforation]:
+    def passages(self) -> list[Passage]:
         """The rod as it was through each target, in their order; None for those it is not through."""
-        through = [Perforation(**dict(zip(Perforation.model_fields, one, strict=True))) for one in self.passed]
-        return through + [Perforation()] * (len(self.targets) - len(through))
+        return self.passed + [Passage()] * (len(self.targets) - len(self.passed))
 
     def _residual(self, nose: float, core: float, momentum: float) -> tuple[float | None, float | None]:
         """Residual velocity in m/s and mass in kg, from the nose's depth and the core's mass and momentum: for a rod that has

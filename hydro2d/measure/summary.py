@@ -11,7 +11,7 @@ from hydro2d.measure.crater import Hole
 from hydro2d.measure.debris import Cloud
 from hydro2d.measure.ejecta import Ejected
 from hydro2d.measure.outcome import Outcome
-from hydro2d.measure.penetrator import Perforation, Projectile
+from hydro2d.measure.penetrator import Passage, Projectile
 from hydro2d.measure.result import Number, Result, result
 from hydro2d.measure.station_columns import Station
 
@@ -64,7 +64,7 @@ class Experiment(Result):
     source: str | None = result("source of the experiment")
 
 
-class Target(Perforation):
+class Target(Passage):
     """A target and the passage of the projectile through it."""
 
     damage_class: str | None = result(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.measure.penetrator import Perforation, Projectile
+from hydro2d.measure.penetrator import Passage, Projectile
 from hydro2d.output.history import Columns
 
 VELOCITY, CHANGE, OVER = "rod_residual_velocity_m_s", "residual_velocity_change_m_s", "residual_velocity_change_over_s"
 
 
-def change(columns: Columns, exits: list[Perforation], measured: Projectile | None, time: float) -> dict[str, float | None]:
+def change(columns: Columns, exits: list[Passage], measured: Projectile | None, time: float) -> dict[str, float | None]:
     """The two keys of a summary at the end, from the rows of the history and the time of perforation of the last target.
 
     exits : the passages through the targets;  measured : the projectile, if there is one;  time : of the end, s

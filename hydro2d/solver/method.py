@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydro2d.base.method_sections import Failure, Numerics, Sliding
 from hydro2d.deck import deck as decks
-from hydro2d.deck.method_sections import Failure, Numerics, Sliding
 from hydro2d.kernels import mixed_strength, momentum, sliding
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 

@@ -8,7 +8,7 @@ import pytest
 from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
-from hydro2d.measure.penetrator import WATCH_EVERY, Perforation
+from hydro2d.measure.penetrator import WATCH_EVERY, Passage
 from hydro2d.output import history
 from hydro2d.results import figures
 from hydro2d.results.reading import Results
@@ -144,7 +144,7 @@ def test_a_restart_keeps_what_was_passed():
         sim.step()
     first, second = sim.penetrator.passages()
     assert None not in dict(first).values()
-    assert second == Perforation()
+    assert second == Passage()
     assert sim.stop_reason() is None
     assert restarted(sim).penetrator.passages() == [first, second]
 

@@ -11,6 +11,7 @@ NAMED = {
     "kinematic_hardening": r"kinematic[-_]hardening",
     "p_alpha": r"p[-_]alpha",
     "hourglass": r"^    hourglass: |\.hourglass\b|\bhourglass=|['\"]hourglass['\"]",
+    "radius_at_z_max_m": r"radius_at_z_max_m",
     "piston": r"\bpiston|Piston",
     "heating": r"sources\.heating|class Heating\(Source",
     "sphere": r"shapes\.sphere|\bSphere\b",

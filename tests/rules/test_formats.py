@@ -56,13 +56,10 @@ READ = {
     "deck": {"files.whole.read_text: opened", "files.strange.opened: open", "files.strange.opened.opener: os.open",
              "files.toml.read: read_text", "files.toml.parse: tomllib.loads", "files.key_lines._first_lines: tomllib.loads"},
     "study": {"study.plan.definition.read: read_text"},
-    "points of a sample": {"study.plan.sampling._cells: csv.reader", "study.plan.sampling._cells: read_text"},
     "model": {"materials.outside.read: read_text"},
     "table of an equation of state": {"materials.from_files._take_table: read_text", "cli.check_model.check: read_text"},
     "measured flow stresses": {"materials.fitting.read_points: read_text"},
-    "kept rows": {"study.records.keeping.read: csv.DictReader", "study.records.keeping.read: read_text"},
-    "samples": {"study.records.sample_table.read: csv.reader",
-                "study.records.sample_table.read: read_text"},
+    "kept rows": {"files.csv_tables.lines: csv.reader", "files.csv_tables.lines: read_text"},  # and samples, and their points
     "compilation": {"jit.compilation.progress_of: opened"},
     "lock": {"files.locks.holder: opened", "files.locks.locked: opened"},
     "progress": {"results.summaries.table_of: read_json"},
@@ -193,7 +190,8 @@ UNGUARDED = {
         "analytic.model_figures.draw: figure", "analytic.model_text.write_csv: CSV", "output.vtk._coordinates: VTK",
         "results.line_figures._labels: figure",
     },
-    MADE: {"cli.ensemble.converge: file", "cli.ensemble.run_all: file", "files.whole.replacing: file"},
+    MADE: {"study.records.keeping.add: file",
+           "cli.ensemble.converge: file", "cli.ensemble.run_all: file", "files.whole.replacing: file"},
     ELSEWHERE: {
         "cli.main.schema: JSON", "cli.model._show: JSON", "files.whole.write_json: JSON", "output.snapshot.texts: JSON",
         "output.snapshot.write: HDF5", "results.cutaway.draw: JSON", "running.bench_compilation.main: JSON",
@@ -202,7 +200,7 @@ UNGUARDED = {
         "output.vtk._array: VTK",  # in_xml, in _write
         "results.viewer.page._repr_html_: page",  # a whole page in an attribute
         "study.report.page.breakable: page",  # escape of markupsafe
-        "running.progress._with_line: rich", "study.records.keeping.add: CSV", "study.report.charts._runs: chart",
+        "running.progress._with_line: rich", "study.records.keeping._write: CSV", "study.report.charts._runs: chart",
         "study.report.divergence._draw: figure", "study.report.marks.ensembles: chart", "study.report.marks.points: chart",
         "study.report.rods.draw: figure", "study.report.uncertain._part: file", "study.report.uncertain._pictures: file",
     },

@@ -45,7 +45,7 @@ NARROW = {
     "strength": ("strength", "hydro2d.base.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
-                        "hydro2d.materials.rows", "hydro2d.deck.method_sections", "eos", "strength"),
+                        "hydro2d.materials.rows", "hydro2d.base.method_sections", "eos", "strength"),
     "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.noses", "hydro2d.base.units", "hydro2d.base.parameters",
                             "hydro2d.base.errors"),
 }
@@ -180,7 +180,7 @@ def users(library: str) -> set[str]:
                    "hydro2d.study.search.logit")),
         ("plotly", ("hydro2d.study.report.charts", "hydro2d.study.report.page")),
         ("jinja2", ("hydro2d.study.report.page",)),
-        ("pandas", ("hydro2d.study.records.table", "hydro2d.api", "hydro2d.output.history")),
+        ("pandas", ("hydro2d.study.records.runs", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact_ties",
                              "hydro2d.solver.following", "hydro2d.solver.cycle", "hydro2d.solver.given",

@@ -4,11 +4,11 @@ import ast
 
 import pytest
 
-from hydro2d.deck.method_sections import METHOD_SECTIONS, numbers
+from hydro2d.base.method_sections import METHOD_SECTIONS, numbers
 from tests.rules import source
 
 KEYS = sorted(key for section in METHOD_SECTIONS for key in numbers(section))
-DECLARED = "hydro2d.deck.method_sections"
+DECLARED = "hydro2d.base.method_sections"
 #: what only carries numbers from the deck to kernels
 CARRIERS = ("hydro2d.solver.method", "hydro2d.kernels.names")
 

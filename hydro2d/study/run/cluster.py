@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import resource
-import shlex
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -15,6 +14,7 @@ from pydantic import Field, ValidationError
 
 from hydro2d.base import children
 from hydro2d.base.errors import DeckError
+from hydro2d.base.formats import in_shell
 from hydro2d.base.keys import Section
 from hydro2d.base.version import __version__
 from hydro2d.files import toml
@@ -57,7 +57,7 @@ class Slurm(Section):
         given = {name: value for name, value in self.model_dump().items() if value not in (None, ())}
         given = {name: list(value) if isinstance(value, tuple) else value for name, value in given.items()}
         workers = max(self.cores // threads, 1)
-        exports = [f"export {name}={shlex.quote(value)}" for name, value in environment(threads).items()]
+        exports = [f"export {name}={in_shell(value)}" for name, value in environment(threads).items()]
         return given | {
             "cores": workers, "processes": workers, "job_cpu": self.cores,
             "job_script_prologue": [*exports, *given.get("job_script_prologue", [])],
