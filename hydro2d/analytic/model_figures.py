@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from hydro2d.analytic.models import VELOCITY, Case
-from hydro2d.results.figures import reader_unit
+from hydro2d.base.units import reader_unit
 
 COLOURS = ("#1f4e79", "#b5651d", "#4f7942", "#8b3a62", "#5b6770", "#c9a227")
 

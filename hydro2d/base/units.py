@@ -283,3 +283,15 @@ def show(value: float, si_unit: str, unit: str | None = None, digits: int = 4) -
     """An SI value as text in the reader's unit: show(0.448, "m", "cm") is "44.8 cm"."""
     unit = unit or si_unit
     return f"{from_si(value, si_unit, unit):.{digits}g}" + ("" if unit == "1" else f" {unit}")
+
+
+#: the reader's unit of a quantity in SI, and how many of them make one SI unit
+READER = {
+    "m": ("mm", 1e3), "m2": ("cm²", 1e4), "m3": ("cm³", 1e6), "s": ("µs", 1e6), "kg": ("g", 1e3), "J": ("kJ", 1e-3),
+    "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3),
+}  # fmt: skip
+
+
+def reader_unit(unit: str) -> tuple[str, float]:
+    """The reader's unit for an SI unit, and the factor from SI to it; an SI unit that has none is its own."""
+    return READER.get(unit, (unit, 1.0))

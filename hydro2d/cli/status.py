@@ -38,16 +38,15 @@ def status(
         Column of the history to draw; can be repeated; default: depth and tail velocity of the projectile, or velocity and
         extent of the first body.
     plot
-        Draws histories with characters, which needs plotext; default: on a terminal, if plotext is installed.
+        Draws histories as lines of bars; default: on a terminal, or with a quantity.
     watch
         Looks again every two seconds until the run has ended; default: on a terminal.
     """
     import_matplotlib()
-    from hydro2d.results import terminal_charts
     from hydro2d.study.records.study_directory import RUNNING
 
     terminal = sys.stdout.isatty()
-    drawn = bool(quantity) or (terminal and terminal_charts.available()) if plot is None else plot
+    drawn = bool(quantity) or terminal if plot is None else plot
     output, state = _look(run, quantity, drawn)
     if state != RUNNING or not (terminal if watch is None else watch):
         _show(output)
@@ -59,8 +58,6 @@ def status(
             time.sleep(SECONDS)
             output, state = _look(run, quantity, drawn)
         _show(output)
-    if terminal and not drawn and plot is None:
-        say(terminal_charts.MISSING)
     return 0
 
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from hydro2d.base.errors import unknown
 from hydro2d.base.formats import in_figure, in_legend
+from hydro2d.base.units import reader_unit
 from hydro2d.files.whole import replacing
 from hydro2d.mesh import quantities
 from hydro2d.output import history
@@ -26,11 +27,6 @@ from hydro2d.results.scales import LINEAR, FigureError, Scale
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: units for the reader: name, and how many of them make one SI unit
-READER = {
-    "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm$^3$", 1e-3), "m": ("mm", 1e3), "s": ("µs", 1e6),
-    "kg": ("g", 1e3), "J": ("kJ", 1e-3),
-}  # fmt: skip
 BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60", "#8d99ae", "#c05a5a")
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
@@ -54,11 +50,6 @@ class Shown:
     def label(self) -> str:
         """Title and unit as matplotlib draws them."""
         return verbatim(self.title) + (f" [{self.unit}]" if self.unit else "")
-
-
-def reader_unit(unit: str) -> tuple[str, float]:
-    """The reader's unit for an SI unit, and the factor that converts to it."""
-    return READER.get(unit, (unit, 1.0))
 
 
 def chosen(dump: Dump, field: str) -> Shown:

@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 from hydro2d.base.errors import unknown
 from hydro2d.base.formats import cell, shown
+from hydro2d.base.units import reader_unit
 from hydro2d.files.whole import replacing
 from hydro2d.output import history
 from hydro2d.results import figures, line_figures
-from hydro2d.results.figures import HISTORIES, reader_unit
+from hydro2d.results.figures import HISTORIES
 from hydro2d.results.line_figures import Line
 from hydro2d.results.scales import FigureError
 
@@ -33,7 +34,7 @@ class Table(NamedTuple):
 
 def head(title: str, unit: str) -> str:
     """The head of a column, "pressure [GPa]", in characters that every spreadsheet reads."""
-    plain = unit.replace("$", "").replace("µ", "u")
+    plain = unit.replace("³", "^3").replace("²", "^2").replace("µ", "u")
     return f"{shown(title)} [{plain}]" if plain not in ("", "1") else shown(title)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hydro2d.base.errors import Error
 from hydro2d.deck.formulas import SHORT
@@ -11,9 +11,6 @@ from hydro2d.measure.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns
 from hydro2d.output.station_arrays import RESERVED
 from hydro2d.solver.due import Due
-
-if TYPE_CHECKING:
-    from hydro2d.solver.simulation import Simulation
 
 #: prefix of the names of the ejecta of the first target in a formula
 EJECTA = "ejecta"
@@ -23,7 +20,7 @@ class ColumnError(Error):
     """A column of the user's that has no name for a file, or fails."""
 
 
-def row(sim: Simulation) -> dict[str, float | str | None]:
+def row(sim: Any) -> dict[str, float | str | None]:
     """One row of the history: the measurements of a simulation by name; see `running/columns.py` for all names.
 
     Raises ColumnError for a column of the user's that fails.
@@ -51,7 +48,7 @@ def row(sim: Simulation) -> dict[str, float | str | None]:
     return values
 
 
-def derived(sim: Simulation, values: Mapping[str, Any]) -> dict[str, float | None]:
+def derived(sim: Any, values: Mapping[str, Any]) -> dict[str, float | None]:
     """The quantities that [derived] of the deck defines, by name; values : all other columns of the row."""
     formulas = sim.formulas
     if not formulas:
@@ -84,12 +81,12 @@ class Recorder:
     def __init__(self, interval: float):
         self.columns, self._due = Columns(), Due(interval)
 
-    def __call__(self, sim: Simulation) -> None:
+    def __call__(self, sim: Any) -> None:
         """Adds a row if one is due."""
         if self._due(sim.time):
             self.columns.append(row(sim))
 
-    def last(self, sim: Simulation) -> None:
+    def last(self, sim: Any) -> None:
         """Adds the row of the end unless it is already there."""
         if self.columns.last_time != sim.time:
             self.columns.append(row(sim))

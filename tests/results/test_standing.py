@@ -1,6 +1,6 @@
 """State of a run: what is reported of one that is under way, has ended, or was abandoned, and when it will end."""
 
-import sys
+import re
 
 import numpy as np
 import pytest
@@ -55,7 +55,8 @@ def test_a_run_that_is_continued_is_where_it_is_now(under_way, capsys):
 
 def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
     (under_way / "progress.json").unlink()
-    summary = {"time_s": 70e-6, "status": "done", "stop_reason": "perforation of plate", "penetration_depth_m": 0.05}
+    summary = {"time_s": 70e-6, "status": "done", "stop_reason": "perforation of plate", "penetration_depth_m": 0.05,
+               "exit_time_s": 60e-6}
     write_json(under_way / "summary.json", summary | {"targets": {"plate": {"exit_time_s": 60e-6}}})
     shown = said(under_way, capsys)
     assert shown["through"] == "plate; nose 50.00 mm behind the first face"
@@ -123,37 +124,11 @@ def test_a_real_run_agrees_with_what_it_says(finished):
     assert any(f"cycle {run.summary['cycles']}" in line for line in lines)
 
 
-class Pretend:
-    """The part of plotext that is used."""
-
-    def __init__(self):
-        self.asked = []
-
-    def __getattr__(self, name):
-        return lambda *values, **named: self.asked.append((name, values, named))
-
-    def build(self):
-        return "\x1b[1mone\x1b[0m\ntwo"
-
-    def uncolorize(self, text):
-        return text.replace("\x1b[1m", "").replace("\x1b[0m", "")
-
-
-@pytest.fixture
-def plotext(monkeypatch):
-    pretend = Pretend()
-    monkeypatch.setitem(sys.modules, "plotext", pretend)
-    monkeypatch.setattr(terminal_charts.metadata, "version", lambda name: "5.3.2")
-    return pretend
-
-
-def test_histories_are_drawn(under_way, plotext, capsys):
-    assert call(["status", str(under_way), "--plot", "--quantity", "rod_length_m"]) == 0
-    assert capsys.readouterr().out.splitlines()[-2:] == ["one", "two"]
-    ((_, (time, values), _),) = [each for each in plotext.asked if each[0] == "plot"]
-    assert (time[-1], values[-1]) == (pytest.approx(40.0), pytest.approx(26.0))
-    ((_, (title,), _),) = [each for each in plotext.asked if each[0] == "title"]
-    assert title == "projectile length [mm] over time [us]"
+def test_histories_are_drawn(under_way, capsys):
+    assert call(["status", str(under_way), "--plot", "--quantity", "rod_length_m", "--quantity", "time"]) == 0
+    length, time = capsys.readouterr().out.splitlines()[-2:]
+    assert re.fullmatch(r"projectile length [▁▂▃▄▅▆▇█]{20} 26 to [\d.]+ mm, 0 to 40 µs", length)
+    assert re.search(r"▁▁?▂.*▇██? 0 to 40 µs", time)
 
 
 def test_depth_and_tail_are_drawn_of_a_shot_and_the_first_body_of_others(under_way):
@@ -163,20 +138,7 @@ def test_depth_and_tail_are_drawn_of_a_shot_and_the_first_body_of_others(under_w
     assert terminal_charts.chosen(run) == ["body_rod_velocity_m_s"]
 
 
-@pytest.mark.parametrize("version", ["6.1.0", None])
-def test_without_plotext_one_message_says_so(under_way, monkeypatch, capsys, version):
-    def found(name):
-        if version is None:
-            raise terminal_charts.metadata.PackageNotFoundError(name)
-        return version
-
-    monkeypatch.setattr(terminal_charts.metadata, "version", found)
-    assert call(["status", str(under_way), "--plot"]) == 2
-    assert capsys.readouterr().err == f"hydro2d: {terminal_charts.MISSING}\n"
-    assert call(["status", str(under_way)]) == 0  # no terminal: nothing is drawn
-
-
-def test_a_column_that_there_is_not(under_way, plotext, capsys):
+def test_a_column_that_there_is_not(under_way, capsys):
     assert call(["status", str(under_way), "--quantity", "rod_lenght_m"]) == 2
     assert 'did you mean "rod_length_m"' in capsys.readouterr().err
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hydro2d.base.errors import Error
+from hydro2d.base.units import reader_unit
 from hydro2d.mesh import quantities
 from hydro2d.mesh.quantities import Quantity
 from hydro2d.output.datasets import COMPONENTS, quantities_of
 from hydro2d.output.vtk import Dump
-from hydro2d.results import figures
 
 #: shares of the cells that may lie outside a colour range, and number of quantiles of a dump from which it is found
 CLIPS = (0.0, 0.005, 0.01, 0.02, 0.05)
@@ -76,12 +76,6 @@ def asked(words: Iterable[str], dumps: list[Dump], run) -> list[Quantity]:
     return [quantity for quantity in there if quantity.key in keys]
 
 
-def unit_of(unit: str) -> tuple[str, float]:
-    """The reader's unit for an SI unit as plain text, and the factor that converts to it."""
-    name, scale = figures.reader_unit(unit)
-    return name.replace("$^3$", "³"), scale
-
-
 def arrays(chosen: Iterable[Quantity], dumps: list[Dump]) -> list[Stored]:
     """The stored arrays of chosen quantities, in their order: one for each component of a vector, one for each body."""
     fields = {name: values for dump in dumps for name, values in dump.fields.items()}
@@ -89,7 +83,7 @@ def arrays(chosen: Iterable[Quantity], dumps: list[Dump]) -> list[Stored]:
 
 
 def _arrays_of(quantity: Quantity, bodies: list[str], fields: dict[str, np.ndarray]) -> Iterator[Stored]:
-    unit, scale = unit_of(quantity.unit)
+    unit, scale = reader_unit(quantity.unit)
     if quantity.per_body:
         for body in bodies:
             name, title = quantity.name(body), quantity.title.replace(" of {body}", "").replace(" for {body}", "")

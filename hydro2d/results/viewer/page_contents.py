@@ -8,13 +8,14 @@ from dataclasses import asdict
 import numpy as np
 
 from hydro2d.base.formats import shown
+from hydro2d.base.units import reader_unit
 from hydro2d.measure.regime import REGIMES
 from hydro2d.output import history, station_arrays
 from hydro2d.output.directory import HISTORY
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump, read_grid
 from hydro2d.results.viewer import packing
-from hydro2d.results.viewer.field_arrays import Ranges, Stored, ViewError, arrays, asked, short, unit_of
+from hydro2d.results.viewer.field_arrays import Ranges, Stored, ViewError, arrays, asked, short
 
 #: fields that every page has, to show the bodies
 SHARES = ("volume_fraction", "material")
@@ -174,6 +175,6 @@ def _history(run, store: packing.Store) -> dict:
 
 
 def _column(name: str, values: np.ndarray, store: packing.Store) -> dict:
-    unit, scale = unit_of(history.unit(name))
+    unit, scale = reader_unit(history.unit(name))
     return {"name": name, "label": shown(history.spoken(name)), "unit": "" if unit == "1" else unit,
             "piece": store.add(packing.packed_column(values * scale, "<f4"))}  # fmt: skip

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from hydro2d.base.errors import unknown
-from hydro2d.base.units import COMMON
+from hydro2d.base.units import COMMON, reader_unit
 from hydro2d.measure.summary import Summary
 from hydro2d.output.history import unit
 from hydro2d.study.plan.definition import StudyError
@@ -22,11 +22,8 @@ DEPTH, RESIDUAL, IMPACT = "penetration_depth_m", "rod_residual_velocity_m_s", "v
 OF_BODY = ("velocity_m_s", "z_max_m")
 #: the name of each case, if nothing else is varied
 CASE = "case"
-#: the reader's unit and the factor to it, by the SI unit at the end of a name
-READER = {
-    "m": ("cm", 1e2), "m2": ("cm²", 1e4), "m3": ("cm³", 1e6), "s": ("µs", 1e6), "kg": ("g", 1e3), "J": ("kJ", 1e-3),
-    "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3), "N s": ("N s", 1.0),
-}  # fmt: skip
+#: lengths of a study are depths, which are given in cm
+LENGTH = ("cm", 1e2)
 TITLES = {
     DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity",
     "rod_length_m": "projectile length",
@@ -100,7 +97,7 @@ def response(name: str) -> Response:
 def readers(name: str) -> tuple[str, float]:
     """The reader's unit of a quantity, empty for a plain number, and the factor from SI to it."""
     si = unit(name)
-    return READER.get(si, ("" if si == "1" else si, 1.0))
+    return LENGTH if si == "m" else ("", 1.0) if si == "1" else reader_unit(si)
 
 
 def title(name: str) -> str:

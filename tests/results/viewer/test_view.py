@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import hydro2d
+from hydro2d.base.units import reader_unit
 from hydro2d.cli.main import call
 from hydro2d.mesh.quantities import FieldError
 from hydro2d.output import history, vtk
-from hydro2d.results import figures
 from hydro2d.results.viewer import packing, page_contents
 from hydro2d.results.viewer.field_arrays import CLIPS, Ranges, ViewError
 from tests.results import made_run
@@ -76,7 +76,7 @@ def test_fields_are_those_of_the_dumps_within_the_stated_error(shot, bits):
         assert {"pressure", "velocity:r", "velocity:z", "body_temperature:rod", "volume_fraction:plate"} <= set(stored)
         for word in stored:
             values, unit = field_of(dump, word)
-            scale = figures.reader_unit(unit)[1]
+            scale = reader_unit(unit)[1]
             off = np.max(np.abs(page.values(0, n, word) - values * scale))
             assert off <= page.error(0, n, word) * 1.001 + 1e-6 * np.max(np.abs(values * scale))
             if word == "material":
