@@ -310,8 +310,12 @@ class Results:
             facts["run"] = (summary.get("stop_reason") or "ended") + ("" if time is None else f" at {time * 1e6:.2f} µs")
             if summary.get("trustworthy") is False:
                 facts["not trustworthy"] = "; ".join(summary.get("faults") or ())
-        if summary.get("penetration_depth_m") is not None:
+        if (outcome := summary.get("outcome") or {}).get("perforated"):
+            left = outcome.get("residual_velocity_m_s")
+            facts["through"] = ", ".join(summary.get("targets") or ()) + ("" if left is None else f", {left:.1f} m/s left")
+        elif summary.get("penetration_depth_m") is not None:
             facts["depth"] = _millimetres(summary["penetration_depth_m"])
+        if summary.get("penetration_depth_m") is not None:
             facts[self.projectile] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
         if self.measured_depth is not None:
             facts["experiment's depth"] = _millimetres(self.measured_depth)
@@ -321,7 +325,7 @@ class Results:
     def __repr__(self) -> str:
         facts = self._facts()
         said = [facts["run"], *(["not trustworthy"] if "not trustworthy" in facts else [])]
-        said += [f"depth {facts['depth']}"] if "depth" in facts else []
+        said += [f"{name} {facts[name]}" for name in ("depth", "through") if name in facts]
         return f"<Results {self.label}: {', '.join(said)}>"
 
     def _repr_html_(self) -> str:
