@@ -169,7 +169,7 @@ def _of(row: hydro2d.KeptRow) -> Result:
     def number(name: str, factor: float = 1.0) -> float | None:
         return round(factor * float(row[name]), 9) if row[name] else None
 
-    through = row["stop_reason"].startswith("perforation")
+    through = row["perforated"] == "True"
     depth, residual = (None, number("residual_velocity_m_s")) if through else (number("depth_m", 1e2), None)
     loss = round(100.0 * (1.0 - float(row["length_ratio"])), 9)
     return Result(row.labels, int(row["member"]), depth, loss, residual, row["regime"],

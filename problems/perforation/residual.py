@@ -46,10 +46,8 @@ def runs(directories: list[Path]) -> list[Run]:
         for case in hydro2d.open_study(directory).cases:
             if case.status == "done" and "nose" in case.values:
                 summary, striking = case.summary, float(case.values["velocity"].split()[0])
-                rested = summary["stop_reason"].startswith(("speed of", "rebound of"))  # with its nose beyond the rear face
-                through = summary["exit_time_s"] is not None and not rested
-                crater = summary["crater"]
-                cases.append(Run(case.values["nose"], striking, summary["rod_residual_velocity_m_s"] if through else 0.0,
+                through, crater = summary["outcome"]["perforated"], summary["crater"]
+                cases.append(Run(case.values["nose"], striking, summary["outcome"]["residual_velocity_m_s"] if through else 0.0,
                                  *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
                                    if through else ())))  # fmt: skip
     return sorted(cases, key=lambda run: (run.nose, -run.striking))

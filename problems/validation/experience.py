@@ -203,7 +203,7 @@ def weldox() -> list[Shot]:
     for row in hydro2d.kept_rows(folder / "results" / "weldox.csv"):
         velocity = float(row["velocity"].split()[0])
         left = measured[row["nose"], velocity]
-        through = row["stop_reason"].startswith("perforation")
+        through = row["perforated"] == "True"
         what, about = impact("perforation/weldox_hemispherical.toml"), {
             "velocity": velocity, "cells": (float(row[rigid_rod.CELLS]),)}  # fmt: skip
         ratios = (float(row["residual_velocity_m_s"]) / left,) if through and left else ()

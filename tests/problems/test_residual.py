@@ -15,8 +15,7 @@ SHOTS = Path(residual.__file__).with_name("weldox_velocities.toml")
 
 def case(nose, velocity, left, status="done"):
     crater = {"ejected_mass_kg": 0.03, "ejected_velocity_m_s": 200.0, "exit_diameter_m": 0.021}
-    reason = "end time" if left else "rebound of rod"  # both with the nose beyond the rear
-    summary = {"rod_residual_velocity_m_s": left or 3.0, "stop_reason": reason, "crater": crater, "exit_time_s": 2e-4}
+    summary = {"outcome": {"perforated": left > 0.0, "residual_velocity_m_s": left}, "crater": crater}
     return SimpleNamespace(values={"nose": nose, "velocity": f"{velocity} m/s"}, status=status, summary=summary)
 
 

@@ -214,7 +214,7 @@ def _renew(row: KeptRow) -> None:
     Such a row of a shot that perforates has the place where its nose was: its depth, the thickness of the target, is not known.
     """
     row.update({name: "" for name in LATER if name not in row})
-    if row["perforated"] or not row["depth_m"]:
+    if row["perforated"] or not row["regime"]:
         return
     left = row["regime"] == LEFT
     stopped = not row["residual_velocity_m_s"] or rested(row["stop_reason"])
