@@ -14,7 +14,6 @@ import shlex
 import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 #: categories of invisible characters that change the display: control, direction of writing, lines
 _STEERING = frozenset(("Cc", "Cf", "Zl", "Zp"))
@@ -115,7 +114,7 @@ def in_hdf5(name: str) -> str:
 
 def in_xml(name: str) -> str:
     """A name in a quoted attribute of an XML file, such as those of VTK."""
-    return escape(name, {'"': "&quot;"})
+    return html.escape(name, quote=False).replace('"', "&quot;")  # xml.sax would load the web for this
 
 
 def in_toml(name: str) -> str:
