@@ -27,7 +27,8 @@ def bounds(field) -> str:
 def fields_page() -> str:
     """The field table and the quantities of output files."""
     from eos.registry import MODULES
-    from hydro2d.mesh import fields, quantities
+    from hydro2d.materials import quantities
+    from hydro2d.mesh import fields
     from strength.registry import STRENGTH_MODULES
 
     state = table(

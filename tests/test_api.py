@@ -13,7 +13,7 @@ import pytest
 
 import hydro2d
 from hydro2d import api
-from hydro2d.mesh.quantities import FieldError
+from hydro2d.materials.quantities import FieldError
 from hydro2d.output import datasets
 from hydro2d.output.vtk import read_grid
 from tests.results import made_run

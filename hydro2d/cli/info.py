@@ -6,7 +6,7 @@ import difflib
 
 from hydro2d.base.errors import DeckError, nearest
 from hydro2d.cli import words
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 
 #: largest number of suggestions for an unknown name, and of its characters that are compared
 MOST_NEAR, LONGEST_NAME = 6, 200

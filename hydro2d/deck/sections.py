@@ -55,7 +55,7 @@ def _fields(keys: tuple[str, ...]) -> tuple[str, ...]:
     """Names of quantities, and of groups of quantities. Their table is large and imported only if it is needed."""
     if set(keys) <= {"standard", "all"}:
         return keys
-    from hydro2d.mesh import quantities
+    from hydro2d.materials import quantities
 
     try:
         quantities.expand(keys)

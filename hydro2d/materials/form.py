@@ -10,7 +10,7 @@ from types import ModuleType
 
 from hydro2d.base.parameters import Parameter
 from hydro2d.base.parsing import parsed
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.mesh.fields import Field
 
 #: texts that each model has

@@ -23,8 +23,7 @@ from eos.layout import ROW as EOS_ROW
 from hydro2d import jit
 from hydro2d.base.errors import DeckError
 from hydro2d.files.whole import read_text
-from hydro2d.materials import form
-from hydro2d.mesh import quantities
+from hydro2d.materials import form, quantities
 from strength.layout import DAMAGE_ROW
 from strength.layout import ROW as STRENGTH_ROW
 

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro2d.base.errors import from_extra
-from hydro2d.mesh import quantities
-from hydro2d.mesh.quantities import Quantity
+from hydro2d.materials import quantities
+from hydro2d.materials.quantities import Quantity
 from hydro2d.output.vtk import Dump, VtkError, read_grid
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Computes the written and drawn quantities (`mesh/quantities.py`) from the state.
+"""Computes the written and drawn quantities (`materials/quantities.py`) from the state.
 
 A quantity of the mixture has shape (nz, nr) or, for a vector (r, z, 0), (nz, nr, 3). A quantity per body has shape (m, nz, nr)
 and is written once for each body. Values are zero where there is no material.
@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from hydro2d.materials.quantities import BY_KEY, expand
 from hydro2d.mesh.fields import INTERNAL
-from hydro2d.mesh.quantities import BY_KEY, expand
 from strength.layout import INTACT, TENSION
 
 TINY = 1e-300

@@ -21,7 +21,7 @@ from hydro2d.base.errors import Error, unknown
 from hydro2d.base.formats import in_xml
 from hydro2d.files import checksums
 from hydro2d.files.whole import replacing, write_text
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import derived_quantities, foreign
 from hydro2d.output.outlines import Filling

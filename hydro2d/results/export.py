@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hydro2d.files.strange import own, own_folder, within
 from hydro2d.files.whole import replacing
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.output import history, vtk
 from hydro2d.output.directory import HISTORY
 from hydro2d.results.reading import Results, ResultsError

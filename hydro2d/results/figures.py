@@ -18,7 +18,7 @@ from hydro2d.base.errors import unknown
 from hydro2d.base.formats import in_figure, in_legend
 from hydro2d.base.units import reader_unit
 from hydro2d.files.whole import replacing
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.output import history
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump

@@ -11,8 +11,7 @@ from hydro2d.base.errors import DeckError
 from hydro2d.base.formats import one_line
 from hydro2d.base.terminal import duration, several
 from hydro2d.deck import deck as decks
-from hydro2d.materials import library
-from hydro2d.mesh import quantities
+from hydro2d.materials import library, quantities
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import halved, made
 from hydro2d.mesh.grid import Grid

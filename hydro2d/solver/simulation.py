@@ -14,7 +14,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import formulas, targets
 from hydro2d.deck.layout import body_at
 from hydro2d.jit import compilation
-from hydro2d.materials import library
+from hydro2d.materials import library, quantities
 from hydro2d.measure import bodies, debris, outcome, reach, wall_damage
 from hydro2d.measure.audit import Audit, Totals, totals
 from hydro2d.measure.bodies import Body
@@ -25,7 +25,7 @@ from hydro2d.measure.outcome import Outcome
 from hydro2d.measure.penetrator import LEFT_MASS, WATCH_EVERY, Penetrator
 from hydro2d.measure.sanity import TRUSTED, discards, doubts, faults
 from hydro2d.measure.summary import Target
-from hydro2d.mesh import fields, quantities, sums
+from hydro2d.mesh import fields, sums
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid

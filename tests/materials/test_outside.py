@@ -145,7 +145,7 @@ INTERNAL = INTERNAL.replace("EXAMPLE", f"{FIELD}\nEXAMPLE", 1)
 
 WRITTEN = """
     from hydro2d.deck import deck
-    from hydro2d.mesh import quantities
+    from hydro2d.materials import quantities
     print(deck.load("shot.toml", ['output.fields=["softness"]']).output.fields)
     print(quantities.BY_KEY["softness"] in quantities.TABLE)
     print(*("softness" in quantities.expand([word]) for word in ("all", "standard")))

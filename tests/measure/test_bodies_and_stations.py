@@ -8,9 +8,10 @@ import pytest
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
+from hydro2d.materials import quantities
 from hydro2d.measure import bodies, station_columns, tracers
 from hydro2d.measure.summary import OF_EVERY_BODY, PROJECTILE, Summary
-from hydro2d.mesh import quantities, sums
+from hydro2d.mesh import sums
 from hydro2d.output import derived_quantities
 from hydro2d.results.reading import Results
 from hydro2d.running.run import run

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.mesh.quantities import BY_KEY
+from hydro2d.materials.quantities import BY_KEY
 from hydro2d.output.outlines import Filling
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures

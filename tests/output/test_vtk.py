@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.output import derived_quantities, vtk
 from hydro2d.output.series import Series
 from tests import fake

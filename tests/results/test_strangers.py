@@ -17,7 +17,7 @@ from hydro2d.cli.main import call
 from hydro2d.files import toml
 from hydro2d.files.checksums import verified_text
 from hydro2d.files.whole import read_json, write_json
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.output import datasets, history, vtk
 from hydro2d.results import standing
 from hydro2d.results.reading import Results

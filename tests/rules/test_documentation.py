@@ -21,8 +21,8 @@ from hydro2d.base import units
 from hydro2d.deck import deck, mesh_sections, sections
 from hydro2d.deck.shapes import body
 from hydro2d.deck.shapes import registry as shapes
-from hydro2d.materials import library
-from hydro2d.mesh import fields, quantities
+from hydro2d.materials import library, quantities
+from hydro2d.mesh import fields
 from hydro2d.mesh.edges import registry as edge_kinds
 from hydro2d.penetration import catalogue
 from strength import melting, tensile_pressure

@@ -5,8 +5,8 @@ import pytest
 
 from hydro2d.deck import deck
 from hydro2d.kernels.sliding import SHEARS
+from hydro2d.materials import quantities
 from hydro2d.measure import tracers
-from hydro2d.mesh import quantities
 from hydro2d.output import derived_quantities, snapshot
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures, scales

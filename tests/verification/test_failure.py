@@ -5,8 +5,8 @@ import pytest
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
+from hydro2d.materials.quantities import FieldError
 from hydro2d.mesh.fields import BY_DAMAGE, BY_TENSION, FAILED, SRR, SRZ
-from hydro2d.mesh.quantities import FieldError
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, plate, rod, stop, table, walls
 from tests.verification.running import finish, to_the_end

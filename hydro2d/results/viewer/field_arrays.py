@@ -9,8 +9,8 @@ import numpy as np
 
 from hydro2d.base.errors import Error
 from hydro2d.base.units import reader_unit
-from hydro2d.mesh import quantities
-from hydro2d.mesh.quantities import Quantity
+from hydro2d.materials import quantities
+from hydro2d.materials.quantities import Quantity
 from hydro2d.output.datasets import COMPONENTS, quantities_of
 from hydro2d.output.vtk import Dump
 

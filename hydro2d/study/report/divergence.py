@@ -27,7 +27,7 @@ from hydro2d.analytic.model_text import columns
 from hydro2d.base.errors import unknown
 from hydro2d.base.formats import in_legend
 from hydro2d.files.whole import write_text
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.output import vtk
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.study.records import differences

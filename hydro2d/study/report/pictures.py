@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hydro2d.base.errors import unknown
-from hydro2d.mesh import quantities
+from hydro2d.materials import quantities
 from hydro2d.output.vtk import VtkError
 from hydro2d.results import figures, movies, reading
 from hydro2d.results.scales import FigureError

@@ -17,7 +17,7 @@ from hydro2d.files import checksums
 from hydro2d.files.locks import LockError, LostPlaceError, holder
 from hydro2d.files.strange import StrangeFile
 from hydro2d.jit import compilation
-from hydro2d.mesh.quantities import FieldError
+from hydro2d.materials.quantities import FieldError
 from hydro2d.output import snapshot
 from hydro2d.output.directory import DECK, LOCK, PROGRESS, RunError, check_free, deck_hash
 from hydro2d.output.history import HistoryError

@@ -14,7 +14,7 @@ import pytest
 import hydro2d
 from hydro2d.base.units import reader_unit
 from hydro2d.cli.main import call
-from hydro2d.mesh.quantities import FieldError
+from hydro2d.materials.quantities import FieldError
 from hydro2d.output import history, vtk
 from hydro2d.results.viewer import packing, page_contents
 from hydro2d.results.viewer.field_arrays import CLIPS, Ranges, ViewError
