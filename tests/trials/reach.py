@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro2d.materials import starts
+from hydro2d.materials.starts import body_state, body_velocity, slot_of
 from strength import SHEAR
 from tests.trials.shocks import Material
 
@@ -59,8 +59,8 @@ class Reach:
         self.closing = max(float(np.hypot(*(speeds - one).T).max()) for one in speeds)
         self.converges = any(body.flow is not None or body.velocity[0] != 0.0 for body in self.deck.body)
         starts: list[list] = [[] for _ in self.materials]
-        for body, m in zip(self.deck.body, starts.slot_of(self.deck, table), strict=True):
-            starts[m].append(starts.body_state(body, table, m))
+        for body, m in zip(self.deck.body, slot_of(self.deck, table), strict=True):
+            starts[m].append(body_state(body, table, m))
         self.pressure, self._jumps = self._collision(starts)
         self.bodies = [self._limits(m, each, table) for m, each in enumerate(starts)]
         finest = min(float(np.diff(edges).min()) for edges in (grid.r_edges, grid.z_edges))
@@ -120,7 +120,7 @@ def _speeds(simulation) -> np.ndarray:
     r, z = np.meshgrid(grid.rc[columns], grid.zc[rows])
     speeds = [(0.0, 0.0)] if any(edges.having("constrains")) else []
     for body in simulation.deck.body:
-        u, v = starts.body_velocity(body, r, z)
+        u, v = body_velocity(body, r, z)
         speeds += [(x, y) for x in (u.min(), u.max()) for y in (v.min(), v.max())]
     for n, edge in enumerate(edges.edges):
         speeds += [(speed, 0.0) if n < 2 else (0.0, speed) for speed in edge.speeds() if speed]
