@@ -26,7 +26,7 @@ class Required:
 
 REQUIRED = Required()
 
-ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "fraction"
+SIGNS = ANY, POSITIVE, NON_NEGATIVE, FRACTION = "any", "positive", "non-negative", "fraction"
 
 
 def check_sign(name: str, number: float, sign: str, error: type[ValueError] = ValueError) -> None:

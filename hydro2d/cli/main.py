@@ -35,6 +35,8 @@ from hydro2d.files.locks import LostPlaceError
 WRONG_INPUT, REFUSED = 2, 4
 #: what the system says of a library for which there is no memory
 NO_ROOM = "failed to map segment from shared object"
+#: what Python says if there is no room for the stack of a thread
+NO_THREAD = "can't start new thread"
 
 app = App(
     name="hydro2d",
@@ -322,14 +324,29 @@ def call(arguments: list[str]) -> int:
         return _report(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)
     except (NotADirectoryError, FileExistsError) as error:
         return _report(_no_directory(error), WRONG_INPUT)
-    except OSError as error:
+    except RuntimeError as error:
+        if NO_THREAD not in str(error):
+            raise
+        return _report(f"{NO_THREAD}: too little memory, or too many threads; allow more with `ulimit -v` or `-u`", REFUSED)
+    except (ImportError, OSError) as error:
+        if library := _without_room(error):
+            return _report(f"not enough memory to load {library}; allow more with `ulimit -v`", REFUSED)
+        if isinstance(error, ImportError):
+            raise
         where = f": {error.filename}" if error.filename is not None else ""
         remedy = "; allow more with `ulimit -n`" if error.errno == errno.EMFILE else ""
         return _report(f"{error.strerror or error}{where}{remedy}", REFUSED)
-    except ImportError as error:
-        if NO_ROOM not in str(error):
-            raise
-        return _report(f"not enough memory to load {error}; allow more with `ulimit -v`", REFUSED)
+
+
+def _without_room(error: BaseException | None) -> str:
+    """The library for which there was no memory, with what the system says of it; empty for an error of another kind.
+
+    Packages replace the exception of the system by one of their own, which is all that they print.
+    """
+    said = ""
+    while error is not None:
+        said, error = str(error) if NO_ROOM in str(error) else said, error.__cause__ or error.__context__
+    return said
 
 
 def _no_directory(error: OSError) -> str:

@@ -99,16 +99,18 @@ def sweep(
 
 def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), skip: Sequence[str] = (), quiet: bool) -> int:
     """Runs the cases of a plan and prints the joint results of ensembles. Returns the exit status."""
-    from hydro2d.study.records import study_directory
+    from hydro2d.study.records import sample_table, study_directory
     from hydro2d.study.run import sweep as sweeps
     from hydro2d.study.run.choice import Choice
 
     choice = Choice(plan, only, skip, again=workers.anew)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
                           overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
-    if plan.sample and not quiet and (out / study_directory.STUDY).is_file():
+    if quiet or not (out / (sample_table.FILE if plan.sample else study_directory.STUDY)).is_file():  # the disk may be full
+        return status
+    if plan.sample:
         _show_samples(study_directory.read(out))
-    elif plan.ensemble and not quiet and (out / study_directory.STUDY).is_file():
+    elif plan.ensemble:
         say("")
         _show_ensembles(out)
     return status

@@ -13,7 +13,6 @@ from types import ModuleType
 
 import numpy as np
 
-from eos.layout import RHO0
 from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE
 from hydro2d.materials.contract_case import Broken, Case, require
 from hydro2d.materials.contract_eos import (
@@ -40,22 +39,15 @@ from hydro2d.materials.contract_strength import (
     weakening,
     yield_floor,
 )
+from hydro2d.materials.form import wrong_row
 from hydro2d.materials.outside import KINDS
 from hydro2d.materials.sesame import Table
 
 
 def row(case: Case) -> None:
     """row(values) returns as many numbers as the kernels read, and none of them is NaN"""
-    slots = case.row
-    length, least = case.kind.length, "at least " if case.kind.part == "eos" else ""
-    kept = isinstance(slots, np.ndarray) and slots.ndim == 1 and slots.dtype == np.float64
-    require(kept and (slots.size == length or (least and slots.size > length)),
-            f"row gives {getattr(slots, 'dtype', type(slots).__name__)} {getattr(slots, 'shape', '')}, not float64 "
-            f"({least}{length},)")
-    require(not np.isnan(slots).any(), f"row has NaN in slot {np.isnan(slots).argmax()}")
-    if case.kind.part == "eos":
-        density = case.values["reference_density"]
-        require(slots[RHO0] == density, f"slot RHO0 = {RHO0} of the row is {slots[RHO0]:g}, not reference_density, {density:g}")
+    if wrong := wrong_row(case.row, case.kind, case.values):
+        raise Broken(wrong)
 
 
 def wrong_parameters(case: Case) -> None:

@@ -8,7 +8,10 @@ import sys
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 
-from hydro2d.base.parameters import Parameter
+import numpy as np
+
+from eos.layout import RHO0
+from hydro2d.base.parameters import SIGNS, Parameter, Required
 from hydro2d.base.parsing import parsed
 from hydro2d.materials import quantities
 from hydro2d.mesh.fields import Field
@@ -25,7 +28,7 @@ def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
     """The part of a material for which a text is a model, by the functions that each part requires; None if there is none."""
     try:
         names = {node.name for node in parsed(text).body if isinstance(node, ast.FunctionDef)}
-    except SyntaxError:
+    except (SyntaxError, MemoryError, RecursionError):
         return next(iter(required))  # its import reports the mistake
     return next((name for name, functions in required.items() if names & set(functions)), None)
 
@@ -55,6 +58,43 @@ def wrong_import(text: str, package: str) -> tuple[int, str] | None:
     return None
 
 
+def wrong_statement(text: str) -> tuple[int, str] | None:
+    """Line of the first statement in a compiled function of a model that no kernel can execute, and the reason; None if there
+    is none."""
+    compiled = (each for each in parsed(text).body if isinstance(each, ast.FunctionDef) and each.decorator_list)
+    return next(((node.lineno, f"{each.name} {wrong}") for each in compiled for node in ast.walk(each)
+                 if (wrong := _impossible(node))), None)
+
+
+def _impossible(node: ast.AST) -> str:
+    """Why a kernel cannot execute a part of a function; empty if it can."""
+    if isinstance(node, ast.Raise | ast.Assert):
+        return "raises an exception, which a kernel cannot; let it return math.nan, which ends the run as unphysical"
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
+        return "prints, which a kernel cannot"
+    if isinstance(node, ast.Subscript) and not isinstance(node.ctx, ast.Load) and ast.unparse(node.value) == "par":
+        return "writes into par, which all cells of the material share"
+    return ""
+
+
+def wrong_row(row: object, kind, values: Mapping[str, float]) -> str | None:
+    """How the result of a model's `row` for these parameters differs from what kernels read; None if it does not.
+
+    kind : an outside.Kind
+    """
+    least = "at least " if kind.part == "eos" else ""
+    if not (isinstance(row, np.ndarray) and row.ndim == 1 and row.dtype == np.float64
+            and (row.size == kind.length or (least and row.size > kind.length))):  # fmt: skip
+        return (f"row gives {getattr(row, 'dtype', type(row).__name__)} {getattr(row, 'shape', '')}, not float64 "
+                f"({least}{kind.length},)")
+    if np.isnan(row).any():
+        return f"row has NaN in slot {np.isnan(row).argmax()}"
+    density = values["reference_density"] if kind.part == "eos" else None
+    if density is not None and row[RHO0] != density:
+        return f"slot RHO0 = {RHO0} of the row is {row[RHO0]:g}, not reference_density, {density:g}"
+    return None
+
+
 def fault(module: ModuleType, kind) -> str | None:
     """The first mistake in the file of a model, in words; None if there is none. ``kind`` is an outside.Kind."""
     return next((wrong for check in (_constants, _parameters, _functions, _variables) for wrong in check(module, kind)), None)
@@ -79,6 +119,11 @@ def _parameters(module: ModuleType, kind) -> Iterator[str]:
         yield "needs PARAMETERS, a tuple of hydro2d.base.parameters.Parameter"
         return
     names = [entry.name for entry in given]
+    for entry in given:
+        if not isinstance(entry.default, Required | int | float):
+            yield f"the default of the parameter {entry.name} is {entry.default!r}, not a number or REQUIRED"
+        if entry.sign not in SIGNS:
+            yield f"the sign of the parameter {entry.name} is {entry.sign!r}, not one of {', '.join(SIGNS)}"
     for name in names:
         if names.count(name) > 1:
             yield f"has the parameter {name} twice"

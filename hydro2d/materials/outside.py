@@ -11,11 +11,13 @@ import functools
 import hashlib
 import re
 import traceback
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import metadata, util
 from pathlib import Path
 from types import ModuleType
+
+import numpy as np
 
 import eos.registry
 import strength.registry
@@ -29,6 +31,8 @@ from strength.layout import ROW as STRENGTH_ROW
 
 #: IDs of models from outside begin here
 FIRST_ID = 1000
+#: what numba says of a function that needs memory
+NO_OBJECTS = "NRT required but not enabled"
 
 
 class ModelError(DeckError):
@@ -108,6 +112,21 @@ class Outside:
                 f"{what}the kernels of this process were loaded without the {self.kind.title} {self.name} of {self.file}; "
                 "load the deck, or call hydro2d.register, before kernels are loaded, or start a new process")
         return self
+
+    def row(self, values: Mapping[str, float], *base: object) -> np.ndarray:
+        """The row of these parameters, float64[n]; base : further arguments of the model's `row`.
+
+        Raises ValueError for values that the model refuses, ModelError if its `row` fails or returns what kernels cannot read.
+        """
+        try:
+            row = self.module.row(values, *base)
+        except (ValueError, KeyboardInterrupt):
+            raise
+        except BaseException as error:
+            raise ModelError(f"{self.file}{_raised(error, self.module.__name__, 'row raises')}") from None
+        if wrong := form.wrong_row(row, self.kind, values):
+            raise ModelError(f"{self.file}: {wrong}")
+        return row
 
     def about(self) -> dict:
         """Its entry in a summary."""
@@ -214,17 +233,15 @@ def _checked(text: str, part: str) -> ModuleType:
 def _module(text: str, kind: Kind) -> ModuleType:
     stem = f"hydro2d_{kind.part}_model"
     try:
-        if wrong := form.wrong_import(text, kind.package):
+        if wrong := form.wrong_import(text, kind.package) or form.wrong_statement(text):
             raise ModelError(f":{wrong[0]}: {wrong[1]}")
         return jit.module_of(stem, text)
     except SyntaxError as error:
         raise ModelError(f":{error.lineno or 1}: is not Python: {error.msg}") from None
-    except ModelError:
+    except (ModelError, KeyboardInterrupt):
         raise
-    except (Exception, SystemExit) as error:
-        frames = traceback.extract_tb(error.__traceback__)
-        lines = [frame.lineno for frame in frames if Path(frame.filename).name.startswith(stem)]
-        raise ModelError(f":{(lines or [1])[-1]}: cannot be imported: {type(error).__name__}: {_line(error)}") from None
+    except BaseException as error:  # a model may raise anything, and end the process
+        raise ModelError(_raised(error, stem, "cannot be imported:")) from None
 
 
 def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
@@ -243,7 +260,19 @@ def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
     return None
 
 
-def _line(error: Exception) -> str:
-    """The message of an exception on one line, without the frame that numba adds."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith("Failed in nopython")]
-    return lines[0] if lines else type(error).__name__
+def _raised(error: BaseException, stem: str, what: str) -> str:
+    """":LINE: what EXCEPTION: its message", for an exception in the text of a model whose module's name begins with `stem`."""
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if Path(frame.filename).name.startswith(stem)]
+    name, said = type(error).__name__, _line(error)
+    return f":{(lines or [1])[-1]}: {what} {name}" + (f": {said}" if said != name else "")
+
+
+def _line(error: BaseException) -> str:
+    """The message of an exception on one line, without the frame that numba adds; its name if it has no message."""
+    try:
+        said = str(error)
+    except Exception:  # raised by an exception of the model's own
+        said = ""
+    lines = [line.strip() for line in said.splitlines() if line.strip() and not line.startswith("Failed in nopython")]
+    return lines[0].replace(NO_OBJECTS, "it makes an array, a list or another object") if lines else type(error).__name__

@@ -127,9 +127,9 @@ class MaterialTable:
         return moduli < GAS_MODULUS * moduli.max()
 
 
-def _row(module: ModuleType, model: Model, material: Material) -> np.ndarray:
+def _row(part: str, module: ModuleType, model: Model, material: Material) -> np.ndarray:
     try:
-        return module.row(model.values, *model.base())
+        return (model.outside(part) or module).row(model.values, *model.base())
     except ValueError as problem:
         raise DeckError(f"material {material.name}: {problem}") from None
 
@@ -173,7 +173,7 @@ def resolve(deck) -> MaterialTable:
     strength_modules = [material.strength.module("strength") for material in chosen]
     damages = [material.damage if deck.failure.damage == "material" else Model("none") for material in chosen]
     damage_modules = [damage.module("damage") for damage in damages]
-    eos_rows = [_row(module, material.eos, material) for module, material in zip(eos_modules, chosen, strict=True)]
+    eos_rows = [_row("eos", module, material.eos, material) for module, material in zip(eos_modules, chosen, strict=True)]
     used = deck.failure.tensile == "material"
     tensile = [c.fracture_pressure.value if used and c.fracture_pressure else np.inf for c in chosen]
     most_stress = [c.fracture_stress.value if used and c.fracture_stress else np.inf for c in chosen]
@@ -187,8 +187,8 @@ def resolve(deck) -> MaterialTable:
     eos_par = np.zeros((len(chosen), max(row.size for row in eos_rows)))
     for row, own in zip(eos_par, eos_rows, strict=True):
         row[: own.size] = own
-    strength_par = np.stack([_row(m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
-    damage_par = np.stack([_row(m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
+    strength_par = np.stack([_row("strength", m, c.strength, c) for m, c in zip(strength_modules, chosen, strict=True)])
+    damage_par = np.stack([_row("damage", m, d, c) for m, d, c in zip(damage_modules, damages, chosen, strict=True)])
     fails = [bool(tension < np.inf or stress < np.inf or module.ID) for tension, stress, module in
              zip(tensile, most_stress, damage_modules, strict=True)]
     table = MaterialTable(

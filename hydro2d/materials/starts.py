@@ -105,13 +105,17 @@ def _energy_for(body, table, m: int, rho: float, which: int, target: float) -> f
 
 
 def refuse_unstable(body, table, m: int) -> None:
-    """Raises DeckError if the square of the speed of sound is negative at the start, since such material fails at once, or if
-    its table has no such state."""
+    """Raises DeckError if the square of the speed of sound is negative at the start, since such material fails at once, if
+    its table has no such state, or if the equation of state gives a number that is not finite."""
     rho, e = body_state(body, table, m)
-    p = table.evaluate(m, rho, e)[0]
+    state = table.evaluate(m, rho, e)
+    p = state[0]
     if math.isnan(p) and (limits := table.limits(m, rho, table.virgin(m))):
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: '
                         f"{limits}")
+    if not np.isfinite(state).all():
+        raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg: '
+                        f"{table.materials[m].eos.title} gives p, dp/drho, dp/de and T of {', '.join(f'{x:g}' for x in state)}")
     if table.sound_speed_squared(m, rho, e, -math.inf) < 0.0:
         raise DeckError(f'body "{body.name}": cannot begin with a density of {rho:g} kg/m^3 and an energy of {e:g} J/kg; at '
                         f"{p:.3g} Pa, its pressure there, {table.materials[m].name} has no speed of sound")

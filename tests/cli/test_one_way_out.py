@@ -247,6 +247,8 @@ def test_paths_that_cannot_be_are_one_line(simulation, deck, capsys, out, status
 @pytest.mark.parametrize(("error", "said"), [
     (ImportError("libvtkIOXML.so: failed to map segment from shared object"),
      "not enough memory to load libvtkIOXML.so: failed to map segment from shared object; allow more with `ulimit -v`"),
+    (RuntimeError("can't start new thread"),
+     "can't start new thread: too little memory, or too many threads; allow more with `ulimit -v` or `-u`"),
     (OSError(errno.EMFILE, "Too many open files", "history.h5"),
      "Too many open files: history.h5; allow more with `ulimit -n`")])  # fmt: skip
 def test_a_limit_of_the_machine_is_one_line_with_the_remedy(deck, monkeypatch, capsys, error, said):
@@ -256,6 +258,20 @@ def test_a_limit_of_the_machine_is_one_line_with_the_remedy(deck, monkeypatch, c
     monkeypatch.setattr(main, "_load", refuse)
     assert main.call(["check", deck]) == 4
     assert capsys.readouterr().err == f"hydro2d: {said}\n"
+
+
+def test_a_package_that_hides_for_lack_of_memory_is_one_line_with_the_remedy(deck, monkeypatch, capsys):
+    """llvmlite says instead that its library may not exist."""
+    def refuse(*_):
+        try:
+            raise OSError(f"libllvmlite.so: {main.NO_ROOM}")
+        except OSError:
+            raise OSError("Could not find/load shared object file") from None
+
+    monkeypatch.setattr(main, "_load", refuse)
+    assert main.call(["check", deck]) == 4
+    assert capsys.readouterr().err == (f"hydro2d: not enough memory to load libllvmlite.so: {main.NO_ROOM}; allow more with "
+                                       "`ulimit -v`\n")
 
 
 def test_a_terminal_without_unicode(deck):

@@ -13,7 +13,7 @@ from hydro2d.materials import outside
 from hydro2d.output.directory import RunError
 from hydro2d.running import run
 from hydro2d.study.plan import cases
-from tests.materials.made_models import DECK, VOCE, python
+from tests.materials.made_models import DECK, GAS, VOCE, python
 
 
 @pytest.fixture
@@ -262,6 +262,29 @@ def test_workers_take_over_the_models_of_a_study(folder):
     assert python(text, folder).split()[0] == "fine"
     deck.load(folder / "shot.toml", [f"materials.Al5083.strength.file={folder}/b.py"])
     assert ((folder / "b.py").read_text(), "b.py", "strength") in outside.offered()
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.parametrize(("text", "old", "new", "said"), [
+    (VOCE, "    par = np.zeros(ROW)", "    raise SystemExit(0)", "my_model.py:39: row raises SystemExit: 0"),
+    (VOCE, "np.zeros(ROW)", "np.zeros(3)", "my_model.py: row gives float64 (3,), not float64 ("),
+    (GAS, "return rho * e, e,", "return np.nan, e,", 'body "ball": cannot begin with a density of 1.2 kg/m^3'),
+    (GAS, "return rho * e, e,", "return rho * e, -1e9,", "gas has no speed of sound"),
+])  # fmt: skip
+def test_a_command_says_in_a_line_what_is_wrong_with_a_model(folder, command, text, old, new, said):
+    """`row` and `evaluate` are called only with the numbers of a deck."""
+    assert old in text
+    if text is GAS:
+        start, end = DECK.index("[materials.Al5083]"), DECK.index("[stop]")
+        gas = '[materials.gas.eos]\nfile = "my_model.py"\nreference_density = "1.2 kg/m^3"\n\n'
+        (folder / "shot.toml").write_text(DECK[:start].replace('"Al5083"', '"gas"') + gas + DECK[end:])
+    (folder / "my_model.py").write_text(text.replace(old, new))
+    output = python(f"from hydro2d.cli.main import call; print(call(['{command}', 'shot.toml']))", folder)
+    lines = output.splitlines()
+    assert lines[-1] == "2" or lines[0] == "2", output
+    (line,) = [line for line in lines if line.startswith("hydro2d: ")]
+    assert said in line
+    assert "Traceback" not in output
 
 
 # ------------------------------------------------------------------------------------------------ packages

@@ -2,6 +2,10 @@
 
 import hashlib
 import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -9,6 +13,8 @@ from hydro2d.cli.main import call
 from hydro2d.materials import outside
 from tests import error_output
 from tests.materials.made_models import GAS, STRAIN, VOCE, python
+
+ROOT = Path(__file__).parents[2]
 
 # ------------------------------------------------------------------------------------------------ files
 
@@ -65,6 +71,18 @@ WRONG = [
     (GAS, "return rho * e, e, rho, max(e, 0.0) / 700.0", "return rho * e, e, rho", "not 4 numbers"),
     (GAS, '"reference_density", "kg', '"density", "kg', "needs the parameter reference_density"),
     (STRAIN, "THERMAL = False", "THERMAL = 0", "needs THERMAL, True or False"),
+    (VOCE, "def row(", "raise GeneratorExit\ndef row(", ":37: cannot be imported: GeneratorExit"),
+    (VOCE, "def row(", "import sys\nsys.exit(0)\ndef row(", ":38: cannot be imported: SystemExit: 0"),
+    (VOCE, "def row(", "open('/nowhere/table')\ndef row(", ":37: cannot be imported: FileNotFoundError"),
+    (VOCE, "def row(", "class Mute(Exception):\n    def __str__(self): return self.none\nraise Mute\ndef row(",
+     ":39: cannot be imported: Mute"),
+    (VOCE, "def row(", f"x = {'-' * 100000}1\ndef row(", ":1: cannot be imported: MemoryError"),
+    (VOCE, "    return par[YIELD]", "    assert ep >= 0.0\n    return par[YIELD]", ":34: flow_stress raises an exception"),
+    (VOCE, "    return par[YIELD]", "    print(ep)\n    return par[YIELD]", ":34: flow_stress prints, which a kernel cannot"),
+    (VOCE, "    return par[YIELD]", "    par[0] = ep\n    return par[YIELD]", ":34: flow_stress writes into par"),
+    (VOCE, "    return par[YIELD]", "    return [ep, 1.0][0] + par[YIELD]", "flow_stress does not compile: it makes an array"),
+    (VOCE, '"Pa", 0.0,', '"Pa", "much",', "the default of the parameter saturation is 'much', not a number or REQUIRED"),
+    (VOCE, 'adds at most", "Q"', 'adds at most", "Q", "positve"', "the sign of the parameter saturation is 'positve'"),
 ]
 
 
@@ -89,6 +107,37 @@ def test_files_that_are_no_models(tmp_path):
     for name, said in (("none.py", "cannot be read: No such file"), ("bytes.py", "is not UTF-8"), ("empty.py", "has none of")):
         with pytest.raises(outside.ModelError, match=said):
             outside.read(tmp_path / name)
+
+
+ROWS = [
+    (VOCE, "    par = np.zeros(ROW)", "    raise KeyError('colour')", ":39: row raises KeyError: 'colour'"),
+    (VOCE, "    par = np.zeros(ROW)", "    raise SystemExit(0)", ":39: row raises SystemExit: 0"),
+    (VOCE, "np.zeros(ROW)", "np.zeros(3)", ": row gives float64 (3,), not float64 ("),
+    (VOCE, "    return par\n", "    return list(par)\n", ": row gives list , not float64 ("),
+    (VOCE, "    return par\n", "    par[2] = math.nan\n    return par\n", ": row has NaN in slot 2"),
+    (GAS, "    return par\n", "    par[0] = 2.0\n    return par\n", ": slot RHO0 = 0 of the row is 2, not reference_density"),
+]
+
+
+@pytest.mark.parametrize(("text", "old", "new", "said"), ROWS)
+def test_a_row_that_kernels_cannot_read_is_one_line_with_its_reason(text, old, new, said):
+    """A short row used to move the numbers of all models behind it."""
+    assert old in text
+    model = outside.from_text(text.replace(old, new), "model.py", "strength" if text is VOCE else "eos")
+    with pytest.raises(outside.ModelError) as error:
+        model.row(model.module.EXAMPLE)
+    assert str(error.value).startswith(f"model.py{said}")
+    assert "\n" not in str(error.value)
+
+
+def test_a_model_that_never_ends_is_ended_by_an_interrupt(tmp_path):
+    (tmp_path / "model.py").write_text(VOCE.replace("def row(", "print('begun', flush=True)\nwhile True: pass\ndef row("))
+    process = subprocess.Popen([sys.executable, "-m", "hydro2d", "check-model", str(tmp_path / "model.py")], cwd=ROOT,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(signal.SIGTERM)
+    assert process.communicate(timeout=30) == ("", "")
+    assert process.returncode == 143
 
 
 # ------------------------------------------------------------------------------------------------ the contract

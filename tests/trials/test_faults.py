@@ -26,6 +26,8 @@ OWN = ("wall_s", *COSTS, "ns_per_cell_cycle", "provenance", "sha256")
 OWN_COLUMNS = ("wall_s", "commit", "date")
 #: what a command needs that comes first
 NEEDS = {"report": ("sweep",), "report of a sample": ("sample",), "view": ("run",), "export": ("run",), "status": ("sweep",)}
+#: when a page was made
+MADE = re.compile(rb"\d{4}-\d\d-\d\d \d\d:\d\d UTC")
 STUDIES = ("sweep", "sample", "search")
 #: files that no result is in
 ASIDE = re.compile(r"\.lock$|^(log\.txt|sweep\.log|restart\.previous\.h5|progress\.json)$|^\..*")
@@ -80,7 +82,7 @@ def contents(file):
         if head.split()[1] != store._checksum(file, code):
             raise ValueError(f"{file} is damaged")
         return ""
-    return file.read_bytes()
+    return MADE.sub(b"", file.read_bytes())
 
 
 def place(name):
