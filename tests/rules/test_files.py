@@ -98,7 +98,7 @@ def test_messages_and_pages_name_extras_that_there_are():
     files = [file for file in TEXT_FILES if file.suffix in (".py", ".md") and "tests" not in file.parts]
     text = "\n".join(file.read_text(encoding="utf-8") for file in files)
     named = {*re.findall(r'from_extra\("(\w+)"', text), *re.findall(r"'hydro2d\[(\w+)\]'", text)}
-    assert named >= {"report", "data", "slurm", "movie", "terminal"}
+    assert named >= {"report", "data", "slurm", "movie"}
     assert named - set(EXTRAS) == set()
 
 

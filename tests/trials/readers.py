@@ -11,14 +11,16 @@ from typing import NamedTuple
 
 from hydro2d.deck import deck
 from hydro2d.deck.shapes.registry import KINDS
-from hydro2d.files import locks
+from hydro2d.files import csv_tables, locks
+from hydro2d.files.csv_tables import Column, number, whole
 from hydro2d.jit import compilation
 from hydro2d.materials import fitting, outside
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.results import reading, summaries
 from hydro2d.results.reading import ResultsError
 from hydro2d.study.plan import definition, sampling
-from hydro2d.study.records import keeping, sample_table, study_directory
+from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.records import keeping, study_directory
 from tests.cli.test_main import DECK
 from tests.materials import test_sesame
 from tests.materials.made_models import VOCE
@@ -71,7 +73,9 @@ def _restart(file: Path):
     return contents.arrays, contents.texts()
 
 
-ROWS = ",".join((*keeping.ORIGIN, *keeping.RESULTS, keeping.CELLS, keeping.MEMBER))
+ROW = {**dict.fromkeys((*keeping.ORIGIN, *keeping.RESULTS, keeping.CELLS), ""), "status": "done", keeping.MEMBER: "0"}
+ROWS = f"{','.join(ROW)}\n{','.join(ROW.values())}\n"
+SAMPLES = (Column(sampling.AXIS, whole, empty=False), Column("a", number))
 READERS = {
     "deck": Reader("shot.toml", lambda file: deck.load(file).to_toml(), {"shot.toml": DECK}),
     "included file": Reader("part.toml", lambda file: deck.load(file.parent / "shot.toml").to_toml(),
@@ -81,9 +85,9 @@ READERS = {
     "model": Reader("voce.py", lambda file: outside.read(file).text, {"voce.py": VOCE}),
     "table of an equation of state": Reader("al.301", _sesame, {"shot.toml": test_sesame.DECK, "al.301": test_sesame.PLAIN}),
     "measured flow stresses": Reader("steel.txt", fitting.read_points, {"steel.txt": "0.1 1.0 300 5e8\n0.2 1.0 300 6e8\n"}),
-    "kept rows": Reader("kept.csv", keeping.read, {"kept.csv": f"{ROWS}\n{ROWS}\n"}),
-    "samples": Reader("samples.csv", lambda file: sample_table.read(file.parent),
-                      {"samples.csv": f"{sampling.AXIS},a\n1,2\n"}, kept=True),
+    "kept rows": Reader("kept.csv", keeping.read, {"kept.csv": ROWS}),
+    "samples": Reader("samples.csv", lambda file: csv_tables.read(file, SAMPLES, StudyError, "write it anew"),
+                      {"samples.csv": f"{sampling.AXIS},a\n1,2\n"}),
     "compilation": Reader("key.state", _state, {"key.state": "compiles\n"}),
     "lock": Reader("run.lock", locks.holder, {"run.lock": "elsewhere 12\n"}, kept=True),
     "progress": Reader("progress.json", lambda file: summaries.progress_of(file.parent, ResultsError),
