@@ -13,7 +13,6 @@ from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import MeshError, body, body_radius
 from hydro2d.deck.sections import Deck, Sliding
 from hydro2d.materials.material import Material
-from hydro2d.measure.bodies import Body
 from hydro2d.measure.station_columns import Point
 from hydro2d.mesh.edges.base import EDGES, PRESSURE, PUSH, Edge
 from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made
@@ -78,6 +77,8 @@ def inconsistencies(deck: Deck) -> Iterator[tuple[tuple, str]]:
 
 def _colliding_names(deck: Deck) -> Iterator[tuple[tuple, str]]:
     """Bodies, tracers and gauges of which a column of the history would have the name of another one's."""
+    from hydro2d.measure.bodies import Body  # which loads numba
+
     named = [("body", number, "body", entry.name, Body.meanings()) for number, entry in enumerate(deck.body)]
     for kind, names_of in (("tracer", [[entry.name] for entry in deck.tracer]),
                            ("gauge", [[name for name, _ in entry.places()] for entry in deck.gauge])):

@@ -7,23 +7,22 @@ from collections.abc import Iterator
 from hydro2d.base.formats import in_hdf5
 from hydro2d.deck.expressions import PURE, Expression, ExpressionError, in_words, parse
 from hydro2d.deck.sections import Deck
-from hydro2d.measure.bodies import Body
-from hydro2d.measure.crater import Hole
-from hydro2d.measure.ejecta import Ejected
-from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.result import UNITS, unit
 from hydro2d.measure.station_columns import PLACES, Point
 
 #: characters of a name
 LONGEST = 60
-#: short names of results of a projectile
-SHORT = Projectile.short()
 #: results that are words
 WORDS = ("regime",)
 
 
 def known(deck: Deck) -> dict[str, str]:
     """The names that formulas of a deck can use, with their units."""
+    from hydro2d.measure.bodies import Body  # which loads numba
+    from hydro2d.measure.crater import Hole
+    from hydro2d.measure.ejecta import Ejected
+    from hydro2d.measure.penetrator import Projectile
+
     bodies = [entry.name for entry in deck.body if entry.join is None]
     stations = [f"tracer_{entry.name}" for entry in deck.tracer]
     stations += [f"gauge_{name}" for entry in deck.gauge for name, _ in entry.places()]
@@ -34,7 +33,7 @@ def known(deck: Deck) -> dict[str, str]:
     if deck.penetration is not None:
         columns += [name for name in Projectile.model_fields if name not in WORDS]
         columns += [f"crater_{key}" for key in Hole.model_fields] + [f"ejecta_{key}" for key in Ejected.model_fields]
-        short = {name: unit(column) for name, column in SHORT.items()}
+        short = {name: unit(column) for name, column in Projectile.short().items()}
     return short | {column: unit(column) for column in columns}
 
 

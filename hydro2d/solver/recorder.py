@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from hydro2d.base.errors import Error
-from hydro2d.deck.formulas import SHORT
+from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns
 from hydro2d.output.station_arrays import RESERVED
@@ -54,7 +54,7 @@ def derived(sim: Any, values: Mapping[str, Any]) -> dict[str, float | None]:
     if not formulas:
         return {}
     wanted = {name for formula in formulas.values() for name in formula.names}
-    numbers = {short: values.get(column) for short, column in SHORT.items()} | dict(values)
+    numbers = {short: values.get(column) for short, column in Projectile.short().items()} | dict(values)
     if sim.craters and any(name.startswith(CRATER) for name in wanted):
         numbers |= {f"{CRATER}_{key}": value for key, value in sim.craters[0].measure()}
     if (ejecta := sim.ejecta() if any(name.startswith(EJECTA) for name in wanted) else None) is not None:

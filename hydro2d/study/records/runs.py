@@ -34,8 +34,9 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
 
     The columns are the labels on the axes, the inputs of a sample, ``cells_across``, the results of a kept row (`KeptRow`),
     what the deck derives, ``results``, and ``setup``, ``method``, ``commit`` and ``date``. A run that has not ended has a
-    status only, and a result that a run does not have is missing. ``attrs["units"]`` has the unit of every column that is a
-    quantity. Numbers of a file of kept rows have six digits; of ``results`` it has those that its study asks for.
+    status only. A result that a run does not have is NaN, or <NA> where it is yes or no. ``attrs["units"]`` has the unit of
+    every column that is a quantity. Numbers of a file of kept rows have six digits; of ``results`` it has those that its study
+    asks for.
 
     Raises StudyError for a place without runs, and for a file that is not as a sweep wrote it.
     """
@@ -45,13 +46,12 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
     last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, *ORIGIN)
     first = dict.fromkeys(name for row in rows for name in row if name not in last)
     table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
-    table.attrs["units"] = {name: unit(name) for name in dict.fromkeys((CELLS, *last)) if _is_quantity(name)}
+    checks = {column.name: column.check for column in keeping.COLUMNS}
+    quantities = [name for name in dict.fromkeys((CELLS, *last)) if checks.get(name, number) is number and name in table]
+    flags = [name for name in table if checks.get(name) is flag]
+    table = table.astype({**dict.fromkeys(quantities, float), **dict.fromkeys(flags, "boolean")})
+    table.attrs["units"] = {name: unit(name) for name in quantities}
     return table
-
-
-def _is_quantity(name: str) -> bool:
-    column = next((each for each in keeping.COLUMNS if each.name == name), None)
-    return column is None or column.check is number
 
 
 def _kept(file: Path) -> list[Row]:
