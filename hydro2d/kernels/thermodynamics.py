@@ -13,6 +13,7 @@ from eos.dispatch import (
     zero_pressure_density,
 )
 from hydro2d.jit import cell_rows, not_inlined, point, rowwise, serial
+from hydro2d.kernels.cell_viscosity import limit_of_sound, viscosity
 from hydro2d.kernels.column_ranges import columns, outer_rows
 from hydro2d.materials.rows import (
     CUTOFF_DENSITY,
@@ -35,14 +36,11 @@ from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import divergence
 from hydro2d.physics.stress import largest_principal, release, von_mises
 from hydro2d.physics.viscosity import (
-    directional_viscosity,
     length_along,
-    linear_in_step,
-    shut,
     smoothness,
     strongest_compression,
 )
-from hydro2d.physics.waves import crossing_step, sound_step, volume_step
+from hydro2d.physics.waves import crossing_step, volume_step
 from strength.dispatch import end_at_melt, feels_temperature, modulus_row
 
 #: least square of the speed of sound in an elastic energy, (m/s)^2
@@ -251,18 +249,6 @@ def row_minimum(a, first, number):
     return min(min(a0, a1), min(a2, a3))
 
 
-@point
-def viscosity(rho, bulk, cl, solid, jump, length, psi, w):
-    """Artificial viscosity of a cell, Pa, against a difference of velocity over a length, m/s: a jump < 0 where it compresses.
-
-    rho, bulk, cl, solid : of the cell;  psi : 1 where velocity is smooth (explanation/lagrangian-step, equation 11)
-    """
-    c = bulk / rho
-    c = sqrt(c) if c > 0.0 else cl
-    linear = linear_in_step(w.viscosity_linear, w.dt * cl / length)
-    return shut(solid) * directional_viscosity(rho, c, jump, psi, linear, w.viscosity_quadratic)
-
-
 @rowwise
 def viscosity_row(j, w):
     """Artificial viscosity along the direction n of the strongest compression in the plane: the stress q n n, no hoop stress.
@@ -322,13 +308,6 @@ def viscosity_row(j, w):
         qz_j[i] = q * (n_z * n_z)
         qrz_j[i] = q * (n_r * n_z)
         qt_j[i] = 0.0
-
-
-@point
-def limit_of_sound(j, i, rho, q, w):
-    """Bound of the time step by sound in cell (j, i) with density rho and viscosity q, s (`sound_step`)."""
-    return sound_step(w.courant, w.shock_courant, min(w.dr[i], w.dz[j]), w.viscosity_linear, w.viscosity_quadratic, rho,
-                      w.cl[j, i], q)
 
 
 @point

@@ -77,7 +77,7 @@ def test_constants_without_any_detonation():
 
 def test_a_deck_hears_it():
     with pytest.raises(DeckError, match="material dud: jwl: the constants contradict each other"):
-        slots._row(jwl, library.Model("jwl", {name: library.Number(value, "", "", "deck") for name, value in
+        slots._row("eos", jwl, library.Model("jwl", {name: library.Number(value, "", "", "deck") for name, value in
                                               (TNT | {"cj_pressure": 25e9}).items()}),
                    library.Material("dud", "", "", *[library.Model("none")] * 3, None, None))
 

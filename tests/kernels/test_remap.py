@@ -196,7 +196,7 @@ def test_a_cell_with_a_little_of_another_body_is_not_full():
     e = engine(WITH_VOID)
     s = e.state
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    limit = e.method.cutoff
+    limit = e.method.numerics.cutoff
     s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 2.0003 * limit), 2770.0
     mass = s.vof[:, j, i] * s.rho[:, j, i]
     tidy(e)
@@ -215,11 +215,11 @@ def test_a_small_share_goes_without_a_jump(shares):
     e = engine(WITH_VOID)
     s = e.state
     j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    small = 0.75 * shares * 2.0 * e.method.cutoff
+    small = 0.75 * shares * 2.0 * e.method.numerics.cutoff
     s.vof[:, j, i], s.rho[1, j, i] = (1.0 - small, small), 2770.0
     tidy(e)
     left = s.vof[1, j, i]
-    assert left == pytest.approx(kept_share(small, e.method.cutoff), rel=1e-7, abs=0.0)
+    assert left == pytest.approx(kept_share(small, e.method.numerics.cutoff), rel=1e-7, abs=0.0)
     assert s.removed[5, j] == pytest.approx((small - left) * 2770.0 * e.grid.volume[j, i], rel=1e-7, abs=0.0)
 
 

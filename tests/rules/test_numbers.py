@@ -54,4 +54,4 @@ def test_every_number_is_read(key):
 
 @pytest.mark.parametrize("key", ["viscosity_linear", "viscosity_quadratic"])
 def test_a_coefficient_of_viscosity_is_read_for_the_viscosity_and_for_the_step(key):
-    assert readers(key, "hydro2d.kernels", "hydro2d.physics", "hydro2d.solver") == {"hydro2d.kernels.thermodynamics": 2}
+    assert readers(key, "hydro2d.kernels", "hydro2d.physics", "hydro2d.solver") == {"hydro2d.kernels.cell_viscosity": 2}

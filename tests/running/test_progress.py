@@ -230,7 +230,7 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     ball = {"body": "ball", "length_m": 9e-3, "initial_length_m": 9.98e-3, "initial_radius_m": 5e-3, "max_plastic_strain": 0.4}
     shot = {"penetration_depth_m": 14.7e-3, "nose_depth_m": 14.7e-3, "penetration_over_length": 1.473, "experiment": None,
             "regime": "deforming", "projectile": ball | {"tail_velocity_m_s": None},
-            "targets": {"first": stopped}}  # fmt: skip
+            "targets": {"first": stopped}, "outcome": {"perforated": False}}  # fmt: skip
     assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
     assert "penetration depth     1.47 cm, P/D 1.473; 0.81 cm at the end" in closing(**shot | {"nose_depth_m": 8.1e-3})
     theory = "analytic, at rest     Tate 1.83 cm"
@@ -241,7 +241,8 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     through = stopped | {"exit_time_s": 1e-6, "exit_velocity_m_s": 9.0, "exit_mass_kg": 1e-3}
     one = closing(**shot | {"targets": {"first": through, "second": stopped}})
     assert any(line.startswith("penetration depth") for line in one)
-    both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through}})
+    both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through},
+                             "outcome": {"perforated": True}})  # fmt: skip
     assert "perforated            first, second; nose 1.46 cm behind the first face" in both
     assert not any(line.startswith("penetration depth") for line in both)
     assert "ejecta                2 g, 0.42 N s; momentum multiplication 1.210" in said

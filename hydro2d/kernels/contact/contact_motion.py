@@ -3,6 +3,7 @@
 from math import sqrt
 
 from hydro2d.jit import cell_rows, point, vertex_rows
+from hydro2d.kernels.cell_viscosity import limit_of_sound, viscosity
 from hydro2d.kernels.column_ranges import mixed_row
 from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z, SOFT_R, SOFT_Z
 from hydro2d.kernels.cut_cells import (
@@ -15,7 +16,6 @@ from hydro2d.kernels.cut_cells import (
     pull_of_ties,
     ties,
 )
-from hydro2d.kernels.thermodynamics import limit_of_sound, viscosity
 from hydro2d.mesh.fields import RHO
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, FACE_R, VOL_R
 from hydro2d.physics.closure import stiff_density
