@@ -26,8 +26,8 @@ def shot(projectile: float, target: float, *, thickness: str = "20 mm", ball: bo
 
 def outputs(sim: Simulation) -> dict[str, float | None]:
     """Numbers of the summary about the rod and the hole."""
-    numbers = sim.diagnostics() | {f"hole {key}": value for key, value in sim.of_targets()["plate"]["crater"].items()}
-    numbers |= {f"debris {key}": value for key, value in sim.of_targets()["plate"]["debris"].items()}
+    numbers = sim.diagnostics() | {f"hole {key}": value for key, value in sim.of_targets()["plate"].crater}
+    numbers |= {f"debris {key}": value for key, value in sim.of_targets()["plate"].debris}
     return {key: value for key, value in numbers.items() if isinstance(value, (int, float)) or value is None}
 
 

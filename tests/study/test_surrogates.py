@@ -132,7 +132,8 @@ def test_runs_that_are_cut_off_or_not_trusted_are_counted():
     samples = sample(ANGLES[:1], lambda x1: x1, 8, 0)
     assert samples.doubts == []
     samples.columns |= {"stop_reason": np.array(["end time"] * 3 + ["speed of rod below 5 m/s"] * 5), "depth_m": np.ones(8),
-                        "final": np.array(["True"] + ["False"] * 2 + ["True"] * 5), "trustworthy": np.array(["True"] * 6 + ["False"] * 2)}
+                        "final": np.array(["True"] + ["False"] * 2 + ["True"] * 5),
+                        "trustworthy": np.array(["True"] * 6 + ["False"] * 2)}
     poor, cut = samples.doubts
     assert poor.startswith("2 of 8 runs are not trustworthy")
     assert cut.startswith("2 of 8 runs ended at their end time or number of cycles")
