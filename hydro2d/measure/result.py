@@ -46,15 +46,16 @@ def _finite(value: Any, info: ValidationInfo) -> Any:
 Number = Annotated[float | None, BeforeValidator(_finite)]
 
 
-def result(meaning: str, *, short: str = "", each: str = "", default: Any = None) -> Any:
+def result(meaning: str, *, short: str = "", each: str = "", whole: bool = False, default: Any = None) -> Any:
     """A field of a Result.
 
     meaning : for the reference page, in one sentence
     short : name for formulas of a deck, beside its own
     each : of a table with an entry for each of several things, what these are, in capitals
+    whole : of a table, whether the reference page names it without what is in it
     default : value of a summary that lacks it, as those of earlier versions do
     """
-    extra = {key: value for key, value in (("short", short), ("each", each)) if value}
+    extra = {key: value for key, value in (("short", short), ("each", each), ("whole", whole)) if value}
     return Field(default, description=meaning, json_schema_extra=extra)
 
 
@@ -95,7 +96,7 @@ class Result(BaseModel):
         for name, field in cls.model_fields.items():
             within, each = _within(field.annotation), cls._extra(name).get("each")
             path = f"{prefix}{name}" + (f".{each}" if each else "")
-            if within is None:
+            if within is None or cls._extra(name).get("whole"):
                 kinds = _parts(field.annotation)
                 yield Listed(path, field.description or "", float in kinds or int in kinds)
                 continue
@@ -103,7 +104,7 @@ class Result(BaseModel):
             yield from (inner._replace(meaning=about + inner.meaning) for inner in within.listed(f"{path}."))
 
     @classmethod
-    def _extra(cls, name: str) -> Mapping[str, str]:
+    def _extra(cls, name: str) -> Mapping[str, Any]:
         extra = cls.model_fields[name].json_schema_extra
         return extra if isinstance(extra, dict) else {}  # type: ignore[return-value]
 

@@ -92,6 +92,18 @@ Flyer = create_model("Flyer", __base__=_Flyer, **{
     for old, new in PROJECTILE.items()})  # type: ignore[call-overload]
 
 
+class Provenance(Result, extra="allow"):
+    """Where a run comes from."""
+
+    version: str | None = result("version of hydro2d")
+    git_commit: str | None = result("commit of the sources")
+    git_dirty: bool | None = result("whether they differ from it")
+    packages: dict[str, Any] = result("versions of packages", default={})
+    host: str | None = result("name of the machine")
+    command: str | None = result("command line")
+    written: str | None = result("date and time of its start")
+
+
 class Ended(Result):
     """Which run it was, how it ended, and what it cost."""
 
@@ -132,7 +144,7 @@ class Summary(Projectile, Ended):
     stations: dict[str, Station] = result("of each tracer and gauge", each="STATION", default={})
     experiment: Experiment | None = result("")
     conservation: Conservation | None = result("")
-    provenance: dict[str, Any] | None = result("commit, machine, packages, command and times")
+    provenance: Provenance | None = result("commit, machine, packages, command and times", whole=True)
 
 
 class Progress(Result):

@@ -21,7 +21,7 @@ def test_the_depths_are_those_of_the_command_model():
 
 
 def test_behind_a_target_nothing_is_said():
-    assert beside.lines(decks.load(ROD), {"targets": {"plate": {"exit_time_s": 1e-4}}}) == []
+    assert beside.lines(decks.load(ROD), {"outcome": {"perforated": True}}) == []
 
 
 @pytest.mark.parametrize("name", ["templates/jacketed", "ceramics/tile", "perforation/sphere", "templates/taylor"])

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from hydro2d.measure.penetrator import Passage, Projectile
 from hydro2d.output.history import Columns
 from hydro2d.running.progress import result
 from hydro2d.running.residual_velocity import CHANGE, OVER, VELOCITY, change
@@ -22,8 +23,8 @@ def rows(*known):
 
 
 def found(columns, velocity, time, exits=None):
-    measured = {VELOCITY: velocity, "rod_initial_radius_m": RADIUS}
-    said = change(columns, exits or [{"exit_time_s": None, "exit_velocity_m_s": None}], measured, time * 1e-6)
+    measured = Projectile(**{VELOCITY: velocity, "rod_initial_radius_m": RADIUS})
+    said = change(columns, exits or [Passage()], measured, time * 1e-6)
     return said[CHANGE], said[OVER]
 
 
@@ -35,7 +36,7 @@ def test_the_change_is_that_over_the_last_radius_of_flight():
 
 def test_the_change_since_perforation_is_reported_if_that_is_less():
     """The exit may lie between two rows, or nothing else may be known."""
-    exits = [{"exit_time_s": 17.5e-6, "exit_velocity_m_s": 1002.0}]
+    exits = [Passage(exit_time_s=17.5e-6, exit_velocity_m_s=1002.0)]
     assert found(rows((10, None), (18, 1001.5), (20, 1000.0)), 1000.0, 20, exits) == pytest.approx((-2.0, 2.5e-6))
     assert found(rows((10, None), (20, 1000.0)), 1000.0, 20, exits) == pytest.approx((-2.0, 2.5e-6))
 
