@@ -106,7 +106,7 @@ def _penetration_model(model) -> str:
         table(("output", "symbol", "unit", "meaning"), outputs),
         f"```sh\n{model_text.example_command(model)}\n```",
         f"![{model.title}](models/{model.name}.png)",
-    ]  # fmt: skip
+    ]
     return "\n\n".join(parts)
 
 
@@ -164,7 +164,7 @@ def results_page() -> str:
         table(("sink", "what it is"), ((f"`{name}`", meaning) for name, meaning in SINKS.items())),
         table(("contact transfer", "what it is"),
               ((f"`{name}`", meaning) for name, meaning in audit.CONTACT_TRANSFERS.items())),
-    ])  # fmt: skip
+    ])
 
 
 #: decks of problems/shapes in the order of the gallery

@@ -42,7 +42,7 @@ __all__ = ["Study", "fit_residual_velocity", "open_run", "open_study", "penetrat
 
 def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads: int | None = None, restart: bool = False,
         overwrite: bool = False, quiet: bool = False,
-        columns: Mapping[str, Callable[[Simulation], float]] | None = None) -> Results:  # fmt: skip
+        columns: Mapping[str, Callable[[Simulation], float]] | None = None) -> Results:
     """Runs a deck to its end in a directory, as the command `hydro2d run` does, and opens the results.
 
     A notebook shows a bar and the numbers of the moment while it runs.
@@ -73,7 +73,7 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads
     directory = Path(directory or str(deck.output.directory))
     with at_most(threads):
         summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns,
-                           theory=beside.lines)  # fmt: skip
+                           theory=beside.lines)
     if summary["status"] == "interrupted":
         raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
     if summary["status"] == "unphysical":
@@ -147,7 +147,7 @@ def open_study(directory: str | Path) -> Study:
 def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = None, *, directory: str | Path | None = None,
           overrides: Mapping[str, Any] | Sequence[str] = (), workers: int | None = None, threads: int = 1,
           only: Sequence[str] = (), resume: bool = False, overwrite: bool = False,
-          quiet: bool = True) -> pandas.DataFrame:  # fmt: skip
+          quiet: bool = True) -> pandas.DataFrame:
     """Runs all cases of a study in worker processes and returns their table.
 
     Parameters
@@ -191,7 +191,7 @@ def sweep(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None = N
 
 
 def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, overrides: decks.Overrides,
-          directory: str | Path | None) -> Plan:  # fmt: skip
+          directory: str | Path | None) -> Plan:
     """The cases of a study file, or of a deck and axes. Raises StudyError."""
     if axes is None:
         if isinstance(study, Deck):
@@ -204,7 +204,7 @@ def _plan(study: str | Path | Deck, axes: Mapping[str, Sequence[Any]] | None, ov
             raise StudyError(f"axes: {key}: expected a list of values, is {values!r}")
     file = _base(study, directory) if isinstance(study, Deck) else decks.find(study)
     tables = {"deck": str(file.resolve()), "axis": [{"name": _name(key, axes), "key": key, "values": list(values)}
-                                                    for key, values in axes.items()]}  # fmt: skip
+                                                    for key, values in axes.items()]}
     plan = cases.plan_of(plain(toml.within_limits(tables, "axes")), file.stem, overrides)
     if not any(case.text for case in plan.cases):
         raise StudyError(f"no case has a valid deck; {plan.cases[0].name}: {plan.cases[0].message}")
@@ -257,7 +257,7 @@ def penetration_models() -> tuple[str, ...]:
 
 
 def fit_residual_velocity(velocities: Sequence[float], residual_velocities: Sequence[float], *,
-                          p: float | None = None) -> lambert_jonas.Fit:  # fmt: skip
+                          p: float | None = None) -> lambert_jonas.Fit:
     """The formula of Lambert and Jonas fitted to shots through a plate: v_r = a (V^p - v_bl^p)^(1/p) above the limit v_bl.
 
     velocities, residual_velocities : of each shot before and behind the plate, m/s; 0 behind a plate that stopped it

@@ -24,7 +24,7 @@ PAGE = HERE.parent / "docs" / "explanation" / "speed.md"
 COLUMNS = ("processor", "cores", "date", "version", "commit", "case", "cells", "threads", "ns_per_cell_cycle", "triad_gb_s")
 #: the cases of `hydro2d bench` that the page shows
 SHOWN = ("no sliding treatment, ke", "slip layer, ke", "contact, ke", "pure hydrodynamic", "10 thousand cells",
-         "400 thousand cells", "1 million cells")  # fmt: skip
+         "400 thousand cells", "1 million cells")
 HEADS = ("processor", "cores", "date", "deck", "cells", "1 thread", "all threads")
 
 Row = dict[str, str]
@@ -36,10 +36,10 @@ def of_bench(path: Path) -> list[Row]:
         measured = json.loads(path.read_text(encoding="utf-8"))
         about = measured["provenance"]
         machine = {"processor": about["cpu"], "cores": str(about["cpu_count"]), "date": about["written"][:10],
-                   "version": about["version"], "commit": (about["git_commit"] or "")[:12]}  # fmt: skip
+                   "version": about["version"], "commit": (about["git_commit"] or "")[:12]}
         return [machine | {"case": case["name"], "cells": str(case["cells"]), "threads": str(case["threads"]),
                            "ns_per_cell_cycle": f"{case['ns_per_cell_cycle']:.4g}", "triad_gb_s": f"{case['triad_gb_s']:.3g}"}
-                for case in measured["cases"]]  # fmt: skip
+                for case in measured["cases"]]
     except (ValueError, KeyError, TypeError) as problem:
         raise hydro2d.StudyError(f"{path}: is no file of `hydro2d bench --json`: {problem!r}") from None
 

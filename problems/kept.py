@@ -26,7 +26,7 @@ def rows(path: Path, columns: Collection[str]) -> list[dict[str, str]]:
 
 
 def read(path: Path, columns: Collection[str], of_row: Callable[[dict[str, str]], R], of_case: Callable[[hydro2d.Case], R],
-         ended: Collection[str] = ("done",)) -> list[R]:  # fmt: skip
+         ended: Collection[str] = ("done",)) -> list[R]:
     """The results in a file with these columns, or of the cases of a study directory that have one of the states `ended`.
 
     Raises StudyError, OSError, and the errors of `of_row` and `of_case`.

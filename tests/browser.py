@@ -15,7 +15,7 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"
 SECONDS = 120
 #: --no-sandbox: containers often forbid the sandbox, and the page is our own; no name resolves, so nothing can be fetched
 OPTIONS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars", "--no-first-run",
-           "--host-resolver-rules=MAP * ~NOTFOUND")  # fmt: skip
+           "--host-resolver-rules=MAP * ~NOTFOUND")
 #: colour schemes that the reader may prefer
 SCHEMES = {"dark": "--blink-settings=preferredColorScheme=0", "light": "--blink-settings=preferredColorScheme=1"}
 #: collects errors, before anything else on the page runs
@@ -46,7 +46,7 @@ class Browser:
     def _run(self, *arguments: str) -> subprocess.CompletedProcess:
         profile = f"--user-data-dir={self.folder / 'profile'}"
         return subprocess.run([self.program, *OPTIONS, profile, *arguments], capture_output=True, text=True, timeout=SECONDS,
-                              check=False)  # fmt: skip
+                              check=False)
 
     def works(self) -> str:
         """The reason why it does not start; empty if it does."""

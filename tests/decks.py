@@ -68,7 +68,7 @@ def box(name: str, material: str, **keys: Value) -> str:
 
 
 def rod(radius: Value, length: Value, *, name: str = "rod", material: str = "W_alloy", nose: str = "hemispherical",
-        **keys: Value) -> str:  # fmt: skip
+        **keys: Value) -> str:
     """A rod, of the tungsten alloy and with a hemispherical nose by default."""
     return body(name, material, "rod", nose=nose, radius=radius, length=length, **keys)
 

@@ -31,7 +31,7 @@ class FakeDeck:
         self.output = SimpleNamespace(
             **{"directory": "runs/fake", "vtk_interval": 5e-6, "history_interval": 1e-6, "restart_interval": 300.0,
                "fields": ("standard",)} | output
-        )  # fmt: skip
+        )
         self.stop = SimpleNamespace(time=STOP, cycles=None)
         self.experiment = SimpleNamespace(penetration=0.0121, qualifier="measured", residual_velocity=None,
                                           source="a laboratory")
@@ -74,7 +74,7 @@ class Simulation:
             vof=body(), q=q, **{field.symbol: row for field, row in zip(BODY, q, strict=True)},
             centroid=np.zeros((2, 2, *shape)), u=vertex(), v=vertex(), mass=vertex() + 1.0,
             group=np.zeros(2, dtype=np.int64), groups=1,
-        )  # fmt: skip
+        )
         rows = [library.load(name) for name in ("W_alloy", "Al5083")]
         self.table = SimpleNamespace(
             names=(ROD, PLATE), internal=((), ()),
@@ -115,7 +115,7 @@ class Simulation:
 
     def outcome(self, status, stop_reason):
         return outcome.of(Projectile(**self.diagnostics()), status=status, stop_reason=stop_reason, impact_velocity=SPEED,
-                          thickness=None, dropped=None)  # fmt: skip
+                          thickness=None, dropped=None)
 
     def holes(self):
         return {}
@@ -132,7 +132,7 @@ class Simulation:
             "rod_nose_velocity_m_s": SPEED, "rod_mean_velocity_m_s": SPEED, "rod_kinetic_energy_J": 3e4,
             "rod_initial_length_m": LENGTH, "rod_max_radius_m": RADIUS, "rod_initial_radius_m": RADIUS,
             "regime": "rigid" if self.time < STOP / 2 else "deforming",
-        }  # fmt: skip
+        }
 
     projectile = ROD
 

@@ -40,7 +40,7 @@ def shot(deck, tmp_path_factory):
 
 def test_importing_hydro2d_is_cheap_and_the_names_are_there():
     text = ("import sys, hydro2d; print(sorted({'numba', 'pandas', 'vtk', 'pydantic'} & set(sys.modules)));"
-            "print([name for name in hydro2d.__all__ if getattr(hydro2d, name).__doc__ is None])")  # fmt: skip
+            "print([name for name in hydro2d.__all__ if getattr(hydro2d, name).__doc__ is None])")
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == ["[]", "[]"]
 
@@ -49,7 +49,7 @@ def test_importing_hydro2d_is_cheap_and_the_names_are_there():
 def test_another_package_called_eos_is_reported(tmp_path, first):
     (tmp_path / "eos.py").write_text("ROTATION = 1\n")
     done = subprocess.run([sys.executable, "-c", f"{first}import hydro2d"], cwd=tmp_path, capture_output=True, text=True,
-                          env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})  # fmt: skip
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(tubes.ROOT)])})
     assert done.returncode == 1
     assert f"hydro2d has its own package eos, but Python finds another one at {tmp_path / 'eos.py'}" in done.stderr
 
@@ -78,7 +78,7 @@ def test_a_type_checker_finds_hydro2d_from_any_folder(tmp_path):
 def test_the_names_load_no_kernels():
     """Until the first simulation is made a deck can still bring a model of its own."""
     text = ("import sys, hydro2d; [getattr(hydro2d, name) for name in hydro2d.__all__];"
-            "print({'eos.dispatch', 'strength.dispatch'} & set(sys.modules))")  # fmt: skip
+            "print({'eos.dispatch', 'strength.dispatch'} & set(sys.modules))")
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
 
@@ -131,7 +131,7 @@ def test_the_class_alone_makes_no_deck():
     ({"numerics.advection": "kinetic"}, "override numerics.advection"),
     ({"": 1}, "the key is empty"),
     ("stop.time=1", 'not the text "stop.time=1"'),
-])  # fmt: skip
+])
 def test_a_wrong_override_is_named(changes, said):
     with pytest.raises(hydro2d.DeckError, match=said):
         hydro2d.Deck.from_toml(TEXT, changes)
@@ -219,7 +219,7 @@ def test_callbacks_are_called_when_they_are_due(deck):
         hydro2d.every(7, lambda each: cycles.append(each.cycle)),
         hydro2d.every("0.5 us", lambda each: times.append((each.time, each.dt))),
         lambda each: all_of_them.append(each.cycle),
-    ])  # fmt: skip
+    ])
     assert cycles == list(range(7, sim.cycle + 1, 7))
     assert all_of_them == list(range(1, sim.cycle + 1))
     assert len(times) == 4
@@ -275,7 +275,7 @@ def test_an_interrupt_waits_for_the_end_of_the_cycle(deck):
     ("mine", 1.0, "the column mine is a function of the simulation, not 1.0"),
     ("mine", lambda sim: 1 / 0, "the column mine fails: ZeroDivisionError: division by zero"),
     ("mine", lambda sim: None, "the column mine fails: TypeError"),
-])  # fmt: skip
+])
 def test_a_wrong_column_is_named(deck, name, column, said):
     sim = hydro2d.Simulation(deck)
     sim.columns[name] = column
@@ -341,7 +341,7 @@ def test_fields_are_computed_from_the_state(deck):
     ("body_density", None, "body_density is one of every body"),
     ("body_density", "bar", 'unknown body "bar"'),
     ("contact_pressure", None, "contact_pressure: the simulation has none"),
-])  # fmt: skip
+])
 def test_a_field_that_is_not_there_is_refused(deck, key, body, said):
     with pytest.raises(FieldError, match=said):
         hydro2d.Simulation(deck).field(key, body)
@@ -420,7 +420,7 @@ def test_a_mesh_that_will_travel_has_its_dimensions_from_the_first_dump_on(tmp_p
     directory = made_run.write(tmp_path / "run", dumps=1)
     assert hydro2d.open_run(directory).fields.pressure.dims == ("time", "z", "r")
     (directory / "deck.toml").write_text(made_run.DECK_TEXT.format(geometry="cylindrical").replace(
-        "[boundaries]", 'follow = "rod"\n[boundaries]'))  # fmt: skip
+        "[boundaries]", 'follow = "rod"\n[boundaries]'))
     fields = hydro2d.open_run(directory).fields
     assert fields.pressure.dims == ("time", "mesh_z", "r")
     np.testing.assert_array_equal(fields.z[0], fields.mesh_z)
@@ -514,11 +514,11 @@ def test_a_sweep_with_wrong_arguments_is_refused(tmp_path):
     with pytest.raises(hydro2d.StudyError, match="give `axes`, the keys to vary"):
         hydro2d.sweep(hydro2d.Deck.from_toml(tubes.TUBE))
     for axes, error in (({"body.low.pressure": "0.1"}, "expected a list of values, is '0.1'"), ({"": [1]}, "a key is empty"),
-                        ({"body.low.pressure": ["low"]}, "no case has a valid deck")):  # fmt: skip
+                        ({"body.low.pressure": ["low"]}, "no case has a valid deck")):
         with pytest.raises(hydro2d.StudyError, match=error):
             hydro2d.sweep(tubes.write(tmp_path).with_name("tube.toml"), axes, directory=tmp_path / "out")
     for options, error in (({"workers": 0}, "workers = 0"), ({"threads": -1}, "threads = -1"),
-                           ({"overrides": "a=1"}, "not the text")):  # fmt: skip
+                           ({"overrides": "a=1"}, "not the text")):
         with pytest.raises(hydro2d.StudyError, match=error):
             hydro2d.sweep(tubes.write(tmp_path), directory=tmp_path / "out", **options)
     with pytest.raises(hydro2d.StudyError, match="no deck has the key body.low.colour"):
@@ -538,7 +538,7 @@ WITH_UNITS = TEXT.replace('numbers = "SI"\n', "")
     ({"body.rod.velocity": 1086.0}, 'write "1086 m/s"'),
     ({"mesh.z": [{"to": 40, "cells": 20}]}, r"mesh.z\[0\].to: 40 has no unit"),
     ({"gauge": [{"name": "a", "r": np.float64(3.0), "z": 0.0}]}, r"gauge\[0\].r: 3 has no unit"),
-])  # fmt: skip
+])
 def test_a_number_that_lacks_its_unit_is_refused(changes, said):
     with pytest.raises(hydro2d.DeckError, match=said):
         hydro2d.Deck.from_toml(WITH_UNITS, changes)

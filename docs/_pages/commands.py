@@ -34,7 +34,7 @@ def page() -> str:
     return "\n\n".join(
         ["# Commands", lead, index, f"{prose(app.help_epilogue)} [Files of a run](../files.md) has them as a table.",
          *(_command(name, command) for name, command in commands)]
-    )  # fmt: skip
+    )
 
 
 def _commands(app, name: str) -> Iterator[tuple[str, object]]:

@@ -15,7 +15,7 @@ MATERIAL = {
     "note": "yield stress of our own tests", "source": "J. Doe, private communication", "confidence": "found",
     "variants": {"soft": {"strength": {"yield_stress": "1.0 GPa"}}}, "eos": {"grueneisen": 1.8},
     "strength": {"yield_stress": "1.3 GPa"}, "damage": {"model": "none"}, "melting": {"melt_temperature": "2300 K"},
-}  # fmt: skip
+}
 
 
 #: titles of the tables of a material that have numbers
@@ -105,7 +105,7 @@ class Schema:
                 f"`{key}`", self.shown(part), self.unit(part),
                 "required" if key in section.get("required", ()) else _default(part.get("default")),
                 "" if example is None else f"`{assignment(key, example)}`", prose(part.get("description", "")),
-            )  # fmt: skip
+            )
 
 
 def assignment(key: str, value) -> str:

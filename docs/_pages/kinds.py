@@ -31,7 +31,7 @@ class Kind:
     def commands(self) -> list[str]:
         """The command that a reader types."""
         return [f"hydro2d new {self.name}", f"hydro2d run {self.name}.toml --threads 1",
-                f"hydro2d plot runs/{self.name} -o {self.name}.png {self.plot}"]  # fmt: skip
+                f"hydro2d plot runs/{self.name} -o {self.name}.png {self.plot}"]
 
     def section(self, found: dict) -> str:
         """The section of the page; found : seconds and results, as docs/gallery.json has them."""
@@ -42,7 +42,7 @@ class Kind:
             "| | measured or expected | hydro2d |", "|---|---|---|", *rows, "",
             f"The run takes {spoken(found['seconds'])}. The deck, as the first command writes it:", "",
             f"```{{literalinclude}} ../problems/templates/{self.name}.toml", ":language: toml", "```", "",
-        ]  # fmt: skip
+        ]
         return "\n".join(lines)
 
 
@@ -176,4 +176,4 @@ KINDS = (
          '--field pressure --mirror material --time "12 us" --time "28 us" --window "0 mm,165 mm,38 mm"',
          (("velocity of the wall after 6 mm", "1.21 km/s (LLNL Explosives Handbook 1985, recalled)", early_wall),
           ("velocity of the wall after 19 mm", "1.42 km/s (the same)", late_wall))),
-)  # fmt: skip
+)

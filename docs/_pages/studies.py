@@ -32,7 +32,7 @@ OTHERS = {
              "velocity:z --time '200 us' --window '170 mm,205 mm,10 mm'"),
     "uncertain_shots": ("uncertain_shots.png", "python -m problems.cth_nose_shape.probability --figure uncertain_shots.png"),
     "copper_bars": ("fit_constants.png", "# the program of docs/how-to/fit-constants.md draws the picture"),
-}  # fmt: skip
+}
 HEADING = """## Studies
 
 Each study is one file, which `hydro2d sweep` runs, or `hydro2d transition` where it is a search. The charts show the results
@@ -90,7 +90,7 @@ def studies() -> list[Study]:
     files = sorted(file for file in problems_folder().rglob("*.toml") if file.parent.name != "materials")
     tables = {file: tomllib.loads(file.read_text(encoding="utf-8")) for file in files}
     return [Study(file, data["title"], None if "part" in data else cases.plan(file, quiet=True), _kept(file))
-            for file, data in tables.items() if is_study(data)]  # fmt: skip
+            for file, data in tables.items() if is_study(data)]
 
 
 def _kept(file: Path) -> list[dict[str, str]]:
@@ -137,12 +137,12 @@ def chart(study: Study):
         shift = 0.0 if search else 0.5 * (number + 0.5) / len(groups) - 0.25
         points = [(at[row[across]] + shift, found) for row in rows if (found := _value(row, scale)) is not None]
         place.plot([x for x, _ in points], [y for _, y in points], "os^vDP*X"[number % 8], markersize=4,
-                   label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")  # fmt: skip
+                   label=figures.verbatim(", ".join(group)) or None, color=f"C{number % 10}")
     keys = [(row[across], row.get("case", row.get("shot"))) for row in study.results]
     shots = {(at[label], measured[key]) for label, key in keys if key in measured}
     if shots:
         place.plot([x for x, _ in shots], [y for _, y in shots], "D", markersize=9, markerfacecolor="none", color="black",
-                   label="measured")  # fmt: skip
+                   label="measured")
     if search:
         place.set_xlabel("velocity [m/s]", fontsize=8)
         place.tick_params(axis="x", labelsize=7)

@@ -118,7 +118,7 @@ class Experience:
         """The row in a line, such as "computed/measured 0.97 (0.92 to 1.02), scatter 13 %, 21 shots (depth of ...)"."""
         many = f"{self.shots} {'point' if self.fit else 'shot'}{'s' * (self.shots != 1)}{' of a fit to shots' * self.fit}"
         about = [self.kind, *_range(self.slowest, self.fastest, "m/s"), *_range(self.coarsest, self.finest, "cells"),
-                 *(["set-up chosen by results"] if self.chosen else [])]  # fmt: skip
+                 *(["set-up chosen by results"] if self.chosen else [])]
         about_it = f"({', '.join(about)})"
         if self.right is not None:
             return f"{self.right} of {many} ended as measured {about_it}"

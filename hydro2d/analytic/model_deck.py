@@ -48,7 +48,7 @@ def shot(deck: decks.Deck) -> Shot:
     numbers = {**_rod(rod, deck.materials[rod.material]), **_target(target)}
     values = {name: Given(value, f"deck {deck.name}") for name, value in numbers.items()}
     return Shot(deck.name, deck.materials[rod.material], deck.materials[target.material], decks.impact_velocity(deck),
-                rod.nose, values)  # fmt: skip
+                rod.nose, values)
 
 
 def _rod(rod, material: Material) -> dict[str, float | str]:

@@ -105,7 +105,7 @@ def report(case: Case, rows: Sequence[dict[str, Value]], experience: Sequence[st
     return "\n".join(
         [*lines, *columns((entry.name, shown(row[entry.name], entry.unit), entry.description) for entry in case.model.outputs),
          *_apart(experience)]
-    )  # fmt: skip
+    )
 
 
 def _apart(lines: Sequence[str]) -> list[str]:

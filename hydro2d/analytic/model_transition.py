@@ -112,7 +112,7 @@ def experiments() -> list[Shot]:
              1e-2 * float(row["depth_cm"]), 1e-2 * float(row["length_cm"]), 1e-2 * float(row["diameter_cm"]),
              row["depth_is"])
         for row in _rows("experiments.csv")
-    ]  # fmt: skip
+    ]
 
 
 def between(name: str, rigid: Iterable[float], others: Iterable[float], source: str) -> Bracket:
@@ -232,7 +232,7 @@ class Comparison:
             ],
             "brackets": [vars(entry) for entry in self.brackets],
             "runs": [list(line) for line in self.runs],
-        }  # fmt: skip
+        }
 
 
 def distance(off: float) -> str:

@@ -14,7 +14,7 @@ def limited(message: str) -> str:
     """A message short enough to read: its first lines, without the middle of long ones."""
     lines = message.split("\n")
     kept = [line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
-            for line in lines[:MOST_LINES]]  # fmt: skip
+            for line in lines[:MOST_LINES]]
     return "\n".join([*kept, f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else kept)
 
 

@@ -81,7 +81,7 @@ class Page:
             parts.append(f'<progress max="1"{share} style="width: 30em" aria-label="share that is done"></progress>')
         if self._table:
             rows = "".join(f"<tr><th>{in_html(name)}</th><td>{in_html(value)}</td></tr>"
-                           for name, value in self._table.items())  # fmt: skip
+                           for name, value in self._table.items())
             parts.append(f"<table>{rows}</table>")
         return "".join(parts)
 

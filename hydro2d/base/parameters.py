@@ -87,7 +87,7 @@ class Declared(Protocol):
 
 
 def collect(model: str, declared: Iterable[Declared], values: Mapping[str, Any], noun: str = "parameter",
-            error: type[ValueError] = ValueError) -> dict[str, Any]:  # fmt: skip
+            error: type[ValueError] = ValueError) -> dict[str, Any]:
     """Every declared quantity by name, with defaults filled in.
 
     noun : word for a quantity in messages;  error : raised for a missing, unknown or impossible value

@@ -43,7 +43,7 @@ COMMON = {
     "Pa": ("Pa", 1.0), "kPa": ("Pa", 1e3), "MPa": ("Pa", 1e6), "GPa": ("Pa", 1e9), "Mbar": ("Pa", 1e11),
     "/Mbar": ("1/Pa", 1e-11), "K": ("K", 1.0), "/K": ("1/K", 1.0), "J/kg": ("J/kg", 1.0), "rad": ("rad", 1.0),
     "kg": ("kg", 1.0), "g": ("kg", 1e-3), "J": ("J", 1.0), "1/s": ("1/s", 1.0), "/s": ("1/s", 1.0),
-}  # fmt: skip
+}
 
 #: smallest nonzero and largest meaningful value in each unit for an impact, and the reason
 REACH = {
@@ -289,7 +289,7 @@ def show(value: float, si_unit: str, unit: str | None = None, digits: int = 4) -
 READER = {
     "m": ("mm", 1e3), "m2": ("cm²", 1e4), "m3": ("cm³", 1e6), "s": ("µs", 1e6), "kg": ("g", 1e3), "J": ("kJ", 1e-3),
     "Pa": ("GPa", 1e-9), "J/kg": ("MJ/kg", 1e-6), "kg/m3": ("g/cm³", 1e-3),
-}  # fmt: skip
+}
 
 
 def reader_unit(unit: str) -> tuple[str, float]:

@@ -58,7 +58,7 @@ class Chosen:
 
 
 def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, *, threads: int, restart: bool, overwrite: bool,
-            quiet: bool) -> int:  # fmt: skip
+            quiet: bool) -> int:
     """Runs all members of an ensemble of a deck as a study, and prints their joint result."""
     from hydro2d.cli.study import run_study
     from hydro2d.deck import deck as decks
@@ -66,7 +66,7 @@ def run_all(chosen: Chosen, deck: Path, overrides: list[str], out: Path | None, 
 
     file = decks.find(deck)
     tables = {"title": f"{file.stem}, {chosen.repeats} members", "deck": str(file.resolve()),
-              "ensemble": chosen.table(chosen.repeats)}  # fmt: skip
+              "ensemble": chosen.table(chosen.repeats)}
     plan = replace(cases.plan_of(tables, file.stem, overrides), again="--restart")
     workers = Workers(workers=chosen.workers, threads=threads, resume=restart, overwrite=overwrite)
     return run_study(plan, out or Path(f"runs/{file.stem}_ensemble"), workers, quiet=quiet)

@@ -112,7 +112,7 @@ def page(name: str) -> str:
         others = {other for part in outside.KINDS for other in outside.in_packages(part)}
         models = {model for kind in outside.KINDS.values() for model in kind.models}
         known = {*others, *library.names(), *models, *catalogue.MODELS, *quantities.BY_KEY, *keys,
-                 *(key.rsplit(".", 1)[-1] for key in keys)}  # fmt: skip
+                 *(key.rsplit(".", 1)[-1] for key in keys)}
         alike = [each for each in known if each != name and each.lower() == name.lower()]
         if len(alike) == 1:
             return page(alike[0])

@@ -89,7 +89,7 @@ def plot(
             raise UsageError("--colours, --clip, --log and --map are for pictures, not for a table")
         tables.save({"line": lambda: tables.line_outs(opened, field, _line(line), times),
                      "history": lambda: tables.histories(opened, quantity or figures.HISTORIES),
-                     "crater": lambda: tables.craters(opened)}[kind](), out)  # fmt: skip
+                     "crater": lambda: tables.craters(opened)}[kind](), out)
     elif kind == "cutaway":
         if len(opened) != 1 or len(times) != 1 or out.suffix != ".png":
             raise UsageError("--kind cutaway draws one run at one time, as a .png")
@@ -108,7 +108,7 @@ def plot(
         figures.save_figure(line_figures.space_time(opened, field, _line(line), limits=limits, scale=scale), out)
     else:
         figures.save_figure(figures.sections(opened, field, mirror=mirror, times=times, window=_window(window), limits=limits,
-                                      scale=scale), out)  # fmt: skip
+                                      scale=scale), out)
     say(f"wrote {out}")
     return 0
 
@@ -157,7 +157,7 @@ def movie(
 
     opened = [Results(path) for path in runs]
     frames = movies.film(opened, out, field, mirror=mirror, window=_window(window), follow=follow, limits=_range(colours),
-                         rate=rate, beside=beside)  # fmt: skip
+                         rate=rate, beside=beside)
     say(f"wrote {out}, {frames} frames")
     return 0
 

@@ -105,7 +105,7 @@ def run_study(plan, out: Path, workers: Workers, *, only: Sequence[str] = (), sk
 
     choice = Choice(plan, only, skip, again=workers.anew)
     status = sweeps.sweep(choice, out, workers.connect(len(choice.selected)), threads=workers.threads, resume=workers.resume,
-                          overwrite=workers.overwrite, quiet=quiet)  # fmt: skip
+                          overwrite=workers.overwrite, quiet=quiet)
     if quiet or not (out / (sample_table.FILE if plan.sample else study_directory.STUDY)).is_file():  # the disk may be full
         return status
     if plan.sample:
@@ -123,7 +123,7 @@ def _is_of_parts(study: Path) -> bool:
 
 
 def _parts(study: Path, place: Path, overrides: list[str], size, workers: Workers, only: Sequence[str], *, check: bool,
-           quiet: bool) -> int:  # fmt: skip
+           quiet: bool) -> int:
     """Runs the parts of a study in turn. The next part runs despite a failed case, but not after an interrupt."""
     from hydro2d.study import study_parts
     from hydro2d.study.records import study_directory
@@ -229,7 +229,7 @@ def run_search(plan, out: Path, workers: Workers, *, quiet: bool) -> int:
     return transitions.find(
         plan, out, workers.connect(len(plan.cases)), threads=workers.threads, resume=workers.resume,
         overwrite=workers.overwrite, quiet=quiet,
-    )  # fmt: skip
+    )
 
 
 def _show_ensembles(directory: Path) -> None:

@@ -116,7 +116,7 @@ WORDS = {
         "An interferometer of velocities. The velocity of a free surface is that of a [[gauge]] with `surface`, and behind a "
         "window (LiF, sapphire, PMMA) that of a [[tracer]] at the interface; its refractive index is not corrected for.",
         ("gauge.surface", "tracer", "LiF", "sapphire", "PMMA"), ("how-to/free-surface-velocity.md",)),
-}  # fmt: skip
+}
 
 #: other forms of these words
 ALSO = {
@@ -129,7 +129,7 @@ ALSO = {
     "free-surface velocity": "visar", "perspex": "plexiglas", "lucite": "plexiglas", "acrylic": "plexiglas",
     "ti-6al-4v": "titanium", "segmented rod": "segmented", "spallation": "spall", "scabbing": "spall", "unit": "units",
     "hugoniot": "us-up", "usup": "us-up", "shock velocity": "us-up", "time step": "cfl", "courant number": "cfl",
-}  # fmt: skip
+}
 
 
 def plain(name: str) -> str:

@@ -34,7 +34,7 @@ def _edge_keys() -> dict[str, tuple[Any, Any]]:
     return {
         f"{edge}_{key.name}": optional(key, f'{key.description} at {edge} = "{kind.name}"')
         for kind in KINDS for key in kind.keys for edge in kind.edges
-    }  # fmt: skip
+    }
 
 
 if TYPE_CHECKING:

@@ -210,7 +210,7 @@ def _closing_edges(deck: Deck) -> Iterator[tuple[tuple, str]]:
         if not all(edge is None or edge.constrains() for _, edge in pair.values()):
             continue
         inward = {name: max((sign * speed for speed in edge.speeds()), default=0.0) if edge else 0.0
-                  for name, (sign, edge) in pair.items()}  # fmt: skip
+                  for name, (sign, edge) in pair.items()}
         held = [name for name, (_, edge) in pair.items() if edge and edge.slide() is not None and inward[name] > 0.0]
         if held and sum(inward.values()) > 0.0:
             yield ("boundaries", held[0]), (f"{low} and {high} move the bodies between them into each other, at "
@@ -319,12 +319,12 @@ def _bad_follow(deck: Deck, z: np.ndarray) -> Iterator[tuple[tuple, str]]:
         kind = getattr(deck.boundaries, key)
         if BY_NAME[kind].constrains() or BY_NAME[kind].traction() in (PUSH, PRESSURE):
             yield ("boundaries", key), (f'a mesh that follows "{name}" must have open ends along z; {BY_NAME[kind].in_words} '
-                                        "cannot travel with it")  # fmt: skip
+                                        "cannot travel with it")
     ahead, behind = room(deck, z)
     radius = extent(body(deck, name), deck, "r")[1]
     if ahead < (radius if np.isfinite(radius) else 0.0):
         yield path, (f'the mesh is too short: it reaches {ahead:g} m ahead of "{name}"; at least the radius of the body, '
-                     f"{radius:g} m, is needed, and {AHEAD} radii for an undisturbed flight")  # fmt: skip
+                     f"{radius:g} m, is needed, and {AHEAD} radii for an undisturbed flight")
     if behind <= 0.0:
         yield path, f'the mesh is too short: it ends {-behind:g} m before the tail of "{name}"'
 

@@ -116,7 +116,7 @@ class Deck(sections.Deck):
 
     @classmethod
     def from_toml(cls, text: str, overrides: Overrides = (), *, name: str = "deck",
-                  folder: str | Path = ".") -> Deck:  # fmt: skip
+                  folder: str | Path = ".") -> Deck:
         """Reads a deck from TOML text.
 
         name : name of the run and of its directory
@@ -129,7 +129,7 @@ class Deck(sections.Deck):
 
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any], overrides: Overrides = (), *, name: str = "deck",
-                  folder: str | Path = ".") -> Deck:  # fmt: skip
+                  folder: str | Path = ".") -> Deck:
         """Makes a deck from nested dicts and lists with the contents of a TOML file.
 
         tables : with ``"numbers": "SI"`` numbers without a unit are in SI units; without it, quantities are text with a unit

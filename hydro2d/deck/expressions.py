@@ -34,7 +34,7 @@ DIMENSIONS = {
     "m/s2": _dimension(1, 0, -2), "N": _dimension(1, 1, -2), "N s": _dimension(1, 1, -1), "J": _dimension(2, 1, -2),
     "W": _dimension(2, 1, -3), "J/kg": _dimension(2, 0, -2), "J/m2": _dimension(0, 1, -2), "Pa": _dimension(-1, 1, -2),
     "Pa s": _dimension(-1, 1, -1), "kg/m3": _dimension(-3, 1), "m3/J": _dimension(1, -1, 2),
-}  # fmt: skip
+}
 
 #: these dimensions by units as `units` reads them
 SPELLED = {re.sub(r"(?<=[a-z])(?=[23])", "^", name).replace(" ", "*"): dimension for name, dimension in DIMENSIONS.items()}
@@ -42,12 +42,12 @@ SPELLED = {re.sub(r"(?<=[a-z])(?=[23])", "^", name).replace(" ", "*"): dimension
 OPERATORS: dict[type, Callable[[float, float], float]] = {
     ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b, ast.Div: lambda a, b: a / b,
     ast.Pow: lambda a, b: math.pow(a, b),
-}  # fmt: skip
+}
 #: functions; those of SAME keep the unit of their arguments, sqrt gives its root, the others take and give plain numbers
 FUNCTIONS: dict[str, Callable[..., float]] = {
     "abs": abs, "min": min, "max": max, "sqrt": math.sqrt, "exp": math.exp, "log": math.log, "log10": math.log10,
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "atan": math.atan,
-}  # fmt: skip
+}
 SAME, CONSTANTS = ("abs", "min", "max"), {"pi": math.pi}
 #: characters of an expression, and how deep its brackets may be
 LONGEST, DEEPEST = 500, 30

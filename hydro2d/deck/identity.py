@@ -27,7 +27,7 @@ def setup(deck: Deck) -> str:
     """
     data = deck.model_dump(mode="json", exclude=set(TOLD), exclude_defaults=True)
     materials = {name: {key: _without_later(value) for key, value in material.as_deck().items() if key != "title"}
-                 for name, material in deck.materials.items()}  # fmt: skip
+                 for name, material in deck.materials.items()}
     text = json.dumps(data | {"materials": materials}, sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:LETTERS]
 

@@ -37,7 +37,7 @@ def targets(deck) -> list[Target]:
         surface = decks.surface(deck) if number == 0 else front
         joined = [decks.extent(entry, deck, "z") for entry in deck.body if name in (entry.name, entry.join)]
         result.append(Target(name, names.index(name), min(z for z, _ in joined), max(z for _, z in joined), surface, rear,
-                            decks.body(deck, name).velocity[1]))  # fmt: skip
+                            decks.body(deck, name).velocity[1]))
     return result
 
 

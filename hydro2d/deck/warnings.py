@@ -106,7 +106,7 @@ def _overlaps(deck: Deck) -> Iterator[str]:
         if LEAST_SHARED * whole < both < (1.0 - LEAST_SHARED) * whole:
             size = f"{both * 1e6:.3g} mm^2" if planar else f"{both * 1e9:.3g} mm^3"
             yield (f'bodies "{other.name}" and "{entry.name}" overlap by {size}, which belong to "{other.name}", '
-                   "the earlier one in the deck")  # fmt: skip
+                   "the earlier one in the deck")
 
 
 def _jumps(deck: Deck) -> Iterator[str]:
@@ -195,7 +195,7 @@ def _no_failure(deck: Deck) -> Iterator[str]:
         if entry.join is not None or not material.has_strength:
             if entry.join is None and _bears_any_tension(material) and failure.tensile == "material":
                 yield (f'body "{entry.name}": {material.name} has no fracture_pressure and bears any tension; give it one, '
-                       f"at which it cavitates{_answer(entry.material, material, *FRACTURE)}")  # fmt: skip
+                       f"at which it cavitates{_answer(entry.material, material, *FRACTURE)}")
             continue
         if material.damage.name != "none" and forgotten:
             yield (

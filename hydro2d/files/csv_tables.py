@@ -117,7 +117,7 @@ def lines(path: Path, error: type[Error]) -> list[tuple[int, list[str]]]:
 
 
 def read(path: Path, columns: Iterable[Column], error: type[Error], remedy: str, *,
-         others: Callable[[str], Column | None] = lambda head: None, of: type[R] = Row) -> list[R]:  # fmt: skip
+         others: Callable[[str], Column | None] = lambda head: None, of: type[R] = Row) -> list[R]:
     """The rows of a table, in the order of the file; columns that it need not have and has not are left out.
 
     columns : those with known heads;  others : the column of any other head, None if there must be no such column

@@ -122,7 +122,7 @@ def check_place(path: Path) -> None:
         for file, lock in _own_locks.get(place, ()):
             if not _is_at(file, lock):
                 raise LostPlaceError(f"{place} was removed, renamed or taken by another process since this one began to write "
-                                     "there; nothing more is written")  # fmt: skip
+                                     "there; nothing more is written")
 
 
 def remove(path: Path) -> None:

@@ -55,4 +55,4 @@ __all__ = [
     "is_recording", "kernel", "late_bound", "log", "max_threads", "module_of", "modules", "not_inlined", "parts_at_once",
     "plus", "point", "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial",
     "set_threads", "store", "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",
-]  # fmt: skip
+]

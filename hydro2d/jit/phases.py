@@ -153,10 +153,10 @@ class Phase:
         """The function that calls the kernels."""
         number = {kernel: f"_{k}" for k, kernel in enumerate(kernels)}
         lines = [f'"""{self.__doc__}"""', "", "from hydro2d.jit import wait", "from hydro2d.jit.handle import as_handle",
-                 "from hydro2d.jit.phases import compiled_phase"]  # fmt: skip
+                 "from hydro2d.jit.phases import compiled_phase"]
         lines += [f"from {kernel.__module__} import {kernel.__name__} as _{k}" for k, kernel in enumerate(kernels)]
         lines += ["", "", "@compiled_phase", f"def {self.__name__}(part, address):", f'    """{self.__doc__}"""',
-                  "    w = as_handle(address)", *_lines(self.steps, number, 1), ""]  # fmt: skip
+                  "    w = as_handle(address)", *_lines(self.steps, number, 1), ""]
         return "\n".join(lines)
 
     def __call__(self, handle: Handle) -> None:

@@ -44,7 +44,7 @@ NATIVE = "native"
 _X86 = Target("x86-64-v3", (
     "cx16", "sahf", "popcnt", "sse3", "sse4.1", "sse4.2", "ssse3",
     "avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave",
-))  # fmt: skip
+))
 NAMED = {"x86_64": _X86, "AMD64": _X86, "aarch64": Target("generic", ("neon",)), "arm64": Target("generic", ("neon",))}
 
 #: numba's options that change the code; those for reports do not
@@ -52,7 +52,7 @@ OPTIONS = (
     "OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "ENABLE_AVX", "BOUNDSCHECK", "DEBUGINFO_DEFAULT", "EXTEND_VARIABLE_LIFETIMES",
     "ENABLE_PROFILING", "USING_SVML", "LLVM_REFPRUNE_PASS", "LLVM_REFPRUNE_FLAGS", "DEBUG_NRT", "PARFOR_MAX_TUPLE_SIZE",
     "DEBUG_ARRAY_OPT", "DEBUG_ARRAY_OPT_RUNTIME", "USE_LLVMLITE_MEMORY_MANAGER",
-)  # fmt: skip
+)
 
 
 def named() -> Target | None:

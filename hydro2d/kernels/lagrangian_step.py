@@ -59,7 +59,7 @@ close_cells = Phase(
            WAIT,
            alone(thermodynamics.least_step),
            alone(thermodynamics.step_cause)),
-)  # fmt: skip
+)
 
 find_contact = Phase(
     "find_contact",
@@ -127,7 +127,7 @@ deform = Phase(
          contact_checkerboard.damp_pressures),
     WAIT,
     deformation.deform,
-)  # fmt: skip
+)
 
 deform_mixed = Phase(
     "deform_mixed",
@@ -148,4 +148,4 @@ deform_mixed = Phase(
          mesh_motion.subtract_mesh_motion,
          when("contact", mesh_motion.subtract_mesh_motion_of_groups),
          mesh_motion.flush_tiny_values),
-)  # fmt: skip
+)

@@ -34,7 +34,7 @@ carry_bodies = Phase(
     centroids.carry_centroids,
     alone(audit_sums.sum_outflow),
     alone(audit_sums.find_turned),
-)  # fmt: skip
+)
 
 carry_momentum = Phase(
     "carry_momentum",

@@ -41,7 +41,7 @@ def build(name: str, raw: dict, fail: Fail, trust: bool) -> Material:
     fractures = [fracture.get(key) for key in FRACTURE]
     own_keys = {key: tuple(entry) for key, entry in raw.get("variants", {}).items()}
     return Material(name, title, note, eos, strength, damage, *fractures, melting, variants, raw.get("damage") is not None,
-                    own_keys)  # fmt: skip
+                    own_keys)
 
 
 def _tension(raw, key: str, fail: Fail) -> Number:

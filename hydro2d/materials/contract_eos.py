@@ -89,7 +89,7 @@ def pressure_rises(case: Case) -> None:
     wrong = ~(rise > 0.0) | (rise - ends.max(axis=0) > 5e-3 * abs(expected)) | (ends.min(axis=0) - rise > 5e-3 * abs(expected))
     k = int(wrong.argmax())
     require(not wrong.any(), f"from rho = {rho[k]:g} to {rho[k + 1]:g} kg/m^3 p rises by {rise[k]:g} Pa, and dp/drho says "
-                             f"{expected[k]:g}")  # fmt: skip
+                             f"{expected[k]:g}")
 
 
 def temperature(case: Case) -> str | None:

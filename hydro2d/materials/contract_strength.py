@@ -173,7 +173,7 @@ def internal_variables(case: Case) -> str | None:
         moved = evaluate("back_stress", internal)
         kept = all(near(component, expected * share, 1e-9) for component, share in zip(moved, direction, strict=True))
         require(kept, f"a plastic strain of 0.01 along {direction} moves the back stress by {moved} Pa, and kinematic_modulus "
-                      f"says {expected:g} Pa")  # fmt: skip
+                      f"says {expected:g} Pa")
         evaluate("turn", 0.1, internal)
         require(np.isfinite(internal).all(), f"after a plastic strain of 0.01 and a spin of 0.1 they are {internal.tolist()}")
     return None

@@ -84,7 +84,7 @@ def wrong_row(row: object, kind, values: Mapping[str, float]) -> str | None:
     """
     least = "at least " if kind.part == "eos" else ""
     if not (isinstance(row, np.ndarray) and row.ndim == 1 and row.dtype == np.float64
-            and (row.size == kind.length or (least and row.size > kind.length))):  # fmt: skip
+            and (row.size == kind.length or (least and row.size > kind.length))):
         return (f"row gives {getattr(row, 'dtype', type(row).__name__)} {getattr(row, 'shape', '')}, not float64 "
                 f"({least}{kind.length},)")
     if np.isnan(row).any():

@@ -118,7 +118,7 @@ TABLE: tuple[Quantity, ...] = (
     Quantity("body_failed_by", "Cause of Failure of {body}", "", f"what has ended the strength of the body; {FAILED_BY}",
              recorded=True),
     *INTERNAL.values(),
-)  # fmt: skip
+)
 
 #: keys of older versions, and their present names
 RENAMED = {"velocity_rest": "velocity_soft"}

@@ -38,7 +38,7 @@ def _melting() -> dict:
         "type": "object", "title": "Melting", "additionalProperties": False,
         "description": "The melting line of a material; at and above it there is no strength; see `hydro2d info melting`.",
         "properties": {**_ABOUT, **numbers},
-    }  # fmt: skip
+    }
 
 
 def _part(kind: Kind) -> dict:
@@ -63,7 +63,7 @@ def _part(kind: Kind) -> dict:
         "type": "object", "title": kind.part.capitalize(),
         "description": f"The {kind.title} of a material; `hydro2d info MODEL` has its equation.",
         "properties": keys, "if": ours, "then": {"propertyNames": {"enum": list(keys)}},
-    }  # fmt: skip
+    }
 
 
 def _material() -> dict:
@@ -88,7 +88,7 @@ def _material() -> dict:
             **_ABOUT,
             "variants": {"type": "object", "description": "tables by name that `variant` can apply to the material"},
         },
-    }  # fmt: skip
+    }
 
 
 def _meanings(entries: list[tuple[str, str, str]]) -> str:

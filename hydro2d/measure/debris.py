@@ -90,7 +90,7 @@ def find(sim, crater, later: list[int]) -> Debris:
     return Debris(
         [table.names[chosen[k]] for k in present], speeds, _binned(axial, mass, speeds), angles, _binned(angle, mass, angles),
         fragments, kinds, _totals(mass, u, axial, angle, fragments),
-    )  # fmt: skip
+    )
 
 
 def _pieces(filled: np.ndarray) -> tuple[np.ndarray, int]:

@@ -69,7 +69,7 @@ def depth_error(depth: float, at_least: bool, measured: float, qualifier: str | 
 
 
 def of(measured: Projectile, *, status: str, stop_reason: str, impact_velocity: float, thickness: float | None,
-       dropped: float | None, experiment=None) -> Outcome:  # fmt: skip
+       dropped: float | None, experiment=None) -> Outcome:
     """The outcome of a shot.
 
     measured : its projectile at the end;  impact_velocity : m/s
@@ -96,4 +96,4 @@ def of(measured: Projectile, *, status: str, stop_reason: str, impact_velocity: 
         radius_ratio=ratio(measured.rod_max_radius_m, measured.rod_initial_radius_m),
         mass_ratio=ratio(measured.rod_mass_kg, measured.rod_initial_mass_kg), energy_dropped=dropped,
         depth_error_m=error, depth_error_percent=None if error is None else 100.0 * error / experiment.penetration,
-        depth_error_is=kind, residual_error_m_s=error_of_residual)  # fmt: skip
+        depth_error_is=kind, residual_error_m_s=error_of_residual)

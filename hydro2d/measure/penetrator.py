@@ -506,7 +506,7 @@ class Penetrator:
             rod_residual_length_m=length if residual_mass is not None and not self.left else None,
             exit_time_s=self.passages()[-1].exit_time_s,
             regime=self.regime(length, radius, core),
-        )  # fmt: skip
+        )
 
 
 def _share(now: float, first: float) -> float:

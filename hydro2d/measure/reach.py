@@ -123,7 +123,7 @@ def of(deck, table, state, start) -> Reach:
         shear=table.shear, chill=CHILL * (highest - lowest),
         gas=table.gases(), warm=np.array([one.evaluate(one.rho, one.e)[3] > 0.0 for one in materials]),
         speed=speed, pressure=pressure, stands=_stands(deck),
-        squeezed=squeezed, work=mass @ squeezed, mass=max(float(mass.sum()), 1e-300))  # fmt: skip
+        squeezed=squeezed, work=mass @ squeezed, mass=max(float(mass.sum()), 1e-300))
 
 
 def strongest(table, m: int, pressure: float) -> float:

@@ -22,7 +22,7 @@ RULE = {
            f"{1 + RIGID_RADIUS:g} of the radius",
     ERODING: f"more than a third of the length lost, or {100 * ERODED_MASS:g} % of the mass lost from the core",
     DEFORMING: "between the two",
-}  # fmt: skip
+}
 
 
 def regime(length: float, radius: float, core: float) -> str:

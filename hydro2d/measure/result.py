@@ -18,7 +18,7 @@ UNITS = {
     "_m3_J": "m3/J", "_kg_m3": "kg/m3", "_J_kg": "J/kg", "_J_m2": "J/m2", "_m_s2": "m/s2", "_m_s": "m/s", "_N_s": "N s",
     "_Pa_s": "Pa s", "_rad": "rad", "_1_s": "1/s", "_kg": "kg", "_Pa": "Pa", "_m2": "m2", "_m3": "m3", "_K": "K", "_J": "J",
     "_N": "N", "_W": "W", "_s": "s", "_m": "m",
-}  # fmt: skip
+}
 
 #: in the context of a validation: the values are those of a file, in which a number is finite
 OF_A_FILE = "of a file"

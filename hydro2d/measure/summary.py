@@ -19,7 +19,7 @@ from hydro2d.measure.station_columns import Station
 OF_EVERY_BODY = {
     "rod_mass_kg": "mass_kg", "rod_mean_velocity_m_s": "velocity_m_s", "rod_kinetic_energy_J": "kinetic_energy_J",
     "rod_failed_mass_kg": "failed_mass_kg", "target_failed_mass_kg": "failed_mass_kg",
-}  # fmt: skip
+}
 #: the others of the projectile by their old names, which say rod, and the names in the table `projectile`
 PROJECTILE = {name: name.removeprefix("rod_") for name in Projectile.model_fields
               if name.startswith("rod_") and name not in OF_EVERY_BODY}

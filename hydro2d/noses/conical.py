@@ -15,7 +15,7 @@ class Conical(Nose):
     name = "conical"
     meaning = "a cone"
     keys = (Parameter("half_angle", "rad", 0.5, "half the angle at the tip; a plain number is in rad", "theta", POSITIVE,
-                      example="30 deg"),)  # fmt: skip
+                      example="30 deg"),)
     by_length = True
 
     @classmethod

@@ -126,7 +126,7 @@ def of_dumps(dumps: Sequence[tuple[float, Path]], follows: bool = False) -> xarr
         parts = [dask.array.from_delayed(dask.delayed(_values)(quantity, dump), like.shape, like.dtype) for dump in opened]
         names = _dimensions(quantity, like)
         variables[quantity.key] = (("time", *(_travelling(names) if follows else names)), dask.array.stack(parts),
-                                   _attributes(quantity))  # fmt: skip
+                                   _attributes(quantity))
     start = first.z_edges[0]
     travelled = [dask.array.from_delayed(dask.delayed(_travel)(dump, start), (), float) for dump in opened]
     coordinates = {

@@ -216,7 +216,7 @@ def dataset(columns: dict[str, np.ndarray]) -> xarray.Dataset:
 
     variables = {name: ("time", column, attributes(name)) for name, column in columns.items()}
     return xarray.Dataset({name: entry for name, entry in variables.items() if name != "time"},
-                          coords={"time": variables["time"]})  # fmt: skip
+                          coords={"time": variables["time"]})
 
 
 def _dataset(file, name: str, values):
@@ -257,7 +257,7 @@ def _pop_stations(datasets: dict[str, np.ndarray], kind: str) -> dict[str, np.nd
     names = [name.decode() for name in datasets.pop(kind)]
     arrays = {key: np.ascontiguousarray(datasets.pop(f"{kind}_{key}").T) for key in KEYS}
     return {f"{kind}_{name}_{key}": column for key, columns in arrays.items()
-            for name, column in zip(names, columns, strict=True)}  # fmt: skip
+            for name, column in zip(names, columns, strict=True)}
 
 
 def _groups(file, prefix: str) -> list[str]:

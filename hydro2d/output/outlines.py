@@ -42,7 +42,7 @@ class Cut:
         along, across = ((mine * self.thickness + its * other.thickness) / both
                          for mine, its in ((self.along, other.along), (self.across, other.across)))
         return replace(other, low=self.low, first=min(self.first, other.first), last=max(self.last, other.last), along=along,
-                       across=across, thickness=both)  # fmt: skip
+                       across=across, thickness=both)
 
     def near(self, other: Cut, gap: float) -> bool:
         """Whether the cuts overlap, or are no further apart than ``gap``, in cells."""
@@ -138,7 +138,7 @@ class Filling:
             for cell in cells[cells[:, axis] == line].tolist():
                 (low, high, along, size), (first, last, across, _) = self._box(cell, axis), self._box(cell, 1 - axis)
                 cut = Cut(low, high, first, last, along, across, float(widths[line]), float(self.fraction[tuple(cell)]) * size,
-                          cell[1 - axis], size)  # fmt: skip
+                          cell[1 - axis], size)
                 if cuts and cuts[-1].cell == cut.cell - 1 and cuts[-1].near(cut, WITHIN):
                     cuts[-1] = cuts[-1].with_next(cut)
                 else:

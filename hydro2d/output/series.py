@@ -93,7 +93,7 @@ class Series:
         for kind, name in vtk.SERIES.items():
             paths = [self._path(kind, number) for number in range(len(self._times))]
             entries = [(time, f"{vtk.FOLDER}/{path.name}") for time, path in zip(self._times, paths, strict=True)
-                       if path.exists()]  # fmt: skip
+                       if path.exists()]
             if entries:
                 vtk.write_series(self.directory / name, entries)
 
@@ -105,4 +105,4 @@ def _body_lines(sim) -> list[tuple[int, np.ndarray]]:
         (m + 1, line)
         for m, (fraction, off) in enumerate(zip(cells.vof, offsets, strict=True))
         for line in Filling(grid.r_edges, grid.z_edges, fraction, off).outlines()
-    ]  # fmt: skip
+    ]

@@ -126,7 +126,7 @@ def evaluate(velocity: float, *, rod_density: float, rod_length: float, target_d
 ARGUMENTS = (
     "yield_stress", "hardening", "exponent", "rate_coefficient", "thermal_exponent", "melt_temperature", "specific_heat",
     "room_temperature", "strain", "strain_rate",
-)  # fmt: skip
+)
 JOHNSON_COOK = (
     Input("target.johnson_cook_a", "Pa", "A of Johnson and Cook, the yield stress", "A", default=None),
     Input("target.johnson_cook_b", "Pa", "B of Johnson and Cook, the hardening", "B", default=None, sign=NON_NEGATIVE),

@@ -230,7 +230,7 @@ def given_or_fitted(
     cavity_a: float | None, cavity_b: float | None, *, target_density: float, target_strength: float,
     target_youngs_modulus: float | None, target_poisson_ratio: float | None, target_hardening_exponent: float,
     cavity_velocity: float,
-) -> tuple[float, float]:  # fmt: skip
+) -> tuple[float, float]:
     """A and B as given, or from ``coefficients`` where None. InputError if elastic constants needed for that are not given."""
     if cavity_a is not None and cavity_b is not None:
         return cavity_a, cavity_b
@@ -244,7 +244,7 @@ def given_or_fitted(
 def evaluate(
     velocity, *, target_density, target_strength, target_youngs_modulus, target_poisson_ratio, target_hardening_exponent,
     target_tangent_modulus, cavity_solid, cavity_velocity,
-):  # fmt: skip
+):
     """The stress at the wall of a cavity that grows at ``velocity``, and the coefficients of its fits."""
     if cavity_solid == "compressible":
         solid = Solid(target_density, target_youngs_modulus, target_poisson_ratio, target_strength, target_hardening_exponent)
@@ -262,18 +262,18 @@ def evaluate(
     return {
         "cavity_stress": cavity.stress, "front_velocity": cavity.front,
         "a": fit.a, "b": fit.b, "b_linear": fit.b_linear, "c": fit.c,
-    }  # fmt: skip
+    }
 
 
 CAVITY_VELOCITY = Input("cavity.velocity", "m/s", "largest wall velocity of the fits of A, B and C", "V_max", default=1200.0)
 SOLID = Input(
     "cavity.solid", "", "model of the solid; the last has linear hardening, the others a power law",
     default="compressible", choices=("compressible", "incompressible", "incompressible-linear"),
-)  # fmt: skip
+)
 TANGENT = Input(
     "target.tangent_modulus", "Pa", "slope of linear hardening, for incompressible-linear only", "E_t", default=0.0,
     sign=NON_NEGATIVE,
-)  # fmt: skip
+)
 
 MODEL = Model(
     name="cavity",
@@ -298,4 +298,4 @@ MODEL = Model(
         values=MappingProxyType({"cavity.velocity": 2400.0}),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

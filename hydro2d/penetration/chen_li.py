@@ -100,4 +100,4 @@ MODEL = Model(
     ),
     evaluate=evaluate,
     transition=transition,
-)  # fmt: skip
+)

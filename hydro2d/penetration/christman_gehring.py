@@ -89,4 +89,4 @@ MODEL = Model(
         values=MappingProxyType({"rod.length": 0.05, "rod.diameter": 0.005, "target.hardness": 1.5e9}),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

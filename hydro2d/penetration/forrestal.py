@@ -186,14 +186,14 @@ def motion(velocity, *, rod_mass, nose_entry, **shot) -> Motion:
 NOSE_ENTRY = Input(
     "nose.entry", "", "whether the force acts in full from first touch, or on the part of the nose that is inside",
     default="ignored", choices=("ignored", "resisted"),
-)  # fmt: skip
+)
 #: inputs that the rigid models share: see ``of_inputs``
 SHOT = (
     inputs.ROD_DIAMETER, *inputs.NOSE, inputs.FRICTION,
     inputs.TARGET_DENSITY, inputs.TARGET_STRENGTH, inputs.CAVITY_A, inputs.CAVITY_B,
     inputs.TARGET_YOUNGS_MODULUS.but(default=None), inputs.TARGET_POISSON_RATIO.but(default=None),
     inputs.TARGET_HARDENING_EXPONENT, CAVITY_VELOCITY,
-)  # fmt: skip
+)
 
 MODEL = Model(
     name="forrestal",
@@ -217,4 +217,4 @@ MODEL = Model(
     ),
     evaluate=evaluate,
     motion=motion,
-)  # fmt: skip
+)

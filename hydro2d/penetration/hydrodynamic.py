@@ -164,7 +164,7 @@ EICHELBERGER = Model(
     main="depth_over_length",
     example=EXAMPLE,
     evaluate=evaluate_eichelberger,
-)  # fmt: skip
+)
 
 ALLEN_ROGERS = Model(
     name="allen-rogers",
@@ -181,6 +181,6 @@ ALLEN_ROGERS = Model(
     main="depth_over_length",
     example=Example(rod="copper_OFHC", target="Al7075_T6", velocity=3000.0, velocities=(500.0, 8000.0), values=ROD),
     evaluate=evaluate_allen_rogers,
-)  # fmt: skip
+)
 
 MODELS = (HYDRODYNAMIC, EICHELBERGER, ALLEN_ROGERS)

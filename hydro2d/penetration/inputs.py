@@ -25,7 +25,7 @@ NOSE = (
     Input("nose.shape", "", "shape of the nose", default="hemispherical", choices=tuple(BY_NAME)),
     *(Input(f"nose.{key.name}", key.unit or "1", f"{' or '.join(names)} nose: {key.description}", key.symbol,
             None if isinstance(key.default, Required) else key.default, key.sign) for key, names in owners().items()),
-)  # fmt: skip
+)
 FRICTION = Input("friction", "1", "coefficient of sliding friction on the nose", "mu", default=0.0, sign=NON_NEGATIVE)
 
 TARGET_DENSITY = Input("target.density", "kg/m^3", "density of the target", "rho_t")

@@ -118,4 +118,4 @@ MODEL = Model(
         values=MappingProxyType({"plate.limit_velocity": 900.0, "lambert.p": 2.5}),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

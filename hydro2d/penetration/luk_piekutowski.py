@@ -114,7 +114,7 @@ def _growth(rod: Rod, target: Target, last: Head) -> float:
 def pair_of(
     *, rod_diameter, rod_length, rod_density, rod_strength, rod_ultimate_strength, rod_youngs_modulus, rod_poisson_ratio,
     friction, target_density, target_strength, target_plain_strength, **cavity,
-):  # fmt: skip
+):
     """(Rod, Target) of the inputs, in SI."""
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **cavity)
     plain = target_strength if target_plain_strength is None else target_plain_strength
@@ -137,7 +137,7 @@ def evaluate(velocity: float, *, critical_velocity: float | None, **values: floa
         "primary_depth": shot.primary, "rod_depth": shot.rod, "ejecta_depth": shot.ejecta, "growth_depth": shot.growth,
         "duration": shot.duration, "residual_length": shot.residual_length, "limit_velocity": fold(rod, target).rod,
         "regime": shot.regime,
-    }  # fmt: skip
+    }
 
 
 PLAIN_STRENGTH = Input(
@@ -186,4 +186,4 @@ MODEL = Model(
     ),
     evaluate=evaluate,
     transition=transition,
-)  # fmt: skip
+)

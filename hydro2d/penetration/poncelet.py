@@ -168,4 +168,4 @@ MODEL = Model(
         values=MappingProxyType({"rod.length": 0.0747, "poncelet.a": 1.956e9, "poncelet.b": 51.8}),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

@@ -116,7 +116,7 @@ PLUG = Model(
             {"rod.length": 0.02, "rod.diameter": 0.02, "target.thickness": 0.006, "plate.limit_velocity": 200.0}),
     ),
     evaluate=evaluate_plug,
-)  # fmt: skip
+)
 
 PIERCING = Model(
     name="recht-ipson-piercing",
@@ -131,6 +131,6 @@ PIERCING = Model(
         values=MappingProxyType({"plate.limit_velocity": 600.0}),
     ),
     evaluate=evaluate_piercing,
-)  # fmt: skip
+)
 
 MODELS = (PLUG, PIERCING)

@@ -32,7 +32,7 @@ REST, MOST_STEPS = 1e-6, 200_000
 SURFACE_VELOCITY = Input(
     "surface.velocity", "", "velocity in the pressure: the component normal to the surface, or the whole axial velocity",
     default="normal", choices=("normal", "axial"),
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Rings:
 def penetrate(
     surface: Surface, mass: float, velocity: float, pressure: Pressure, *, friction: float = 0.0,
     surface_velocity: str = "normal", entry: bool = True, time_step: float | None = None,
-) -> Flight:  # fmt: skip
+) -> Flight:
     """The motion from first touch at ``velocity`` (m/s) to rest.
 
     V(i+1/2) = V(i-1/2) - dt F/M with the force at V(i-1/2) and the depth U(i), then U(i+1) = U(i) + dt V(i+1/2); the
@@ -122,7 +122,7 @@ def penetrate(
 
 def evaluate(
     velocity, *, rod_mass, nose_entry, friction, surface_velocity, target_density, target_strength, cavity_c, **others,
-):  # fmt: skip
+):
     """A rigid rod from ``velocity`` to rest; keywords are those of ``MODEL.inputs``, in SI."""
     nose = inputs.taken_nose(others)
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **others)
@@ -134,7 +134,7 @@ def evaluate(
     flight = penetrate(
         nose_surface(nose, RINGS), rod_mass, velocity, pressure,
         friction=friction, surface_velocity=surface_velocity, entry=nose_entry == "resisted",
-    )  # fmt: skip
+    )
     peak = float(np.max(flight.history[:, 3]))
     return {"depth": flight.depth, "duration": flight.duration, "deceleration": peak / rod_mass}
 
@@ -142,7 +142,7 @@ def evaluate(
 CAVITY_C = Input(
     "cavity.c", "1", "C of A Y + B sqrt(rho Y) V + C rho V^2, in which cavity.b is B; without it the two-term form holds", "C",
     default=None, sign=NON_NEGATIVE,
-)  # fmt: skip
+)
 
 MODEL = Model(
     name="rigid-axial",
@@ -164,4 +164,4 @@ MODEL = Model(
         }),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

@@ -234,7 +234,7 @@ def _report(target, obliquity, start, regime, duration, deepest, motion, history
 def evaluate(
     velocity, *, rod_mass, rod_length, friction, target_density, target_strength, target_thickness, pitch, yaw, spin, obliquity,
     **others,
-):  # fmt: skip
+):
     """A rod with the named nose into one plate, or a half space if no thickness is given; keywords as in ``MODEL.inputs``."""
     nose = inputs.taken_nose(others)
     a, b = given_or_fitted(target_density=target_density, target_strength=target_strength, **others)
@@ -283,4 +283,4 @@ MODEL = Model(
         }),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

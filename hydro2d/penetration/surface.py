@@ -64,7 +64,7 @@ def nose_surface(nose: Shaped, rings: int = 100, sectors: int = 1) -> Surface:
 
 
 def body_surface(nose: Shaped, length: float, rings: int = 100, shank_rings: int = 100, tail_rings: int = 20,
-                 sectors: int = 32) -> Surface:  # fmt: skip
+                 sectors: int = 32) -> Surface:
     """Nose, cylindrical shank and flat tail; ``length`` (m) is that of the whole body, nose included."""
     positive(length=length)
     if length < nose.length:

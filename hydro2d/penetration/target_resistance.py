@@ -103,7 +103,7 @@ def evaluate(velocity: float, *, target_strength: float, target_youngs_modulus: 
     given = {
         "strength": target_strength, "youngs_modulus": target_youngs_modulus,
         "poisson_ratio": target_poisson_ratio, "dynamic_factor": target_dynamic_factor,
-    }  # fmt: skip
+    }
     resistances = {}
     for name, (form, extra) in FORMS.items():
         needed = ("strength", "youngs_modulus") + ((extra,) if extra else ())
@@ -123,7 +123,7 @@ RESISTANCE_INPUTS = (
     inputs.TARGET_YOUNGS_MODULUS.but(default=None),
     inputs.TARGET_POISSON_RATIO.but(default=None),
     DYNAMIC_FACTOR_INPUT,
-)  # fmt: skip
+)
 
 MODEL = Model(
     name="target-resistance",

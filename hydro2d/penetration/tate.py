@@ -175,7 +175,7 @@ def _eroding(pair: Pair, velocity: float, length: float) -> np.ndarray:
         pair.interface_velocity(v),
         length * np.exp(-pair.shortening(velocity, v)),
         np.concatenate([[0.0], np.cumsum(depth)]),
-    ])  # fmt: skip
+    ])
 
 
 def _end_of_erosion(pair: Pair, velocity: float) -> float:
@@ -261,4 +261,4 @@ MODEL = Model(
     evaluate=evaluate,
     transition=transition,
     motion=motion,
-)  # fmt: skip
+)

@@ -76,4 +76,4 @@ MODEL = Model(
         values=MappingProxyType({"rod.length": 0.0973}),
     ),
     evaluate=evaluate,
-)  # fmt: skip
+)

@@ -38,7 +38,7 @@ def draw(dump_file: Path, path: Path, field: str = "pressure", window=None, size
         environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
         try:
             done = subprocess.run(children.python("hydro2d.results.cutaway"), input=task, text=True, errors="replace",
-                                  env=environment, capture_output=True, timeout=RENDER_SECONDS, check=False)  # fmt: skip
+                                  env=environment, capture_output=True, timeout=RENDER_SECONDS, check=False)
         except subprocess.TimeoutExpired:
             said = f"no picture after {RENDER_SECONDS} s"
             continue
@@ -64,7 +64,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
         curve["body"] = _nearest_body(state, line)
         turned = curve.extrude_rotate(angle=270, resolution=90, capping=False)
         plotter.add_mesh(turned, scalars="body", cmap=body_colours(count), clim=(0.5, count + 0.5), specular=0.3,
-                         show_scalar_bar=False, interpolate_before_map=False)  # fmt: skip
+                         show_scalar_bar=False, interpolate_before_map=False)
     for body in state.bodies:
         for line in state.outlines(body):
             points = np.column_stack([line[:, 0], np.zeros(len(line)), line[:, 1]]) * 1e3
@@ -73,7 +73,7 @@ def _render(dump: str, path: str, field: str, window, size) -> None:
     low, high = LINEAR.limits([shown.values])
     for angle in (0.0, 270.0):
         plotter.add_mesh(_cut_face(pyvista, state, shown, angle), scalars=shown.label, cmap=shown.colours,
-                         clim=(low, high), lighting=False, scalar_bar_args={"title": shown.label})  # fmt: skip
+                         clim=(low, high), lighting=False, scalar_bar_args={"title": shown.label})
     plotter.add_text(f"t = {state.time * 1e6:.2f} us", font_size=10)
     plotter.view_vector((1.0, -1.0, -0.7), viewup=(0, 0, -1))  # into the cut, +z down
     with replacing(Path(path)) as temporary:

@@ -124,7 +124,7 @@ def _widened(values: np.ndarray) -> np.ndarray:
     """Values (nz, nr) extended by one row of cells around those that are not NaN, each the mean of its neighbours."""
     around = np.pad(values, 1, constant_values=np.nan)
     shifted = np.stack([around[1 + dj : around.shape[0] - 1 + dj, 1 + di : around.shape[1] - 1 + di]
-                        for dj in (-1, 0, 1) for di in (-1, 0, 1)])  # fmt: skip
+                        for dj in (-1, 0, 1) for di in (-1, 0, 1)])
     known = np.isfinite(shifted)
     mean = np.sum(shifted, axis=0, where=known) / np.maximum(known.sum(axis=0), 1)
     return np.where(np.isfinite(values), values, np.where(known.any(axis=0), mean, np.nan))
@@ -165,12 +165,12 @@ def _legend(axes, dump: Dump, half: str) -> None:
 
     patches = [Patch(color=BODY_COLOURS[m % len(BODY_COLOURS)], label=in_legend(body)) for m, body in enumerate(dump.bodies)]
     axes.legend(handles=patches, fontsize=7, loc=f"{half or 'upper'} right", framealpha=0.7,
-                title=_of_half(half), title_fontsize=7)  # fmt: skip
+                title=_of_half(half), title_fontsize=7)
 
 
 def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None, limits=None, *, title: str = "",
             depth_line: float | None = None, window: tuple[float, float, float] | None = None,
-            scale: Scale = LINEAR) -> list:  # fmt: skip
+            scale: Scale = LINEAR) -> list:
     """Draws one section into matplotlib axes, mirrored at the axis or plane of symmetry if there is one.
 
     field, mirror : words for the upper and the lower half, see `chosen` (mirror None: the same field)
@@ -197,7 +197,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
         axes.axvline(depth_line * 1e3, color="crimson", linestyle="--", linewidth=1.0)
         word = axes.text(depth_line * 1e3, 0.02 if below else 0.98, "experiment", transform=axes.get_xaxis_transform(),
                          color="crimson", fontsize=7, rotation=90, ha="right", va="bottom" if below else "top",
-                         clip_on=True, bbox={"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 1.0})  # fmt: skip
+                         clip_on=True, bbox={"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 1.0})
         word.set_in_layout(False)  # a line outside the window must not stretch the figure
     if dump.mirrored:
         axes.axhline(0, color="black", linewidth=0.3, linestyle="-.")
@@ -276,7 +276,7 @@ def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **o
 
 def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str, mirror: str | None = None,
                   window=None, limits: dict[str, tuple[float, float]] | None = None, figure=None,
-                  scale: Scale = LINEAR):  # fmt: skip
+                  scale: Scale = LINEAR):
     """Sections with one colour scale. `panels` holds rows of (dump, title, depth line).
 
     window : (z0, z1, r1) in m, or a function that returns it for a dump; by default each panel shows the whole mesh at its
@@ -289,7 +289,7 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
     dumps = [dump for row in panels for dump, _, _ in row]
     words = dict.fromkeys(word for word in (field, mirror or field) if word != "material")
     limits = {word: scale.limits([chosen(cropped(dump, seen(dump)), word).values for dump in dumps])
-              for word in words if word not in (limits or {})} | (limits or {})  # fmt: skip
+              for word in words if word not in (limits or {})} | (limits or {})
     rows, columns = len(panels), max(len(row) for row in panels)
     panel_width, panel_height = _panel_size(min(11.0, max(4.0, 16.0 / columns)), dumps[0], seen(dumps[0]))
     if figure is None:
@@ -305,7 +305,7 @@ def draw_sections(panels: list[list[tuple[Dump, str, float | None]]], field: str
                 continue
             dump, title, line = row[i]
             drawn = section(axes[j, i], dump, field, mirror, limits, title=title, depth_line=line, window=seen(dump),
-                            scale=scale)  # fmt: skip
+                            scale=scale)
     for place in axes[:-1].flat:
         place.set_xlabel("")
     colour_bars(axes, dumps[0], drawn)
@@ -328,7 +328,7 @@ def cropped(dump: Dump, window) -> Dump:
 
 
 def sections(runs: list, field: str = "pressure", *, mirror: str | None = None, times=(None,), window=None,
-             limits: tuple[float, float] | None = None, scale: Scale = LINEAR):  # fmt: skip
+             limits: tuple[float, float] | None = None, scale: Scale = LINEAR):
     """Sections of runs (results.Results): one row for each run, one column for each time in s (None: the last).
 
     limits : colour range of ``field`` in the reader's unit; by default from what is shown

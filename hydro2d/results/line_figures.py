@@ -100,7 +100,7 @@ def curves(runs: list, field: str, line: Line | None, times: Sequence[float | No
 
 
 def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[float | None] = (None,), *,
-              limits: tuple[float, float] | None = None, scale: Scale = LINEAR):  # fmt: skip
+              limits: tuple[float, float] | None = None, scale: Scale = LINEAR):
     """A field along a line, a curve for each run (results.Results) and time in s (None: the last dump).
 
     line : default: the axis;  limits : of the values, in the reader's unit;  scale : `log` makes that axis logarithmic
@@ -120,7 +120,7 @@ def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[
 
 
 def space_time(runs: list, field: str, line: Line | None = None, *, limits: tuple[float, float] | None = None,
-               scale: Scale = LINEAR):  # fmt: skip
+               scale: Scale = LINEAR):
     """A field along a line at all times, in colours over place and time, one panel for each run (results.Results).
 
     The outlines of the bodies are lines. Raises FigureError if a run has fewer than two dumps.
@@ -130,7 +130,7 @@ def space_time(runs: list, field: str, line: Line | None = None, *, limits: tupl
     figure, axes = figures.new_figure(7.0, 4.6 * len(runs), len(runs), 1)
     for (place,), run, (along, times, values, bodies, label) in zip(axes, runs, panels, strict=True):
         drawn = place.pcolormesh(along * 1e3, times * 1e6, np.ma.masked_invalid(values), shading="nearest", rasterized=True,
-                                 **scale.drawn(limits))  # fmt: skip
+                                 **scale.drawn(limits))
         for fraction in bodies:
             if fraction.min() < 0.5 < fraction.max():
                 place.contour(along * 1e3, times * 1e6, fraction, [0.5], colors="black", linewidths=0.6)
@@ -176,7 +176,7 @@ def debris(runs: list):
                                           (row[1], "angle", np.degrees(each["angle_edges_rad"]), "angle to the axis [°]")):
             for number, (body, mass) in enumerate(zip(each["body"], each[f"mass_by_{what}_kg"].T, strict=True)):
                 place.stairs(mass * 1e3, edges, fill=True, alpha=0.7, label=in_legend(body),
-                             color=figures.BODY_COLOURS[number % len(figures.BODY_COLOURS)])  # fmt: skip
+                             color=figures.BODY_COLOURS[number % len(figures.BODY_COLOURS)])
             place.set_yscale("log")
             _labels(place, label, "mass in a bin [g]")
         row[1].set_xlim(0.0, _last(each["mass_by_angle_kg"], np.degrees(each["angle_edges_rad"])))

@@ -22,7 +22,7 @@ Window = tuple[float, float, float] | None
 
 def film(runs: list, path: Path, field: str = "pressure", *, mirror: str | None = None, window: Window = None,
          follow: str | None = None, limits: tuple[float, float] | None = None, rate: float = 10.0,
-         beside: bool = False, dpi: float = DPI) -> int:  # fmt: skip
+         beside: bool = False, dpi: float = DPI) -> int:
     """Writes a film of runs (results.Results): a frame for each dump of the run with most, and the nearest of the others.
 
     Parameters

@@ -201,7 +201,7 @@ class Results:
 
     def section(self, field: str = "pressure", mirror: str | None = None, time: float | None = None, *,
                 axes: Axes | None = None, limits: dict[str, tuple[float, float]] | None = None,
-                window: tuple[float, float, float] | None = None, colour_bar: bool = True) -> Axes:  # fmt: skip
+                window: tuple[float, float, float] | None = None, colour_bar: bool = True) -> Axes:
         """Draws a section of the dump nearest to a time in s, or of the last dump, in matplotlib axes and returns them.
 
         field, mirror : fields of the upper and the lower half, such as "pressure", "velocity:z", "body_temperature:plate"
@@ -219,7 +219,7 @@ class Results:
         if axes is None:
             axes = figures.own_axes(dump, window)
         drawn = figures.section(axes, dump, field, mirror, limits, title=self.label, depth_line=self.measured_position,
-                                window=window)  # fmt: skip
+                                window=window)
         if colour_bar:
             figures.colour_bars(axes, dump, drawn)
         return axes
@@ -280,7 +280,7 @@ class Results:
         table = _table(self.tables, "stop")
         numbers = {key: _number(table, key) for key in ("time", "cycles", "speed_below")}
         others = {key: table[key] for key, kind in (("body", str), ("rebound", bool), ("perforation", bool))
-                  if isinstance(table.get(key), kind)}  # fmt: skip
+                  if isinstance(table.get(key), kind)}
         return {key: number for key, number in numbers.items() if number is not None} | others
 
     @property
@@ -330,7 +330,7 @@ class Results:
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{in_html(name)}</th><td>{in_html(said)}</td></tr>"
-                       for name, said in self._facts().items())  # fmt: skip
+                       for name, said in self._facts().items())
         return f"<table><caption>{in_html(self.label)}</caption>{rows}</table>"
 
 

@@ -71,7 +71,7 @@ class Scale:
             raise FigureError(f"a logarithmic scale begins above 0, not at {limits[0]:g}")
         diverging = limits[0] < 0.0 and limits[0] == -limits[1]
         return {"cmap": self.colours or ("RdBu_r" if diverging else "viridis"),
-                "norm": (LogNorm if self.log else Normalize)(*limits)}  # fmt: skip
+                "norm": (LogNorm if self.log else Normalize)(*limits)}
 
 
 LINEAR = Scale()

@@ -47,14 +47,14 @@ def _draw_mesh(axes, dump: Dump, pixels: np.ndarray) -> int:
 def _draw_stations(axes, deck) -> None:
     """Draws tracers as dots and gauges as crosses, with their names if there are few."""
     kinds = [("o", "#c1121f", [(entry.name, (entry.r, entry.z)) for entry in deck.tracer]),
-             ("x", "#005f99", [place for entry in deck.gauge for place in entry.places()])]  # fmt: skip
+             ("x", "#005f99", [place for entry in deck.gauge for place in entry.places()])]
     few = sum(len(places) for *_, places in kinds) <= NAMED
     for marker, colour, places in kinds:
         for name, (r, z) in places:
             axes.plot(z * 1e3, r * 1e3, marker, color=colour, markersize=3.5, markeredgewidth=1.0)
             if few:
                 axes.annotate(figures.verbatim(name), (z * 1e3, r * 1e3), (2, 3), textcoords="offset points", fontsize=6,
-                              color=colour)  # fmt: skip
+                              color=colour)
 
 
 def _stations_in_words(deck) -> str:

@@ -44,7 +44,7 @@ def _renewed(summary: dict, text: str) -> dict:
     came = outcome.of(
         Projectile(**{name: summary.get(name) for name in Projectile.model_fields}), status=summary.get("status") or "",
         stop_reason=summary.get("stop_reason") or "", impact_velocity=velocity, thickness=thickness, experiment=experiment,
-        dropped=outcome.ratio(taken.get("energy_J"), audit.get("start_energy_J")))  # fmt: skip
+        dropped=outcome.ratio(taken.get("energy_J"), audit.get("start_energy_J")))
     return summary | {"outcome": came.model_dump()}
 
 

@@ -72,7 +72,7 @@ def craters(runs: list) -> Table:
     """The holes at the end: a row for each run (results.Results), target and place. Raises FigureError if no run has one."""
     heads = ["run", "target", head("depth below the original surface", "mm"), head("radius of the hole", "mm")]
     rows = [(run.label, target, *row) for run in runs for target, depth, radius in figures.holes(run)
-            for row in zip(depth.tolist(), radius.tolist(), strict=True)]  # fmt: skip
+            for row in zip(depth.tolist(), radius.tolist(), strict=True)]
     if not rows:
         raise FigureError("no run has a hole to draw")
     return Table(heads, rows)

@@ -201,7 +201,7 @@ class _Shot(run.Run):
             ("stop checks", self.sim, "stop_reason"), ("history", self.sim, "diagnostics"),
             ("history", self.sim, "conservation"), ("history", self.history, "write"), ("fields", self.series, "dump"),
             ("copies and restart files", self, "_snapshot"), ("copies and restart files", self, "_save"),
-        ):  # fmt: skip
+        ):
             setattr(owner, method, self._timed(name, getattr(owner, method)))
 
     def _timed(self, name: str, method: Callable) -> Callable:
@@ -275,7 +275,7 @@ def lines(case: dict) -> list[str]:
     """The printed lines of a case."""
     shown = [f"  {case['name']:26s} {case['ns_per_cell_cycle']:7.1f} ns per cell and cycle, "
              f"{case['triad_updates_per_cell_cycle']:6.1f} triad updates at {case['triad_gb_s']:.1f} GB/s  "
-             f"({case['cells']} cells, {case['cycles']} cycles)"]  # fmt: skip
+             f"({case['cells']} cells, {case['cycles']} cycles)"]
     if case["name"] == WHOLE_SHOT:
         depth, memory = case["penetration_depth_m"] * 1e2, case["peak_memory_bytes"] / 2**20
         shares = ", ".join(f"{name} {100 * share:.2f} %" for name, share in case["shares_beside_cycles"].items())
@@ -303,7 +303,7 @@ def header(about: dict) -> list[str]:
 
 
 def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = None, cycles: int | None = None,
-            shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = say) -> dict:  # fmt: skip
+            shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = say) -> dict:
     """Measures cases on one thread and on all, and returns what `--json` writes.
 
     cases, threads : the cases, and the numbers of threads for each

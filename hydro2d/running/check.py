@@ -60,7 +60,7 @@ class Check:
         grid, deck = self.grid, self.deck
         lines = [f"{deck.name}: {one_line(deck.title)}" if deck.title else deck.name, ""]
         lines += [f"mesh      {grid.nr} x {grid.nz} = {grid.cells} cells, {grid.geometry}; "
-                  + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]  # fmt: skip
+                  + ("the axis is r = 0" if grid.cylindrical and grid.r_edges[0] == 0 else "no axis")]
         lines += [f"          {_axis(name, edges)}" for name, edges in (("r", grid.r_edges), ("z", grid.z_edges))]
         lines += [f"          boundaries: {', '.join(self._edge(key) for key in EDGES)}", ""]
         for m, body in enumerate(self.table.names):
@@ -75,7 +75,7 @@ class Check:
         time = f"{duration(self.wall(threads))} on {several(threads, 'thread')} (a guess)"
         lines += [f"cost      about {several(self.cycles, 'cycle')}, {time}, "
                   f"{self.memory / 2**20:.0f} MiB of memory, at most {self.disk / 2**20:.0f} MiB on disk with "
-                  f"{several(self.dumps, 'dump')}"]  # fmt: skip
+                  f"{several(self.dumps, 'dump')}"]
         return lines + [f"warning   {text}" for text in self.warnings]
 
     @property
@@ -117,7 +117,7 @@ class Check:
         lines = []
         for number, name in enumerate(names):
             others = [m for m, other in enumerate(names) if (name in hard) == (other in hard) and motions[m] != motions[number]
-                      and (m > number or motions[m] == AT_REST)]  # fmt: skip
+                      and (m > number or motions[m] == AT_REST)]
             if others and motions[number] != AT_REST:
                 bears = float(min(limits[m] for m in (number, *others)))
                 until = f"until one of them fractures, at {bears * 1e-9:.3g} GPa of tension" if bears < math.inf else "always"
@@ -135,7 +135,7 @@ class Check:
         radius = decks.extent(entry, deck, "r")[1]
         radii = f" ({ahead / radius:.3g} radii)" if np.isfinite(radius) else ""
         lines = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
-                     f"{behind * 1e3:.4g} mm behind"]  # fmt: skip
+                     f"{behind * 1e3:.4g} mm behind"]
         edge = z[-1] if direction > 0 else z[0]
         for other in deck.body:
             ends = sorted(direction * (end - edge) for end in decks.extent(other, deck, "z"))
@@ -143,7 +143,7 @@ class Check:
                 first = max(ends[0], 0.0)
                 begin = first / abs(entry.velocity[1])
                 lines.append(f"          {other.name} enters the mesh from {begin * 1e6:.4g} us on, over "
-                             f"{(ends[1] - first) * 1e3:.4g} mm of its travel")  # fmt: skip
+                             f"{(ends[1] - first) * 1e3:.4g} mm of its travel")
         return lines
 
     def _crosses(self) -> list[str]:
@@ -202,7 +202,7 @@ def check(deck) -> Check:
         masses=dict(zip(table.names, mass.tolist(), strict=True)),
         memory=memory_needed.needed(deck), cycles=cycles,
         seconds=cycles * grid.cells * pace * 1e-9, warnings=empty + decks.warnings(deck) + dark,
-    )  # fmt: skip
+    )
 
 
 def _sources(deck, grid, table, start) -> list[str]:
@@ -278,7 +278,7 @@ def _sliding(deck) -> str:
     if slide.method == "none":
         return slide.method
     return (f"{slide.method}; hard: {', '.join(slide.hard)}; friction {slide.friction:g}, "
-            f"yield factor {decks.yield_factor(deck):.5g}")  # fmt: skip
+            f"yield factor {decks.yield_factor(deck):.5g}")
 
 
 def _stop(stop) -> str:

@@ -106,7 +106,7 @@ class Clock:
         if end is None:
             return Outlook()
         return Outlook(end, min(sim.time / end.time, 1.0) if end.time > 0.0 else 1.0,
-                       max(end.time - sim.time, 0.0) / by_time if by_time else None)  # fmt: skip
+                       max(end.time - sim.time, 0.0) / by_time if by_time else None)
 
     def _pace(self, sim) -> tuple[float, float]:
         """Simulated seconds, and cycles, per second in the last minute; zeros if not known."""
@@ -357,7 +357,7 @@ def _costs(summary: dict) -> str:
     """'450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); compilation 1 min 17 s, outputs 0.4 s'."""
     pace = summary["ns_per_cell_cycle"]
     others = [f"{name} {duration(summary[key], tenths=True)}" for name, key in OTHER_COSTS.items()
-              if summary[key] >= LEAST_COST]  # fmt: skip
+              if summary[key] >= LEAST_COST]
     return (f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {duration(summary['cycles_s'], tenths=True)}"
             + (f" ({pace:.1f} ns per cell and cycle, cycles alone)" if pace else "")
             + (f"; {', '.join(others)}" if others else ""))

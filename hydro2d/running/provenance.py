@@ -16,7 +16,7 @@ from hydro2d.base.version import __version__
 
 PACKAGES = (
     "numpy", "numba", "llvmlite", "h5py", "vtk", "pyvista", "matplotlib", "pydantic", "pint", "cyclopts", "rich",
-)  # fmt: skip
+)
 
 
 def _git(*arguments: str) -> str | None:
@@ -25,7 +25,7 @@ def _git(*arguments: str) -> str | None:
         done = subprocess.run(
             ["git", "-C", str(Path(__file__).resolve().parent), *arguments],
             capture_output=True, text=True, errors="replace", timeout=10, check=False,
-        )  # fmt: skip
+        )
     except (OSError, subprocess.TimeoutExpired):
         return None
     return done.stdout.strip() if done.returncode == 0 else None

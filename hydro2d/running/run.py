@@ -113,7 +113,7 @@ class Run:
     """
 
     def __init__(self, deck, directory: Path, *, restart: bool, report, columns: Mapping[str, Callable] | None = None,
-                 compiled: Compilation | None = None, theory: Theory | None = None):  # fmt: skip
+                 compiled: Compilation | None = None, theory: Theory | None = None):
         from hydro2d.jit import threads
         from hydro2d.solver.simulation import Simulation
 
@@ -312,7 +312,7 @@ class Run:
             time_s=self.sim.time, cycles=self.sim.cycle, fraction=outlook.share, left_s=outlook.left, wall_s=self.wall,
             penetration_depth_m=measured.get("penetration_depth_m"),
             rod_tail_velocity_m_s=measured.get("rod_tail_velocity_m_s"), host=self.provenance["host"], process=os.getpid(),
-        ).model_dump())  # fmt: skip
+        ).model_dump())
         self.published = clock.perf_counter()
 
     def _snapshot(self, reuse: snapshot.Snapshot | None = None) -> snapshot.Snapshot:
@@ -435,7 +435,7 @@ class Run:
             crater=next((target.crater for target in targets.values()), None), targets=targets,
             derived={name: last[name] for name in sim.formulas}, bodies=sim.of_bodies(), stations=sim.stations.measure(),
             experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance,
-        ).model_dump()  # fmt: skip
+        ).model_dump()
 
 
 def models_from_outside(deck) -> list[dict]:
@@ -453,7 +453,7 @@ def experiment(deck) -> Experiment | None:
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
         interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None, second: bool | None = None,
-        theory: Theory | None = None) -> dict:  # fmt: skip
+        theory: Theory | None = None) -> dict:
     """Runs a deck in a directory and returns its summary.
 
     deck : a resolved deck, from deck.load

@@ -37,7 +37,7 @@ def at_most(threads: int | None) -> Iterator[None]:
         return
     if not 1 <= threads <= jit.max_threads():
         raise ThreadsError(f"threads = {threads}: this process can use from 1 to {jit.max_threads()}; the environment variable "
-                           "NUMBA_NUM_THREADS sets the largest number before hydro2d is imported")  # fmt: skip
+                           "NUMBA_NUM_THREADS sets the largest number before hydro2d is imported")
     before = jit.threads()
     jit.set_threads(threads)
     try:

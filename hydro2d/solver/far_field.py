@@ -51,7 +51,7 @@ def _beside(deck, grid, edge: int) -> tuple[Grid, Grid]:
     if deck.mesh.follow is not None and edge >= 2:
         strip = lines
     return (Grid(lines, z, grid.geometry), Grid(strip, z, grid.geometry)) if edge < 2 else (
-        Grid(r, lines, grid.geometry), Grid(r, strip, grid.geometry))  # fmt: skip
+        Grid(r, lines, grid.geometry), Grid(r, strip, grid.geometry))
 
 
 def _from_the_edge(values: np.ndarray, edge: int) -> np.ndarray:

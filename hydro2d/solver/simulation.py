@@ -205,7 +205,7 @@ class Simulation:
         return self.engine.audit
 
     def run(self, until: float | str | Callable[[Simulation], bool] | None = None,
-            callbacks: Iterable[Callable[[Simulation], object]] = ()) -> str:  # fmt: skip
+            callbacks: Iterable[Callable[[Simulation], object]] = ()) -> str:
         """Steps until a condition ends the run, and returns that condition. Call it again to continue.
 
         Parameters
@@ -339,7 +339,7 @@ class Simulation:
             return {}
         results, debris = {}, self.debris()
         for target, passage, crater, front in zip(self.penetrator.targets, self.penetrator.passages(), self.craters,
-                                                  self._ejecta, strict=True):  # fmt: skip
+                                                  self._ejecta, strict=True):
             hole, behind = crater.measure(), debris[target.name]
             damage = wall_damage.classify(self, crater, hole, front.lost)
             results[target.name] = Target(**passage, damage_class=damage, crater=hole, debris=behind.totals,
@@ -358,7 +358,7 @@ class Simulation:
         dropped = outcome.ratio(taken.energy if taken else None, audit.start.energy)
         return outcome.of(self.penetrator.measure(), status=status, stop_reason=stop_reason, dropped=dropped,
                           impact_velocity=decks.impact_velocity(self.deck), thickness=targets.thickness(self.deck),
-                          experiment=self.deck.experiment)  # fmt: skip
+                          experiment=self.deck.experiment)
 
     def debris(self) -> dict[str, Debris]:
         """Debris behind each target, by the target's name; empty without projectile and target."""

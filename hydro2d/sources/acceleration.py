@@ -19,7 +19,7 @@ class Acceleration(Source):
         Parameter("axial", "s, m/s^2", REQUIRED, "acceleration towards +z: a constant, or a table of [time, acceleration], "
                   "straight between its rows, zero before the first and after the last", sign=ANY, example="-9.81 m/s^2",
                   table=CONSTANT_OR_OVER_TIME),
-    )  # fmt: skip
+    )
 
     def push(self, grid, time: float, dt: float) -> np.ndarray:
         """The integral of the acceleration over the step times the share of a cell that lies within reach."""

@@ -36,7 +36,7 @@ class Detonation(Source):
                   example=2.5),
         Parameter("speed", "m/s", None, "speed of the detonation; default: detonation_velocity of the explosive", sign=POSITIVE,
                   example="6930 m/s"),
-    )  # fmt: skip
+    )
 
     def misfit(self, material) -> str | None:
         """Why the material of the body cannot be lit, or None; material : materials.material.Material."""

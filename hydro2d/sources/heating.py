@@ -19,7 +19,7 @@ class Heating(Source):
         Parameter("power", "s, W/kg", REQUIRED, "table of [time, power per mass], straight between its rows, zero before the "
                   "first and after the last", sign=ANY, example=[["0 us", "1e11 W/kg"], ["5 us", "1e11 W/kg"]],
                   table=OVER_TIME),
-    )  # fmt: skip
+    )
 
     def heat(self, grid, time: float, dt: float) -> np.ndarray:
         """The integral of the power over the step times the share of a cell that lies within reach, J/kg, float64[nz, nr]."""

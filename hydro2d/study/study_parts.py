@@ -61,7 +61,7 @@ def is_of_parts(path: Path) -> bool:
 
 
 def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = (), *, again: bool = False,
-          quiet: bool = False) -> list[Chosen]:  # fmt: skip
+          quiet: bool = False) -> list[Chosen]:
     """The parts of a study, with all decks resolved.
 
     overrides : of all decks, over those of [set];  size : replaces members and cells of all parts
@@ -72,7 +72,7 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
     path = Path(path)
     definition, *_ = read(path, overrides)
     chosen = [(part, name) for part, name in zip(definition.part, _names(definition), strict=True)
-              if not only or any(fnmatchcase(name, pattern) for pattern in only)]  # fmt: skip
+              if not only or any(fnmatchcase(name, pattern) for pattern in only)]
     if not chosen:
         raise StudyError(f"only {' '.join(only)}: matches no part; parts: {', '.join(_names(definition))}")
     parts = []

@@ -64,7 +64,7 @@ def cases(rows: list[dict[str, str]]) -> dict[tuple[str, ...], list[dict[str, st
 def references(rows: list[dict[str, str]]) -> dict[str, float]:
     """Median depth in steel alone, mm, by cells across the radius of the rod."""
     return {cells: median(float(row["depth_mm"]) for row in members)
-            for (cells, ceramic, _), members in cases(rows).items() if ceramic == "steel"}  # fmt: skip
+            for (cells, ceramic, _), members in cases(rows).items() if ceramic == "steel"}
 
 
 def table(rows: list[dict[str, str]]) -> list[str]:

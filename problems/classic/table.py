@@ -61,7 +61,7 @@ MEASURES = {
     "block_in_hole": Measure("velocity of the block", "m/s", 1, "200", _body("block", "velocity_m_s", 1.0)),
     "jet": Measure("depth", "mm", 1, "23.2 to 23.6", _crater),
     "plate_on_wall": Measure("velocity of the disc", "m/s", 1, "a little less than 50", _body("disc", "velocity_m_s", 1.0)),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -119,7 +119,7 @@ def _of(case: hydro2d.Case) -> Result:
     status = ("trusted" if summary["trustworthy"] else "not trusted") if ended else "unphysical"
     return Result(shot, case.values.get("sliding", "none"), case.values["advection"], status,
                   None if value is None else round(value, 3), discarded, clipped, round(1e6 * summary["time_s"], 2),
-                  summary["cycles"], _short(next(iter(summary["faults"]), "")))  # fmt: skip
+                  summary["cycles"], _short(next(iter(summary["faults"]), "")))
 
 
 def _short(fault: str) -> str:
@@ -140,7 +140,7 @@ def table(results: list[Result]) -> list[str]:
     """Lines of Markdown: a row for each shot and sliding."""
     by_labels = {(result.shot, result.sliding, result.advection): result for result in results}
     lines = ["| shot | number | expected | sliding | " + " | ".join(f"`{name}`" for name in ADVECTION) + " |",
-             "|---" * (4 + len(ADVECTION)) + "|"]  # fmt: skip
+             "|---" * (4 + len(ADVECTION)) + "|"]
     for shot, sliding in dict.fromkeys((result.shot, result.sliding) for result in results):
         measure = MEASURES[shot]
         cells = " | ".join(str(by_labels.get((shot, sliding, name), "")) for name in ADVECTION)

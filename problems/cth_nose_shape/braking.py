@@ -61,9 +61,9 @@ def measure(directory: Path) -> dict[str, str]:
     pressure = dump.fields["Pressure [Pa]"]
     rr, zz, tt = (dump.fields[f"Deviatoric Stress {each} [Pa]"] for each in ("rr", "zz", "tt"))
     axial, lateral = section(np.asarray(dump.r_edges), np.asarray(dump.z_edges), dump.fields["Volume Fraction for rod"],
-                             pressure - zz, pressure - 0.5 * (rr + tt))  # fmt: skip
+                             pressure - zz, pressure - 0.5 * (rr + tt))
     told = (f"{1e-9 * force:.3f}", f"{1e3 * history['rod_length_m'][-1]:.2f}", f"{1e3 * history['rod_max_radius_m'][-1]:.3f}",
-            f"{1e-9 * axial:.2f}", f"{1e-9 * lateral:.2f}")  # fmt: skip
+            f"{1e-9 * axial:.2f}", f"{1e-9 * lateral:.2f}")
     return dict(zip(MEASURED, told, strict=True))
 
 
@@ -95,7 +95,7 @@ def keep(directory: Path) -> None:
 def rods(rows: list[dict[str, str]]) -> list[str]:
     """Lines of Markdown: a row for each rod and mesh."""
     lines = ["| rod | cells | runs | force, GPa | length, mm | largest radius, mm | axial, GPa | flank, GPa |",
-             "|---|---|---|---|---|---|---|---|"]  # fmt: skip
+             "|---|---|---|---|---|---|---|---|"]
     for rod, cells in dict.fromkeys((row["rod"], row["cells"]) for row in rows):
         members = [row for row in rows if (row["rod"], row["cells"]) == (rod, cells)]
         numbers = " | ".join(results.told(members, column) for column in MEASURED)

@@ -24,7 +24,7 @@ OTHERS = HERE.parent / "validation"
 CELLS = 8.5
 #: ways to fail, by what the studies call them
 WAYS = {"none": "none", "fracture pressure": "fracture pressure", "1.8 GPa": "1.8 GPa", "damage of 4340": "damage",
-        "damage of 90W-7Ni-3Fe": "damage", "Johnson-Cook damage": "damage", "strain 150 %": "strain 150 %"}  # fmt: skip
+        "damage of 90W-7Ni-3Fe": "damage", "Johnson-Cook damage": "damage", "strain 150 %": "strain 150 %"}
 #: shots by the label that studies give them: what the table calls them, and the deck that has the measured depth
 SHOTS = {
     "5083-1296": ("tungsten into 5083, 1296 m/s", HERE / "hemi_5083_1296.toml"),
@@ -83,9 +83,9 @@ def draw(found: dict[tuple[str, str], dict[str, list[float]]]):
     ways = list(dict.fromkeys(WAYS.values()))
     for number, way in enumerate(ways):
         dots = [(column + 0.12 * (number - 0.5 * (len(ways) - 1)), depth / measured(shot))
-                for column, ((shot, _), depths) in enumerate(found.items()) for depth in depths.get(way, [])]  # fmt: skip
+                for column, ((shot, _), depths) in enumerate(found.items()) for depth in depths.get(way, [])]
         axes.plot(*zip(*dots, strict=True) if dots else ([], []), "o", color=COLOURS[number % len(COLOURS)], label=way,
-                  alpha=0.8)  # fmt: skip
+                  alpha=0.8)
     axes.axhline(1.0, color="black", linewidth=0.8)
     short = {"": "", "Steinberg-Guinan": "Steinberg-Guinan", "Johnson-Cook, sintered": "Johnson-Cook"}
     names = ["\n".join(filter(None, (*SHOTS[shot][0].split(", "), short.get(law, law)))) for shot, law in found]

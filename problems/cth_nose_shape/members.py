@@ -82,7 +82,7 @@ def scores(found: dict[str, dict[Shot, list[Result]]], head: str = "law") -> lis
     """Lines of Markdown: what every column has right; ``head`` says what the columns are."""
     sides = rigid()
     lines = [f"| {head} | shots | members on the right side | shots with nine in ten on it | depths within the aim |",
-             "|---|---|---|---|---|"]  # fmt: skip
+             "|---|---|---|---|---|"]
     for column, cases in found.items():
         known = {shot: members for shot, members in cases.items() if shot in sides}
         if not known:
@@ -115,9 +115,9 @@ def panel(axes, nose: str, alloy: str, found: dict[str, dict[Shot, list[Result]]
         _dots(axes, column, COLOURS[number % len(COLOURS)], here)
     for marker, is_measured, label in (("s", True, "experiment"), ("^", False, "experiment, perforated")):
         shots = [(shot.velocity, 1e2 * told.depth) for shot, told in rigid_rod.experiments().items()
-                 if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, is_measured)]  # fmt: skip
+                 if (shot.nose, shot.alloy, told.kind != "at least") == (nose, alloy, is_measured)]
         axes.plot(*zip(*shots, strict=True) if shots else ([], []), marker, color="black", markersize=8,
-                  markerfacecolor="none", label=label)  # fmt: skip
+                  markerfacecolor="none", label=label)
     axes.axhline(PLATE, color="black", linewidth=0.5, linestyle=":")
     axes.grid(alpha=0.3)
 
@@ -139,7 +139,7 @@ def _dots(axes, column: str, colour: str, members: dict[float, list[Result]]) ->
     for marker, through in (("o", False), ("^", True)):
         dots = [(at, result.reach) for at in places for result in members[at] if (result.depth is None) == through]
         axes.plot(*zip(*dots, strict=True) if dots else ([], []), marker, color=colour, markersize=5, alpha=0.6,
-                  label="_" if through else column)  # fmt: skip
+                  label="_" if through else column)
 
 
 def main(arguments: list[str] | None = None) -> int:

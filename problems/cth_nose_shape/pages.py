@@ -65,7 +65,7 @@ def _transitions() -> list[str]:
 
 
 def _of_advection(make: Callable[[findings.Runs], list[str]],
-                  take: Callable[[rigid_rod.Result], bool] = lambda run: True) -> Callable[[], list[str]]:  # fmt: skip
+                  take: Callable[[rigid_rod.Result], bool] = lambda run: True) -> Callable[[], list[str]]:
     def lines() -> list[str]:
         runs = list(filter(take, rigid_rod.read(findings.FILE)))
         return [*make(findings.grouped(runs)), *rigid_rod.notes(runs)]
@@ -115,7 +115,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "uncertain_meshes": lambda: [*probability.compared(_samples(), _fine()), *_uncertain_notes(probability.FINER)],
     "uncertain_refined": lambda: probability.refined(_samples(), _fine()),
     "uncertain_shares": lambda: probability.shares(_samples()),
-}  # fmt: skip
+}
 
 
 def filled(text: str) -> str:

@@ -46,14 +46,14 @@ STUDY = HERE / "uncertain_shots.toml"
 VELOCITY, LAW, FACTOR = "body.rod.velocity (difference) [m/s]", "body.rod.material", "body.rod.strength_factor"
 PLATE_FACTOR, FRICTION = "body.plate.strength_factor", "sliding.friction"
 NAMES = {VELOCITY: "velocity", LAW: "law", FACTOR: "factor of the rod", PLATE_FACTOR: "factor of the plate",
-         FRICTION: "friction"}  # fmt: skip
+         FRICTION: "friction"}
 #: flow stress in MPa at plastic strains, 1e4 per second, heated by the plastic work: `hydro2d curve W_alloy W_sintered ...`
 STRAINS = (0.1, 0.5, 1.0)
 STRENGTH = {"Steinberg-Guinan": (1991.0, 2157.0, 2170.0), "JC-sintered": (2100.0, 1967.0, 1547.0),
-            "JC-90W": (1777.0, 1430.0, 1072.0), "JC-Y925": (1755.0, 1528.0, 1190.0)}  # fmt: skip
+            "JC-90W": (1777.0, 1430.0, 1072.0), "JC-Y925": (1755.0, 1528.0, 1190.0)}
 #: the laws as results/twelve_shots.csv names them
 MEMBERS = {"Steinberg-Guinan": "Steinberg-Guinan", "JC-sintered": "Johnson-Cook, sintered", "JC-90W": "Johnson-Cook, 90W",
-           "JC-Y925": "Johnson-Cook, Y925"}  # fmt: skip
+           "JC-Y925": "Johnson-Cook, Y925"}
 #: draws of the inputs for each law, and of the numbers of (1); the seed of both; walkers and their steps, half to settle
 DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
 #: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_mu
@@ -73,7 +73,7 @@ USUAL = 1100.0
 def samples(cells: float = USUAL_CELLS, nose: str = rigid_rod.NOSES["hemi"]) -> dict[Shot, hydro2d.Samples]:
     """The rows of every shot of rods with this nose, on so many cells across the radius. Raises StudyError, OSError."""
     named = {Shot.named(each.labels[rigid_rod.SHOTS]): each for each in hydro2d.kept_samples(STUDY)
-             if float(each.labels[rigid_rod.CELLS]) == cells}  # fmt: skip
+             if float(each.labels[rigid_rod.CELLS]) == cells}
     return {shot: each for shot, each in named.items() if shot is not None and shot.nose == nose}
 
 
@@ -150,7 +150,7 @@ def points(shot: Shot, sample: hydro2d.Samples, laws: list[str]) -> Points:
     """The inputs of the runs of a shot that are done."""
     number = np.array([laws.index(law) for law in column(sample, LAW)])
     return Points(shot.velocity + column(sample, VELOCITY), number, column(sample, FACTOR), column(sample, PLATE_FACTOR),
-                  column(sample, FRICTION))  # fmt: skip
+                  column(sample, FRICTION))
 
 
 def laws_of(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
@@ -166,7 +166,7 @@ def fitted(by_shot: dict[Shot, hydro2d.Samples], alloy: str, fine: dict[Shot, hy
     """
     laws, meshes = laws_of(by_shot), [(by_shot, None if fine is None else False), (fine or {}, True)]
     there = [(points(shot, sample, laws), finer, ~held(sample)) for mesh, finer in meshes for shot, sample in mesh.items()
-             if shot.alloy == alloy]  # fmt: skip
+             if shot.alloy == alloy]
     terms = np.vstack([at.terms(len(laws), finer) for at, finer, _ in there])
     speed = np.concatenate([np.log(at.velocity / USUAL) for at, *_ in there])
     sign = np.where(np.concatenate([lost for *_, lost in there]), -1.0, 1.0)
@@ -260,7 +260,7 @@ def outcomes(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
         low, median, high = np.quantile(reach(sample), (SPREAD[0], 0.5, SPREAD[1]))
         share = hydro2d.wilson(int(right.sum()), len(right))
         lines.append(f"| {shot} | {measured[shot]} | {median:.1f} cm, {low:.1f} to {high:.1f} cm | {share.words} "
-                     f"| {' | '.join(by_law)} |")  # fmt: skip
+                     f"| {' | '.join(by_law)} |")
     return lines
 
 
@@ -270,11 +270,11 @@ def likelihoods(inference: Inference) -> list[str]:
     alone = {shot: inference.of_law(each) for shot, each in inference.seen.items()}
     after = together / together.sum(axis=1, keepdims=True)
     lines = ["| law | all outcomes together | shot that is least probable | probability of the law after the experiments |",
-             "|---" * 4 + "|"]  # fmt: skip
+             "|---" * 4 + "|"]
     for number, law in enumerate(inference.laws):
         worst = min(alone, key=lambda shot: alone[shot][:, number].mean())
         lines.append(f"| {law} | {_interval(together[:, number], 3)} | {worst.alloy}, {worst.velocity:g} m/s: "
-                     f"{alone[worst][:, number].mean():.2f} | {_interval(after[:, number], 2)} |")  # fmt: skip
+                     f"{alone[worst][:, number].mean():.2f} | {_interval(after[:, number], 2)} |")
     lines.append(f"| all, each a quarter | {_interval(together.mean(axis=1), 3)} | | |")
     return lines
 
@@ -306,11 +306,11 @@ def halves(inference: Inference) -> list[str]:
     after : median and 5 to 95 % with the points weighed by the probability of what was seen
     """
     heads = ("plate", "experiments", "half of the rods", "u_num", "u_input", "u_input with one law", "u_fit",
-             "after the experiments")  # fmt: skip
+             "after the experiments")
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for alloy in ALLOYS:
         rods = sorted((shot.velocity, told.rigid) for shot, told in rigid_rod.experiments().items()
-                      if shot.alloy == alloy and shot in inference.seen)  # fmt: skip
+                      if shot.alloy == alloy and shot in inference.seen)
         bracket = f"{max(at for at, rigid in rods if rigid):g} to {min(at for at, rigid in rods if not rigid):g} m/s"
         half = inference.half[alloy]
         middle = float(np.median(half))
@@ -320,7 +320,7 @@ def halves(inference: Inference) -> list[str]:
         least, after, most = _quantiles(half.ravel(), inference.together.ravel())
         lines.append(f"| {alloy} | {bracket} | {middle:.0f} m/s | {chance:.0f} ({low:.0f} to {high:.0f}) | {of_inputs:.0f} "
                      f"| {within:.0f} | {_width(np.median(half, axis=1), axis=0):.0f} "
-                     f"| {after:.0f} m/s, {least:.0f} to {most:.0f} |")  # fmt: skip
+                     f"| {after:.0f} m/s, {least:.0f} to {most:.0f} |")
     return lines
 
 
@@ -334,7 +334,7 @@ def halves_by_law(by_shot: dict[Shot, hydro2d.Samples], inference: Inference) ->
             low, middle, high = np.quantile(inference.half[alloy][:, inference.at.law == number], (ENDS[0], 0.5, ENDS[1]))
             some = any(kept.any() for kept in there.values())
             cells.append(f"{middle:.0f} m/s, {low:.0f} to {high:.0f}" if some
-                         else f"below {min(shot.velocity for shot in there):.0f} m/s")  # fmt: skip
+                         else f"below {min(shot.velocity for shot in there):.0f} m/s")
         lines.append(f"| {law} | {' | '.join(cells)} |")
     return lines
 
@@ -348,7 +348,7 @@ def slopes(inference: Inference) -> list[str]:
         first = 1 + len(inference.laws)
         moved = np.median(inference.half[alloy]) * np.array(steps) * inference.numbers[alloy][:, first : first + len(steps)]
         cells = [f"{middle:+.0f} m/s ({low:+.0f} to {high:+.0f})" for low, middle, high
-                 in np.quantile(moved, (ENDS[0], 0.5, ENDS[1]), axis=0).T]  # fmt: skip
+                 in np.quantile(moved, (ENDS[0], 0.5, ENDS[1]), axis=0).T]
         lines.append(f"| {alloy} | {' | '.join(cells)} |")
     return lines
 
@@ -367,14 +367,14 @@ def foretold(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     last = max(int(sample.columns["row"].max()) for sample in by_shot.values())
     halves_of = {f"1 to {last // 2}": (0, last // 2), f"{last // 2 + 1} to {last}": (last // 2, last)}
     lines = ["| rows | all outcomes together | foretold of the other rows | probability of what happened: geometric mean |",
-             "|---|---|---|---|"]  # fmt: skip
+             "|---|---|---|---|"]
     for words, (first, end) in halves_of.items():
         known, others = ({shot: _rows(sample, (sample.columns["row"] > first) & (sample.columns["row"] <= end), within)
-                          for shot, sample in by_shot.items()} for within in (True, False))  # fmt: skip
+                          for shot, sample in by_shot.items()} for within in (True, False))
         inference = inferred(known)
         happened = np.concatenate([_probabilities(others, alloy, inference.numbers[alloy]) for alloy in ALLOYS])
         lines.append(f"| {words} | {_interval(inference.together.mean(axis=1), 2)} "
-                     f"| {(happened > 0.5).sum()} of {len(happened)} | {np.exp(np.log(happened).mean()):.2f} |")  # fmt: skip
+                     f"| {(happened > 0.5).sum()} of {len(happened)} | {np.exp(np.log(happened).mean()):.2f} |")
     return lines
 
 
@@ -436,7 +436,7 @@ def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Sampl
     """Lines of Markdown: the same points of the inputs on two meshes, whose places on the mesh are not the same."""
     measured, of_shots = rigid_rod.experiments(), [np.zeros((0, 3), dtype=bool)]
     heads = ("shot", "points", *(f"as seen, {cells:g} cells" for cells in (USUAL_CELLS, FINER)), "same outcome",
-             "change of the depth: median, 10 to 90 %")  # fmt: skip
+             "change of the depth: median, 10 to 90 %")
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for shot, sample in fine.items():
         one, other = _by_row(coarse[shot]), _by_row(sample)
@@ -499,13 +499,13 @@ def draw(by_shot: dict[Shot, hydro2d.Samples]):
         there = {shot: sample for shot, sample in by_shot.items() if shot.alloy == alloy}
         for number, law in enumerate(laws):
             dots = [(shot.velocity + 7.0 * (number - 1.5), depth) for shot, sample in there.items()
-                    for depth in reach(sample)[column(sample, LAW) == law]]  # fmt: skip
+                    for depth in reach(sample)[column(sample, LAW) == law]]
             axes.plot(*zip(*dots, strict=True), "o", color=COLOURS[number], markersize=4, alpha=0.6, label=law)
         for shot, sample in there.items():
             low, high = np.quantile(reach(sample), SPREAD)
             axes.fill_between([shot.velocity - 18.0, shot.velocity + 18.0], low, high, color="black", alpha=0.08, linewidth=0)
         axes.plot(*zip(*((shot.velocity, 1e2 * measured[shot].depth) for shot in there), strict=True), "s", color="black",
-                  markersize=9, markerfacecolor="none", label="experiment")  # fmt: skip
+                  markersize=9, markerfacecolor="none", label="experiment")
         axes.set_title(f"hemispherical nose, {alloy} aluminium", fontsize="medium")
         axes.grid(alpha=0.3)
     finish(figure, panels, 5)
@@ -520,7 +520,7 @@ def main(arguments: list[str] | None = None) -> int:
         by_shot = samples()
         inference = inferred(by_shot)
         for lines in (outcomes(by_shot), validation(by_shot), likelihoods(inference), foretold(by_shot), strengths(inference),
-                      halves(inference), halves_by_law(by_shot, inference), slopes(inference), shares(by_shot)):  # fmt: skip
+                      halves(inference), halves_by_law(by_shot, inference), slopes(inference), shares(by_shot)):
             print("\n".join([*lines, ""]))
         if fine := samples(FINER):
             print("\n".join([*compared(by_shot, fine), "", *refined(by_shot, fine), ""]))

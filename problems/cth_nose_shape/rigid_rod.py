@@ -203,7 +203,7 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
     lines = ["| rod | transition | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 3) + "|"]
     for rod in RODS:
         of_rod = [{shot.velocity: case for shot, case in cases.items() if (shot.nose, shot.alloy) == rod}
-                  for cases in found.values()]  # fmt: skip
+                  for cases in found.values()]
         if not any(of_rod):
             continue
         by_length = [_length(cases) for cases in of_rod]
@@ -211,7 +211,7 @@ def transitions(found: dict[str, dict[Shot, Result]]) -> list[str]:
         depths += [{at: case.reach for at, case in cases.items()} for cases in of_rod]
         by_limit = [_deeper(each, limits[rod]) for each in depths]
         lines += [f"| {', '.join(rod)} | a third of the length lost |  | " + " | ".join(by_length) + " |",
-                  f"| | depth no longer above {limits[rod]:.1f} cm | " + " | ".join(by_limit) + " |"]  # fmt: skip
+                  f"| | depth no longer above {limits[rod]:.1f} cm | " + " | ".join(by_limit) + " |"]
     return lines
 
 

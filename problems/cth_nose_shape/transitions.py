@@ -20,9 +20,9 @@ FILE = HERE / "results" / "transition.csv"
 CASE = ("nose", "cells_across", "law", "plate")
 #: velocities of the experiments between which the change lies, m/s: the fastest rod that stayed rigid, the next that eroded
 EXPERIMENTS = {("hemispherical", "5083"): "1086 to 1200 m/s", ("hemispherical", "7039"): "1038 to 1165 m/s",
-               ("ogival", "5083"): "above 1227 m/s", ("ogival", "7039"): "above 1291 m/s"}  # fmt: skip
+               ("ogival", "5083"): "above 1227 m/s", ("ogival", "7039"): "above 1291 m/s"}
 HEAD = ("nose", "cells", "law", "plate", "experiments", "half of the rods", "90 % interval",
-        "fastest that kept, slowest that lost", "runs")  # fmt: skip
+        "fastest that kept, slowest that lost", "runs")
 
 Rows = list[hydro2d.KeptRow]
 
@@ -73,7 +73,7 @@ def table(rows: Rows) -> list[str]:
     for (nose, cells, law, plate), members in shown.items():
         half, interval, sides = _said(members)
         lines.append(f"| {nose} | {cells} | {law} | {plate} | {EXPERIMENTS[nose, plate]} | {half} | {interval} | {sides} "
-                     f"| {len(members)} |")  # fmt: skip
+                     f"| {len(members)} |")
     note = hydro2d.method_note(row["method"] for members in shown.values() for row in members)
     return [*lines, "", note] if note else lines
 

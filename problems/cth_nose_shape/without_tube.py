@@ -23,7 +23,7 @@ from problems import kept
 HERE = Path(__file__).parent
 DECKS = [HERE / "hemi_5083_1296.toml", HERE / "hemi_7039_1248.toml"]
 LAW = ('body.rod.material="rod_alloy"', 'materials.rod_alloy.based_on="W_sintered"', 'failure.damage="none"',
-       'materials.rod_alloy.eos.reference_density="18.16 g/cm^3"')  # fmt: skip
+       'materials.rod_alloy.eos.reference_density="18.16 g/cm^3"')
 COLUMNS = ("deck", "tube", "depth_cm", "taken_g", "time_us", "cycles")
 #: cycles between two looks; how far the tube is from the shank (m), from the nose (radii), and how slow it is, of the tail
 EVERY, BESIDE, BEHIND, SLOW = 10, 1e-4, 2.7, 0.75

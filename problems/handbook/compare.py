@@ -119,7 +119,7 @@ def slam(h: History) -> Iterator[tuple[str, float]]:
 
 #: what reads a run, by the deck
 READ: dict[str, Callable[[History], Iterator[tuple[str, float]]]] = {
-    each.__name__: each for each in (bubble, water_hammer, bird, tube, cole, reflected, plate, gun, bumper, slam)}  # fmt: skip
+    each.__name__: each for each in (bubble, water_hammer, bird, tube, cole, reflected, plate, gun, bumper, slam)}
 
 
 def cavity(simulation: hydro2d.Simulation) -> float:
@@ -151,7 +151,7 @@ def rows_of(name: str, runs: Path) -> list[dict[str, str]]:
     rows = [row for row in expected() if row["deck"] == name]
     assert [row["quantity"] for row in rows] == list(found), name
     return [{"deck": name, "quantity": quantity, "obtained": f"{value:.4g}", "trusted": trusted}
-            for quantity, value in found.items()]  # fmt: skip
+            for quantity, value in found.items()]
 
 
 def line(row: dict[str, str], found: dict[str, str]) -> str:

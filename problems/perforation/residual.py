@@ -49,7 +49,7 @@ def runs(directories: list[Path]) -> list[Run]:
                 through, crater = summary["outcome"]["perforated"], summary["crater"]
                 cases.append(Run(case.values["nose"], striking, summary["outcome"]["residual_velocity_m_s"] if through else 0.0,
                                  *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
-                                   if through else ())))  # fmt: skip
+                                   if through else ())))
     return sorted(cases, key=lambda run: (run.nose, -run.striking))
 
 
@@ -66,7 +66,7 @@ def table(cases: list[Run]) -> list[str]:
     """Lines of Markdown."""
     measured = experiments()
     lines = ["| nose | striking, m/s | residual: experiment | hydro2d | difference | plug and debris | hole at the rear |",
-             "|---" * 7 + "|"]  # fmt: skip
+             "|---" * 7 + "|"]
     for run in cases:
         there = measured.get((run.nose, run.striking))
         difference = "" if there is None else f"{round(run.residual - there):+d} m/s"
@@ -77,7 +77,7 @@ def table(cases: list[Run]) -> list[str]:
     for nose in dict.fromkeys(run.nose for run in cases):
         shots = [(striking, left) for (name, striking), left in measured.items() if name == nose]
         lines += ["", f"Ballistic limit, {nose}: {limit(shots)} by the shots, "
-                      f"{limit([(run.striking, run.residual) for run in cases if run.nose == nose])} by the runs"]  # fmt: skip
+                      f"{limit([(run.striking, run.residual) for run in cases if run.nose == nose])} by the runs"]
     return lines
 
 

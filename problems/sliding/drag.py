@@ -66,7 +66,7 @@ def measure(directory: Path | str, width: float = 10e-6) -> dict:
         {"time": at.time, "depth": at.depth, "speed": at.speed, "force": mass * at.deceleration / section,
          "cavity": case.rows([max(at.speed, 0.0)])[0]["resistance"]}
         for at in windows(time, speed, depth, width)
-    ]  # fmt: skip
+    ]
 
     def mean(reached: float, left: float = 0.0) -> float | None:
         """Mean resistance over a depth (m) at the end of which the rod's speed is ``left`` (m/s)."""
@@ -77,14 +77,14 @@ def measure(directory: Path | str, width: float = 10e-6) -> dict:
         "speed": float(speed[-1]), "depth": float(depth[-1]), "mean": mean(depth[-1], speed[-1]),
         "cavity_depth": case.rows([impact])[0]["depth"],
         "measured_depth": run.measured_depth, "measured_mean": mean(run.measured_depth),
-    }  # fmt: skip
+    }
 
 
 def table(result: dict) -> str:
     """The measurements as Markdown."""
     lines = [f"**{result['run']}**, {result['velocity']:.0f} m/s{'' if result['ended'] else ', not ended'}", "",
              "| time, us | depth, cm | speed, m/s | force, GPa | cavity expansion, GPa | ratio |",
-             "|---|---|---|---|---|---|"]  # fmt: skip
+             "|---|---|---|---|---|---|"]
     for row in result["rows"]:
         lines.append(
             f"| {row['time'] * 1e6:.0f} | {row['depth'] * 1e2:.2f} | {row['speed']:.1f} | {row['force'] * 1e-9:.2f} "
@@ -92,10 +92,10 @@ def table(result: dict) -> str:
         )
     mean = "" if result["mean"] is None else f", mean resistance {result['mean'] * 1e-9:.2f} GPa"
     lines += ["", f"* run: {result['depth'] * 1e2:.1f} cm with {result['speed']:.0f} m/s left{mean}",
-              f"* cavity expansion: {result['cavity_depth'] * 1e2:.1f} cm"]  # fmt: skip
+              f"* cavity expansion: {result['cavity_depth'] * 1e2:.1f} cm"]
     if result["measured_depth"]:
         lines.append(f"* experiment: {result['measured_depth'] * 1e2:.1f} cm; from a rigid rod a mean resistance of "
-                     f"{result['measured_mean'] * 1e-9:.2f} GPa")  # fmt: skip
+                     f"{result['measured_mean'] * 1e-9:.2f} GPa")
     return "\n".join(lines)
 
 

@@ -78,7 +78,7 @@ SETS = (
     Set("handbooks, decks changed", "the same",
         "after the first run: an empty bubble, four cells across the tube, a heavier wedge",
         "run problems/handbook/slam.toml", predicted=False, studied=False),
-)  # fmt: skip
+)
 
 #: sets of which single_runs.csv has the shots
 SINGLE = ("blast in air", "craters of aluminium balls", "cone through 20 mm", "striker bar")
@@ -128,18 +128,18 @@ def eroding(name: str) -> list[Row]:
     """Luk and Piekutowski's rods, which fail by their fracture pressure."""
     return [Row(name, heads.SHOTS[run.labels["shot"]][0], heads.measured(run.labels["shot"]), "cm", (run.depth,))
             for run in rigid_rod.read(HERE / "results/eroded_heads.csv")
-            if run.labels["failure"] == "fracture pressure" and run.depth is not None]  # fmt: skip
+            if run.labels["failure"] == "fracture pressure" and run.depth is not None]
 
 
 def steel(name: str, file: str, **labels: str) -> list[Row]:
     """Forrestal and Piekutowski's rods, of the runs with these labels."""
     measured = {round(experiment.velocity): 1e2 * experiment.penetration for path in sorted(HERE.glob("rigid_6061_*.toml"))
-                if (experiment := hydro2d.Deck.from_file(path).experiment)}  # fmt: skip
+                if (experiment := hydro2d.Deck.from_file(path).experiment)}
     runs = [run for run in rigid_rod.read(HERE / "results" / file)
             if all(run.labels.get(axis) == label for axis, label in labels.items())]
     return [Row(name, f"{run.labels['shot']} m/s", measured[int(run.labels["shot"])], "cm", (run.depth,))
             for run in sorted(runs, key=lambda run: int(run.labels["shot"]))
-            if int(run.labels["shot"]) in measured and run.depth is not None]  # fmt: skip
+            if int(run.labels["shot"]) in measured and run.depth is not None]
 
 
 def armour(name: str) -> list[Row]:
@@ -155,13 +155,13 @@ def armour(name: str) -> list[Row]:
 def explosives(name: str) -> list[Row]:
     """Velocities of the wall of the cylinder test."""
     return [Row(name, f"{row['explosive']}, {row['quantity']}", *_of_explosive(row), digits=2)
-            for row in of_explosives.kept() if row["quantity"].startswith("wall velocity")]  # fmt: skip
+            for row in of_explosives.kept() if row["quantity"].startswith("wall velocity")]
 
 
 def gurney(name: str) -> list[Row]:
     """Final velocities of metal that an explosive drives."""
     return [Row(name, f"{DRIVEN[row['deck']]}, {row['explosive']}", *_of_explosive(row), digits=2)
-            for row in of_explosives.kept() if row["quantity"] == "final velocity"]  # fmt: skip
+            for row in of_explosives.kept() if row["quantity"] == "final velocity"]
 
 
 def _of_explosive(row: dict[str, str]) -> tuple[float, str, tuple[float]]:
@@ -173,7 +173,7 @@ def single(name: str) -> list[Row]:
     """Shots that were run once."""
     columns = ("set", "shot", "unit", "measured", "computed", "digits")
     return [Row(name, row["shot"], float(row["measured"]), row["unit"], (float(row["computed"]),), digits=int(row["digits"]))
-            for row in kept.rows(HERE / "single_runs.csv", columns) if row["set"] == name]  # fmt: skip
+            for row in kept.rows(HERE / "single_runs.csv", columns) if row["set"] == name]
 
 
 def handbooks(name: str, changed: bool) -> list[Row]:
@@ -181,7 +181,7 @@ def handbooks(name: str, changed: bool) -> list[Row]:
     found = compare.obtained()
     return [Row(name, f"{row['deck']}, {row['quantity']}".replace("_", " "), float(row["expected"]), row["unit"],
                 (float(found[row["deck"], row["quantity"]]["obtained"]),), digits=2)
-            for row in compare.expected() if (row["deck"] in compare.CHANGED) == changed]  # fmt: skip
+            for row in compare.expected() if (row["deck"] in compare.CHANGED) == changed]
 
 
 def rows() -> dict[str, list[Row]]:
@@ -192,7 +192,7 @@ def rows() -> dict[str, list[Row]]:
     sets = (*map(twelve, names, laws), eroding(others[0]),
             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
             steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), explosives(others[4]),
-            gurney(others[5]), *map(single, SINGLE), *map(handbooks, names[-2:], (False, True)))  # fmt: skip
+            gurney(others[5]), *map(single, SINGLE), *map(handbooks, names[-2:], (False, True)))
     return dict(zip(names, sets, strict=True))
 
 

@@ -42,11 +42,11 @@ REFERENCES = {
     (190.0, 25.4e-3): (
         Bar(20e-6, 21.740e-3, 6.384e-3), Bar(40e-6, 18.900e-3, 7.178e-3), Bar(60e-6, 17.375e-3, 7.266e-3, 2.00),
     ),
-}  # fmt: skip
+}
 
 
 def shape(r_edges: np.ndarray, z_edges: np.ndarray, fraction: np.ndarray, strain: np.ndarray, direction: float,
-          time: float) -> Bar:  # fmt: skip
+          time: float) -> Bar:
     """The bar at one time, from its volume fraction and plastic strain in every cell, arrays (nz, nr).
 
     direction : sign of the impact velocity; if it is negative, the foot is at the lower end
@@ -96,7 +96,7 @@ def measure(directory: Path | str, name: str | None = None) -> dict:
         "compared": [
             {"found": asdict(at(bars, one.time)), "reference": asdict(one)} for one in known if one.time <= last(bars)
         ],
-    }  # fmt: skip
+    }
 
 
 def last(bars: list[Bar]) -> float:
@@ -115,7 +115,7 @@ def table(run: dict) -> str:
     """The measurements as Markdown, at the times of the reference, or for every dump if there is no reference."""
     lines = [f"**{run['run']}**, {run['body']} at {run['velocity']:.0f} m/s{'' if run['ended'] else ', not ended'}", "",
              "| time, us | length, mm | reference | error | foot, mm | reference | error | plastic strain | reference |",
-             "|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
+             "|---|---|---|---|---|---|---|---|---|"]
     pairs = [(pair["found"], pair["reference"]) for pair in run["compared"]] or [(bar, None) for bar in run["bars"]]
     for bar, known in pairs:
         cells = [f"{bar['time'] * 1e6:.1f}"]

@@ -45,7 +45,7 @@ STAYED_RIGID, ERODED = "stayed rigid", "eroded"
 HARDNESS, WELDOX, BAR = "tungsten into 4340 steel of four hardnesses", "steel rods through Weldox 460 E", "Taylor bar"
 SHIELDS, SHIELDS_CHOSEN = "Whipple shields, half B", "Whipple shields, half A"
 CHOSEN = {each.name: not each.predicted for each in against.SETS} | {
-    HARDNESS: False, WELDOX: False, BAR: False, SHIELDS: False, SHIELDS_CHOSEN: True}  # fmt: skip
+    HARDNESS: False, WELDOX: False, BAR: False, SHIELDS: False, SHIELDS_CHOSEN: True}
 #: sets of the twelve shots by the law of the rod
 LAWS = {"Steinberg-Guinan": "tungsten into aluminium", "Johnson-Cook, sintered": "tungsten into aluminium, sintered alloy",
         "Johnson-Cook, 90W": "tungsten into aluminium, 90W-7Ni-3Fe", "Johnson-Cook, Y925": "tungsten into aluminium, Y925"}
@@ -170,14 +170,14 @@ def rigid() -> list[Shot]:
     compared = []
     measured = {float(row["velocity_m_s"]): float(row["depth_mm"]) for row in shots() if row["series"] == "rigid steel"}
     sets = (("steel rods, 1.6 GPa", "rigid_steel_rods.csv", {"target": "Steinberg-Guinan", "rod": "1.6 GPa"}),
-            ("steel rods, fitted law", "steel_rods_fitted.csv", {"rod": "fit, Rc 38"}))  # fmt: skip
+            ("steel rods, fitted law", "steel_rods_fitted.csv", {"rod": "fit, Rc 38"}))
     for name, file, labels in sets:
         runs = [run for run in rigid_rod.read(HERE / "results" / file) if labels.items() <= run.labels.items()]
         for velocity, members in _grouped(runs, lambda run: float(run.labels["shot"])).items():
             if velocity in measured:
                 compared.append(Shot(name, DEPTH, impact("validation/eroding_steel_6061_2120.toml"), _ended(members),
                                   tuple(10.0 * run.depth / measured[velocity] for run in members),
-                                  velocity=velocity, cells=_cells(members)))  # fmt: skip
+                                  velocity=velocity, cells=_cells(members)))
     return compared
 
 
@@ -185,27 +185,27 @@ def long_rods() -> list[Shot]:
     """Depths of tungsten rods in steel against Odermatt's fit: velocities and meshes of one set-up, and four hardnesses."""
     folder, members = PROBLEMS / "long_rods" / "results", {}
     for name, file in (("tungsten into armour steel", "velocities.csv"), ("tungsten into armour steel", "meshes.csv"),
-                       (HARDNESS, "hardness.csv")):  # fmt: skip
+                       (HARDNESS, "hardness.csv")):
         for run in depths.read(folder / file):
             fit = depths.odermatt(run.velocity, run.slenderness, depths.brinell(run), *depths.DENSITIES)
             point = (name, run.slenderness, run.velocity, run.labels.get("steel"))
             members.setdefault(point, []).append((run.ratio / fit, float(run.labels.get("cells", LONG_ROD))))
     return [Shot(name, DEPTH, impact("long_rods/rod_10.toml"), "eroding", tuple(ratio for ratio, _ in runs), velocity=velocity,
                  cells=tuple(cells for _, cells in runs), fit=True)
-            for (name, _, velocity, _), runs in members.items()]  # fmt: skip
+            for (name, _, velocity, _), runs in members.items()]
 
 
 def weldox() -> list[Shot]:
     """Residual velocities behind plates of Weldox 460 E, and whether the rods perforate."""
     folder, compared = PROBLEMS / "perforation", []
     measured = {(row["nose"], float(row["striking_m_s"])): float(row["residual_m_s"])
-                for row in kept.rows(folder / "weldox_460e.csv", ("nose", "striking_m_s", "residual_m_s"))}  # fmt: skip
+                for row in kept.rows(folder / "weldox_460e.csv", ("nose", "striking_m_s", "residual_m_s"))}
     for row in hydro2d.kept_rows(folder / "results" / "weldox.csv"):
         velocity = float(row["velocity"].split()[0])
         left = measured[row["nose"], velocity]
         through = row["perforated"] == "True"
         what, about = impact("perforation/weldox_hemispherical.toml"), {
-            "velocity": velocity, "cells": (float(row[rigid_rod.CELLS]),)}  # fmt: skip
+            "velocity": velocity, "cells": (float(row[rigid_rod.CELLS]),)}
         ratios = (float(row["residual_velocity_m_s"]) / left,) if through and left else ()
         compared.append(Shot(WELDOX, RESIDUAL, what, "", ratios, missed=left > 0.0 and not through, **about))
         compared.append(Shot(WELDOX, PERFORATION, what, "", (), right=through == (left > 0.0), **about))
@@ -222,7 +222,7 @@ def driven() -> list[Shot]:
         if "velocity" in row["quantity"]:
             fit = row["quantity"] == "final velocity"
             compared.append(Shot("driven by an explosive" if fit else "cylinder test", row["quantity"], what, "",
-                              (float(row["obtained"]) / float(row["expected"]),), fit=fit))  # fmt: skip
+                              (float(row["obtained"]) / float(row["expected"]),), fit=fit))
     return compared
 
 
@@ -230,7 +230,7 @@ def bars() -> list[Shot]:
     """The lengths of Taylor bars of copper: one with every advection on two meshes, the others by the surrogate of a sample."""
     runs = [(run.value / BAR_LENGTH, cells) for name, cells in BARS.items()
             for run in classic.read(PROBLEMS / "classic" / "results" / name)
-            if (run.shot, run.sliding, run.status) == ("taylor_bar", "none", "trusted")]  # fmt: skip
+            if (run.shot, run.sliding, run.status) == ("taylor_bar", "none", "trusted")]
     ratios, cells = zip(*runs, strict=True)
     what = impact("classic/taylor_bar.toml")
     compared = [Shot(BAR, "length", what, "", ratios, velocity=190.0, cells=cells)]
@@ -240,7 +240,7 @@ def bars() -> list[Shot]:
         if row["bar"] != SAME_BAR:
             length = float(sample.surrogate("bodies.bar.length_m")(sample.points(PUBLISHED))[0])
             compared.append(Shot(BAR, "length", what, "", (1e3 * length / float(row["final_length_mm"]),),
-                                 velocity=float(row["velocity_m_s"]), cells=(CELLS_OF_BARS,)))  # fmt: skip
+                                 velocity=float(row["velocity_m_s"]), cells=(CELLS_OF_BARS,)))
     return compared
 
 
@@ -250,7 +250,7 @@ def shields() -> list[Shot]:
     return [Shot(names[shot["half"]], PERFORATION, impact("whipple/shield.toml"), "", (),
                  right=whipple.computed(shot) == whipple.measured(shot), velocity=1e3 * float(shot["velocity_km_s"]),
                  cells=(float(shot["computed"][0]["cells"]),))
-            for shot in whipple.shots()]  # fmt: skip
+            for shot in whipple.shots()]
 
 
 def of_runs() -> list[Shot]:
@@ -278,7 +278,7 @@ def measured_depths() -> list[Measured]:
             name = f"{'ogive' if shot.nose == 'ogival' else 'hemi'}_{shot.alloy}_{shot.velocity:g}.toml"
             deck = hydro2d.Deck.from_file(PROBLEMS / "cth_nose_shape" / name)
             measured.append(Measured("tungsten into aluminium", deck, shot.velocity, told.depth,
-                                  STAYED_RIGID if told.rigid else ERODED))  # fmt: skip
+                                  STAYED_RIGID if told.rigid else ERODED))
     for row in shots():
         deck = hydro2d.Deck.from_file(HERE / f"{row['deck']}.toml", {"body.rod.material": row["rod"]})
         measured.append(Measured(row["series"], deck, float(row["velocity_m_s"]), 1e-3 * float(row["depth_mm"]), row["ended"]))
@@ -305,7 +305,7 @@ def of_models(names: Iterable[str] | None = None) -> list[Shot]:
                 continue
             if row.get("regime") not in UNFINISHED and row["depth"]:
                 compared.append(Shot(each.set, DEPTH, what, each.ended, (row["depth"] / each.depth,), velocity=each.velocity,
-                                  fit=each.fit, of=name))  # fmt: skip
+                                  fit=each.fit, of=name))
     return compared
 
 
@@ -332,7 +332,7 @@ def row(shots: Sequence[Shot]) -> hydro2d.Experience:
     about = {"of": of, "quantity": quantity, "projectile": what.projectile, "target": what.target, "ended": ended, "fit": fit,
              "chosen": bool(own), "sets": "; ".join(dict.fromkeys(shot.set for shot in compared)),
              "slowest": min(velocities, default=None), "fastest": max(velocities, default=None),
-             "coarsest": min(cells, default=None), "finest": max(cells, default=None)}  # fmt: skip
+             "coarsest": min(cells, default=None), "finest": max(cells, default=None)}
     if first.right is not None:
         return hydro2d.Experience(**about, shots=len(shots), right=sum(bool(shot.right) for shot in shots))
     with_ratio = [shot for shot in shots if shot.ratios]
@@ -347,7 +347,7 @@ def row(shots: Sequence[Shot]) -> hydro2d.Experience:
         numbers |= dict.fromkeys(("low", "high", "factor"))
     numbers["numerical"] = _numerical([shot.ratios for shot in with_ratio])
     return hydro2d.Experience(**about, **{name: _rounded(value) for name, value in numbers.items()}, shots=bias.count,
-                              missed=missed, measurement=error)  # fmt: skip
+                              missed=missed, measurement=error)
 
 
 def rows(shots: Iterable[Shot]) -> list[hydro2d.Experience]:
@@ -381,7 +381,7 @@ def _per_cent(value: float | None) -> str:
 def _ratios(experiences: Iterable[hydro2d.Experience]) -> list[str]:
     """Lines of Markdown: bias and scatter of every kind."""
     heads = ("kind of shot", "shots", "bias (90 % interval)", "scatter", "range", "another shot", "within a shot",
-             "measurement", "model alone")  # fmt: skip
+             "measurement", "model alone")
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for each in experiences:
         if each.right is not None:
@@ -394,7 +394,7 @@ def _ratios(experiences: Iterable[hydro2d.Experience]) -> list[str]:
         factor = "" if each.factor is None else f"×÷ {each.factor:.2f}" if each.factor < 10.0 else f"×÷ {each.factor:.0f}"
         error = _per_cent(each.measurement) or "not given"
         lines.append(f"| {name} | {many} | {bias}{interval} | {_per_cent(each.scatter)} | {extent} | {factor} | "
-                     f"{_per_cent(each.numerical)} | {error} | {_per_cent(each.model)} |")  # fmt: skip
+                     f"{_per_cent(each.numerical)} | {error} | {_per_cent(each.model)} |")
     return lines
 
 
@@ -412,7 +412,7 @@ def _outcomes(experiences: Iterable[hydro2d.Experience]) -> list[str]:
 def _models(experiences: Sequence[hydro2d.Experience]) -> list[str]:
     """Lines of Markdown: bias, scatter and number of shots of every analytic model, a column for each kind of shot."""
     kinds = sorted({(each.projectile, each.target, each.ended, each.fit) for each in experiences},
-                   key=lambda kind: (kind[3], kind[2] == ERODED, kind))  # fmt: skip
+                   key=lambda kind: (kind[3], kind[2] == ERODED, kind))
     heads = [f"{rod}s in {target} that {ended}{', a fit' * fit}" for rod, target, ended, fit in kinds]
     lines = ["| model | " + " | ".join(heads) + " |", "|---" * (len(heads) + 1) + "|"]
     for name in dict.fromkeys(each.of for each in experiences):
@@ -429,7 +429,7 @@ def _models(experiences: Sequence[hydro2d.Experience]) -> list[str]:
 def notes() -> list[str]:
     """Lines below the tables: runs with a fault in the audit, and of an older version of the method, of files that tell."""
     folders = ("cth_nose_shape/results/twelve_shots", "validation/results/eroded_heads", "validation/results/rigid_steel_rods",
-               "validation/results/steel_rods_fitted", "perforation/results/weldox")  # fmt: skip
+               "validation/results/steel_rods_fitted", "perforation/results/weldox")
     told = [each for name in folders for each in hydro2d.kept_rows(PROBLEMS / f"{name}.csv")]
     doubtful = sum(each["trustworthy"] == "False" for each in told)
     faults = f"{doubtful} of {len(told)} runs of rods had a fault in the audit, such as a cell that is too cold."

@@ -87,7 +87,7 @@ def stagnation(distance: np.ndarray, pressure: np.ndarray) -> float:
 
 
 def point(edges: np.ndarray, jet: np.ndarray, target: np.ndarray, pressures: tuple[np.ndarray, np.ndarray], reach: float,
-          time: float) -> Point | None:  # fmt: skip
+          time: float) -> Point | None:
     """The interface, from the volume fractions of jet and target in the cells on the axis; None with too little of either.
 
     The jet lies below the target. Cells next to a mixed cell are left out.
@@ -131,7 +131,7 @@ def mean(points: list[Point], low: float, high: float) -> dict | None:
     time, position, jet, target = (np.array([getattr(at, key) for at in inside]) for key in keys)
     return {"velocity": float(np.polyfit(time, position, 1)[0]), "dumps": len(inside),
             "jet": float(jet.mean()), "jet_scatter": float(jet.std()),
-            "target": float(target.mean()), "target_scatter": float(target.std())}  # fmt: skip
+            "target": float(target.mean()), "target_scatter": float(target.std())}
 
 
 def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> dict:
@@ -162,7 +162,7 @@ def measure(directory: Path | str, first: float = 3.0, last: float = 10.0) -> di
         "advection": deck.numerics.advection, "exact": {"velocity": u, "pressure": p},
         "rows": rows, "first": first, "last": last,
         "steady": mean(points, surface + first * diameter, surface + last * diameter),
-    }  # fmt: skip
+    }
 
 
 def _cells(window: dict, exact: dict) -> str:
@@ -181,7 +181,7 @@ def table(result: dict) -> str:
     lines = [f"**{result['run']}**, {result['velocity']:.0f} m/s, `{result['advection']}`{ended}; compressible Bernoulli: "
              f"{exact['velocity']:.2f} m/s, {exact['pressure'] * 1e-9:.3f} GPa", "",
              "| depth, diameters | velocity, m/s | pressure in the jet, GPa | pressure in the target, GPa |",
-             "|---|---|---|---|"]  # fmt: skip
+             "|---|---|---|---|"]
     lines += [f"| {row['depth']:.1f} | {_cells(row, exact)} |" for row in result["rows"]]
     if result["steady"]:
         lines.append(f"| {result['first']:g} to {result['last']:g} | {_cells(result['steady'], exact)} |")

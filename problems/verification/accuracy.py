@@ -64,7 +64,7 @@ def _sedov(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
         profile("density", state.density[inside], rho[inside], state.volume[inside]),
         profile("pressure", state.mean_pressure[inside], p[inside], state.volume[inside]),
         lost(run),
-    ]  # fmt: skip
+    ]
 
 
 def _sedov_curve(run: hydro2d.Results) -> Curve:
@@ -76,7 +76,7 @@ def sedov(j: int) -> Problem:
     where = {3: ("sedov", "Sedov's blast in r-z"), 2: ("sedov_plane", "Sedov's blast in the plane")}[j]
     return Problem(*where, f"{where[0]}.toml", "on 1.2 m", (50, 100, 200), partial(_sedov_refine, j), partial(_sedov, j),
                    _sedov_curve, lambda x: SEDOV[j].sample(x, 1e-3)[0], ("distance [m]", "density [kg/m$^3$]"),
-                   advection())  # fmt: skip
+                   advection())
 
 
 # Noh
@@ -120,7 +120,7 @@ def noh(j: int) -> Problem:
     return Problem(f"noh_{name}", f"Noh's problem, {name}", f"noh_{name}.toml", "on 1 m",
                    (50, 100, 200) if j == 3 else (100, 200, 400), refine, partial(_noh, j), partial(_noh_curve, j),
                    lambda x: Noh(j, speed=1000.0).sample(x, 6e-4)[0], ("distance [m]", "density [kg/m$^3$]"),
-                   advection("both"))  # fmt: skip
+                   advection("both"))
 
 
 # The uniform collapse
@@ -197,7 +197,7 @@ def _guderley(run: hydro2d.Results, cells: int) -> list[Quantity]:
         Quantity("rays apart at 0.2 m", "cells", 0.0, float(np.ptp(fronts) / size), 0.2 / size),
         Quantity("time of collapse, spread", "s", 0.0, float(np.ptp(ends)), float(np.mean(ends))),
         lost(run),
-    ]  # fmt: skip
+    ]
 
 
 def _guderley_curve(run: hydro2d.Results) -> Curve:
@@ -235,9 +235,9 @@ def _blake(run: hydro2d.Results, cells: int) -> list[Quantity]:
     for radii in (1.5, 3.0):
         near = np.abs(distance / CAVITY.radius - radii) < 0.01
         quantities.append(Quantity(f"displacement at {radii:g} radii", "nm", 1e9 * float(exact[near].mean()),
-                                   1e9 * float(moved[near].mean())))  # fmt: skip
+                                   1e9 * float(moved[near].mean())))
         quantities.append(Quantity(f"spread of three rays at {radii:g} radii", "nm", 0.0, 1e9 * float(np.ptp(moved[near])),
-                                   1e9 * float(exact[near].mean())))  # fmt: skip
+                                   1e9 * float(exact[near].mean())))
     weight = state.volume[here] / state.distance[here] ** 2
     return [
         *quantities,
@@ -256,7 +256,7 @@ def _cylinder(run: hydro2d.Results, cells: int) -> list[Quantity]:
     start, moved = _moved(run)
     exact = blake.cylindrical(CAVITY, start[:, 0], run.summary["time_s"])
     return [Quantity(f"displacement at {r / CAVITY.radius:g} radii", "nm", 1e9 * right, 1e9 * computed)
-            for r, right, computed in zip(start[:, 0], exact, moved[:, 0], strict=True)]  # fmt: skip
+            for r, right, computed in zip(start[:, 0], exact, moved[:, 0], strict=True)]
 
 
 def _cylinder_curve(run: hydro2d.Results) -> Curve:
@@ -301,7 +301,7 @@ def _elastic_plastic_piston(run: hydro2d.Results, cells: int) -> list[Quantity]:
         Quantity("stress behind it", "GPa", 1e-9 * second.sigma, 1e-9 * float(stress[flat].mean())),
         Quantity("pressure behind it", "GPa", 1e-9 * second.p, 1e-9 * float(pressure[flat].mean())),
         profile("axial stress", stress, _two_waves(x, time)),
-    ]  # fmt: skip
+    ]
 
 
 def _two_waves(x: np.ndarray, time: float) -> np.ndarray:
@@ -387,7 +387,7 @@ def _shell(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
         Quantity("inner radius at the stop", "mm", 1e3 * stop, 1e3 * float(radius[last])),
         Quantity("kinetic energy that the remap discarded", "%", 0.0,
                  100.0 * conservation["sinks"]["advection"]["energy_J"] / conservation["start_energy_J"], 100.0),
-    ]  # fmt: skip
+    ]
     if j == 3:
         axis, equator = (run.history[f"cavity_{name}_m"][last] for name in ("axis", "equator"))
         quantities.append(Quantity("axis less equator", "mm", 0.0, 1e3 * float(axis - equator), 1e3 * stop))
@@ -428,7 +428,7 @@ def _riemann(run: hydro2d.Results, cells: int) -> list[Quantity]:
         profile("density", density, rho),
         profile("pressure", pressure, p),
         profile("velocity", velocity, u),
-    ]  # fmt: skip
+    ]
 
 
 def _axial_pressure(run: hydro2d.Results) -> Curve:
@@ -552,5 +552,5 @@ PROBLEMS = (
             ("z [mm]", "pressure [GPa]"), advection("both"), {"front_m": _lit}),
     *gases.PROBLEMS,
     *liquids.PROBLEMS,
-)  # fmt: skip
+)
 BY_NAME = {problem.name: problem for problem in PROBLEMS}

@@ -41,7 +41,7 @@ def _gun(run: hydro2d.Results, cells: int) -> list[Quantity]:
         Quantity("distance at 1.6 ms", "mm", 1e3 * float(GUN.position(time)), 1e3 * _travelled(run)),
         profile("pressure", pressure[simple], p),
         profile("velocity of the gas", velocity[simple], u),
-    ]  # fmt: skip
+    ]
 
 
 def _travelled(run: hydro2d.Results) -> float:
@@ -87,7 +87,7 @@ def _escape(run: hydro2d.Results, cells: int) -> list[Quantity]:
         profile("density", density, rho),
         profile("pressure", pressure, p),
         profile("momentum", density * velocity, rho * u),
-    ]  # fmt: skip
+    ]
 
 
 def _pressure_curve(run: hydro2d.Results) -> Curve:
@@ -164,7 +164,7 @@ def _metal(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
     if j > 1:
         ahead = (place > 1.15 * front) & (place < 1.4 * front)
         quantities.append(Quantity("pressure ahead of the shock", "GPa", 1e-9 * mean(exact_p, ahead),
-                                   1e-9 * mean(state.mean_pressure, ahead)))  # fmt: skip
+                                   1e-9 * mean(state.mean_pressure, ahead)))
     return [
         *quantities,
         profile("density", state.density[inside], exact_rho[inside], state.volume[inside]),
@@ -182,7 +182,7 @@ def _metal_curve(j: int, run: hydro2d.Results) -> Curve:
 
 def _noh_metal(j: int) -> Problem:
     name, title = {1: ("noh_metal", "planar"), 2: ("noh_metal_cylindrical", "cylindrical"),
-                   3: ("noh_metal_spherical", "spherical")}[j]  # fmt: skip
+                   3: ("noh_metal_spherical", "spherical")}[j]
 
     def refine(cells: int) -> list[str]:
         thin = [f"mesh.r=[{{to=0.06, cells={cells}}}]", f"mesh.z=[{{to={0.24 / cells}, cells=4}}]"]
@@ -190,7 +190,7 @@ def _noh_metal(j: int) -> Problem:
 
     return Problem(name, f"Noh's problem for a metal, {title}", f"{name}.toml", "on 60 mm", (50, 100, 200), refine,
                    partial(_metal, j), partial(_metal_curve, j), lambda x: 1e-9 * METAL[j].sample(1e-3 * x, 3e-6)[2],
-                   ("distance [mm]", "pressure [GPa]"), advection("both"))  # fmt: skip
+                   ("distance [mm]", "pressure [GPa]"), advection("both"))
 
 
 # Coggeshall's flows
@@ -204,11 +204,11 @@ def _coggeshall(flow: Free | Slowed, run: hydro2d.Results, cells: int) -> list[Q
     rho, u, p = flow.sample(state.r, time)
     exact, weight = (rho, np.abs(u), p), state.volume[here]
     found = {"density": (state.density, "kg/m3", 1.0), "speed": (np.abs(state.u), "m/s", 1.0),
-             "pressure": (state.mean_pressure, "kPa", 1e-3)}  # fmt: skip
+             "pressure": (state.mean_pressure, "kPa", 1e-3)}
     quantities = []
     for (name, (values, unit, size)), right in zip(found.items(), exact, strict=True):
         quantities.append(Quantity(f"mean {name}", unit, size * float(np.average(right[here], weights=weight)),
-                                   size * float(np.average(values[here], weights=weight))))  # fmt: skip
+                                   size * float(np.average(values[here], weights=weight))))
     for (name, (values, *_)), right in zip(found.items(), exact, strict=True):
         quantities.append(profile(name, values[here], right[here], weight))
     return [*quantities, lost(run)]
@@ -223,11 +223,11 @@ def _coggeshall_curve(run: hydro2d.Results) -> Curve:
 def _coggeshall_problem(number: int, flow: Free | Slowed, end: float, title: str) -> Problem:
     def refine(cells: int) -> list[str]:
         return [f"mesh.r=[{{to=1.0, cells={cells}}}]", f"mesh.z=[{{to={4 / cells}, cells=4}}]",
-                override(tubes(flow, 1.0, 1.0 / cells, 4.0 / cells))]  # fmt: skip
+                override(tubes(flow, 1.0, 1.0 / cells, 4.0 / cells))]
 
     return Problem(f"coggeshall_{number}", title, f"coggeshall_{number}.toml", "on 1 m", (40, 80, 160), refine,
                    partial(_coggeshall, flow), _coggeshall_curve, lambda x: flow.sample(x, end)[0],
-                   ("distance [m]", "density [kg/m$^3$]"), advection("both"))  # fmt: skip
+                   ("distance [m]", "density [kg/m$^3$]"), advection("both"))
 
 
 PROBLEMS = (
@@ -246,4 +246,4 @@ PROBLEMS = (
             advection("both")),
     _coggeshall_problem(1, COLLAPSES, 0.4e-3, "Coggeshall's first flow, a collapse"),
     _coggeshall_problem(2, EXPANDS, 1e-3, "Coggeshall's second flow, an expansion"),
-)  # fmt: skip
+)

@@ -33,7 +33,7 @@ def _wave_refine(layers: Layers, high: float, cells: int) -> list[str]:
     """A mesh with this number of cells on a wavelength, and its rows of liquid."""
     size = 2.0 * WIDTH / cells
     return [f"mesh.r=[{{to={WIDTH}, cells={cells // 2}}}]", f"mesh.z=[{{to={high}, cells={round(high / size)}}}]",
-            override(layers.bodies(size))]  # fmt: skip
+            override(layers.bodies(size))]
 
 
 def nodes(time: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -88,7 +88,7 @@ def _jets(run: hydro2d.Results, cells: int) -> list[Quantity]:
         thickness = float(np.sum(state.vof[0][here])) / np.count_nonzero(here.any(axis=1)) * state.size
         speed = way * float(np.sum((mass * state.v)[here]) / np.sum(mass[here]))
         quantities += [Quantity(f"thickness of the {name}", "mm", 1e3 * SHEET * share, 1e3 * thickness),
-                       Quantity(f"speed of the {name}", "m/s", SHEET_SPEED, speed)]  # fmt: skip
+                       Quantity(f"speed of the {name}", "m/s", SHEET_SPEED, speed)]
     force = 1e-3 * 1000.0 * SHEET_SPEED**2 * SHEET * math.sin(MEET)
     return [*quantities, Quantity("mean force on the plane", "kN/m", force, 1e-3 * float(history["force_n_m"][steady].mean()))]
 
@@ -115,4 +115,4 @@ PROBLEMS = (
             _jets, _jets_curve,
             lambda x: np.where(x > 10.0, 7.5, np.where(x < -10.0, 2.5, np.nan)),
             ("z [mm]", "thickness next to the plane of symmetry [mm]"), advection("both"), {"force_n_m": _force}),
-)  # fmt: skip
+)

@@ -18,5 +18,5 @@ def tubes(flow: Free | Slowed, outer: float, cell: float, high: float) -> list[d
         made.append({**name, "material": "gas", "shape": "box", "r": ends, "z": [0.0, high],
                      "density": rho * shell_mean(flow.b, *ends, flow.k),
                      "pressure": p * shell_mean(flow.pressure_power, *ends, flow.k),
-                     "flow": {"pattern": "cylindrical", "speed": flow.rate, "exponent": -1.0}})  # fmt: skip
+                     "flow": {"pattern": "cylindrical", "speed": flow.rate, "exponent": -1.0}})
     return made

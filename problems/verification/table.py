@@ -65,7 +65,7 @@ def rows_of(runs: Path, problem: Problem, variant: str, cells: int) -> list[dict
         return [common]
     return [common | {"quantity": each.name, "unit": each.unit, "exact": f"{each.exact:.7g}", "found": f"{each.found:.7g}",
                       "error_percent": f"{each.error:.4g}"} for each in problem.measure(results, cells)
-            if math.isfinite(each.found)]  # fmt: skip
+            if math.isfinite(each.found)]
 
 
 def curve_of(runs: Path, problem: Problem, cells: int) -> list[dict[str, object]]:
@@ -73,7 +73,7 @@ def curve_of(runs: Path, problem: Problem, cells: int) -> list[dict[str, object]
     x, y = problem.curve(hydro2d.open_run(directory(runs, problem, next(iter(problem.variants)), cells)))
     every = math.ceil(len(x) / MOST)
     return [{"problem": problem.name, "cells": cells, "x": f"{a:.4g}", "y": f"{b:.4g}"}
-            for a, b in zip(x[::every], y[::every], strict=True)]  # fmt: skip
+            for a, b in zip(x[::every], y[::every], strict=True)]
 
 
 def order(cells: list[int], errors: list[float]) -> str:
@@ -97,7 +97,7 @@ def table(problem: Problem, rows: list[dict[str, str]]) -> list[str]:
     meshes = [str(cells) for cells in problem.cells]
     several = len(problem.variants) > 1
     lines = [f"| cells {problem.resolution} |{' advection |' if several else ''} exact | {' | '.join(meshes)} | order |",
-             "|---" * (3 + several + len(meshes)) + "|"]  # fmt: skip
+             "|---" * (3 + several + len(meshes)) + "|"]
     for variant in problem.variants:
         mine = [row for row in rows if row["problem"] == problem.name and row["variant"] == variant]
         label = f" `{variant}` |" if several else ""
@@ -113,7 +113,7 @@ def table(problem: Problem, rows: list[dict[str, str]]) -> list[str]:
             rate = order([int(each) for each in there], [float(by_cells[each]["error_percent"]) for each in there])
             lines.append(f"| {name} |{label} {exact} | {cells} | {rate} |")
         cost = " | ".join(f"{float(by_mesh[each][0]['seconds']):.3g} s" + _verdict(by_mesh[each][0]) if each in ended else ""
-                          for each in meshes)  # fmt: skip
+                          for each in meshes)
         lines.append(f"| *cost* |{label} | {cost} | |")
     return lines
 
@@ -144,7 +144,7 @@ def main(arguments: list[str] | None = None) -> int:
                 print(f"{problem.name}: {error}", file=sys.stderr)
                 return 2
             fresh = [{name: str(value) for name, value in row.items()} for variant in problem.variants
-                     for cells in problem.cells for row in rows_of(given.runs, problem, variant, cells)]  # fmt: skip
+                     for cells in problem.cells for row in rows_of(given.runs, problem, variant, cells)]
             rows = [row for row in rows if row["problem"] != problem.name] + [dict.fromkeys(COLUMNS, "") | row for row in fresh]
             curves = [row for row in curves if row["problem"] != problem.name]
             curves += [row for cells in problem.cells for row in curve_of(given.runs, problem, cells)]

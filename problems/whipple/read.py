@@ -202,12 +202,12 @@ def draw(cases: list[dict]):
     """A matplotlib Figure: walls by gap, with the outcomes of the shots, of their runs, and the limit by the equation."""
     figure, ((axes,),) = hydro2d.new_figure(6.4, 4.6)
     marks = {(False, measured): ("o", "none", "wall held"), (True, measured): ("o", "black", "wall defeated"),
-             (False, computed): ("_", "#1f77b4", "run: held"), (True, computed): ("x", "#d62728", "run: defeated")}  # fmt: skip
+             (False, computed): ("_", "#1f77b4", "run: held"), (True, computed): ("x", "#d62728", "run: defeated")}
     for (failed, verdict), (marker, colour, label) in marks.items():
         here = [shot for shot in cases if verdict(shot) == failed]
         gaps = [(1.0 if verdict is measured else 1.12) * float(shot["gap_mm"]) for shot in here]
         axes.plot(gaps, [float(shot["wall_mm"]) for shot in here], marker, color="black" if verdict is measured else colour,
-                  markerfacecolor=colour, markersize=6, label=label)  # fmt: skip
+                  markerfacecolor=colour, markersize=6, label=label)
     gaps = np.geomspace(5.0, 125.0, 20)
     axes.plot(gaps, [needed(gap) for gap in gaps], color="0.5", linewidth=0.8, label="equation, 7 km/s")
     axes.set(xscale="log", yscale="log", xlabel="gap [mm]", ylabel="thickness of the wall [mm]")

@@ -32,7 +32,7 @@ def test_only_a_rod_into_one_target_has_analytic_depths(name):
 def test_a_model_that_lacks_an_input_is_left_out():
     """A target without strength has no Young's modulus, and Tate's model asks for one."""
     deck = decks.load(ROD, ['body.plate.material="Al_fluid"', 'materials.Al_fluid.based_on="Al5083"',
-                            'materials.Al_fluid.strength.model="hydrodynamic"'])  # fmt: skip
+                            'materials.Al_fluid.strength.model="hydrodynamic"'])
     with pytest.raises(InputError):
         beside.case("tate", model_deck.shot(deck))
     assert "Tate" not in beside.depths(deck)

@@ -14,7 +14,7 @@ from hydro2d.materials import library
 RODS = Impact("tungsten rod", "aluminium")
 RIGID = Experience("hydro2d", "depth", "tungsten rod", "aluminium", "rigid", False, False, "a", 21, bias=0.97, low=0.92,
                    high=1.02, scatter=0.13, least=0.8, most=1.3, slowest=900.0, fastest=1200.0, coarsest=6.0,
-                   finest=12.0)  # fmt: skip
+                   finest=12.0)
 
 
 def change(**changes):
@@ -34,7 +34,7 @@ def test_a_line(table):
     table(RIGID)
     assert experience.of_run(RODS, "rigid", False) == [
         "experience: computed/measured 0.97 (0.92 to 1.02), scatter 13 %, 21 shots (depth of rigid tungsten rods in aluminium, "
-        "900 to 1200 m/s, 6 to 12 cells)"]  # fmt: skip
+        "900 to 1200 m/s, 6 to 12 cells)"]
 
 
 @pytest.mark.parametrize(("changes", "words"), [
@@ -48,7 +48,7 @@ def test_a_line(table):
     ({"coarsest": 8.5, "finest": 8.5, "slowest": None}, "(depth of rigid tungsten rods in aluminium, 8.5 cells)"),
     ({"quantity": "perforation", "ended": "", "right": 10, "shots": 12},
      "10 of 12 shots ended as measured (perforation of tungsten rods through aluminium, "),
-])  # fmt: skip
+])
 def test_words_of_a_row(changes, words):
     assert words in change(**changes).words
 
@@ -59,7 +59,7 @@ def test_words_of_a_row(changes, words):
     ("residual velocity", Impact("steel rod", "steel"), "", "residual velocity of steel rods through steel"),
     ("length", Impact("copper bar", "wall"), "", "length of a copper bar on a wall"),
     ("wall velocity at 6 mm", Impact("explosive", "copper"), "", "wall velocity at 6 mm of copper driven by an explosive"),
-])  # fmt: skip
+])
 def test_words_of_a_kind(quantity, impact, ended, words):
     assert experience.kind(quantity, impact, ended) == words
 
@@ -123,7 +123,7 @@ def test_every_metal_of_the_library_is_recognised():
     ("classic/taylor_bar", Impact("copper bar", "wall")),
     ("templates/jacketed", Impact("tungsten rod", "steel and aluminium")),
     ("verification/sedov", None),
-])  # fmt: skip
+])
 def test_what_strikes_what(deck, impact):
     assert hydro2d.impact_of(hydro2d.Deck.from_file(f"problems/{deck}.toml")) == impact
 
@@ -136,7 +136,7 @@ def test_what_strikes_what(deck, impact):
     {"body.bar.z": ["0 mm", "5 mm"]},
     {"mesh.geometry": "planar"},
     {"body.bar.strength_factor": 1.05},
-], ids=["ball", "leaves the wall", "at rest", "tube", "disc", "planar", "stronger"])  # fmt: skip
+], ids=["ball", "leaves the wall", "at rest", "tube", "disc", "planar", "stronger"])
 def test_what_is_no_bar_that_flies_at_a_wall(changes):
     assert impact_with("classic/taylor_bar", changes) is None
 
@@ -144,7 +144,7 @@ def test_what_is_no_bar_that_flies_at_a_wall(changes):
 def test_a_flat_rod_that_flies_at_the_upper_wall_is_a_bar():
     rod = {"body.bar.shape": "rod", "body.bar.r": None, "body.bar.z": None, "body.bar.radius": "3.81 mm",
            "body.bar.length": "25.4 mm", "body.bar.tip": "29.5275 mm", "body.bar.velocity": "190 m/s",
-           "boundaries.z_min": "outflow", "boundaries.z_max": "wall"}  # fmt: skip
+           "boundaries.z_min": "outflow", "boundaries.z_max": "wall"}
     assert impact_with("classic/taylor_bar", rod) == Impact("copper bar", "wall")
     assert impact_with("classic/taylor_bar", {**rod, "body.bar.nose": "hemispherical"}) is None
 
@@ -170,7 +170,7 @@ def test_the_order_of_an_explosive_and_its_tube_does_not_matter():
 
 @pytest.mark.parametrize(("name", "known"), [
     ("TNT", True), ("comp_B", True), ("PBX9404", True), ("C4", False), ("PETN", False), ("nitromethane", False),
-])  # fmt: skip
+])
 def test_only_explosives_of_the_kept_shots_are_known(name, known):
     assert (impact_with("explosives/cylinder", {"body.charge.material": name}) is not None) == known
 
@@ -195,7 +195,7 @@ def impact_with(deck, changes):
 
 def test_a_material_of_a_deck_is_its_metal():
     deck = hydro2d.Deck.from_file("problems/cth_nose_shape/hemi_5083_1086.toml",
-                                  ['body.rod.material="own"', 'materials.own.based_on="W_sintered"'])  # fmt: skip
+                                  ['body.rod.material="own"', 'materials.own.based_on="W_sintered"'])
     assert hydro2d.impact_of(deck) == RODS
 
 
@@ -234,7 +234,7 @@ def test_a_model_with_a_property_of_the_user_has_no_experience(table, own):
 
 def test_the_command_has_no_experience_with_properties_in_place_of_materials(capsys):
     own = ("rod.length=97.3mm", "rod.density=7850kg/m^3", "rod.strength=1GPa", "target.density=7850kg/m^3",
-           "target.resistance=5GPa")  # fmt: skip
+           "target.resistance=5GPa")
     assert call(["model", "tate", "--velocity", "1200m/s", *(word for each in own for word in ("--set", each))]) == 0
     assert "computed/measured" not in capsys.readouterr().out
 

@@ -31,7 +31,7 @@ def toy(*extra: Input, values=None) -> Model:
                         values or {"rod.diameter": 0.01, "rod.length": 0.1, "nose.shape": "ogival"}),
         evaluate=lambda velocity, **keywords: {"depth": velocity * keywords["rod_mass"], "regime": "rigid"},
         transition=lambda **keywords: 1e-6 * keywords["rod_strength"],
-    )  # fmt: skip
+    )
 
 
 # ------------------------------------------------------------------------------------------- the material library
@@ -73,7 +73,7 @@ def test_numbers_of_a_power_law():
 
 def test_johnson_cook_at_a_strain_and_a_variant():
     assert model_materials.quantities(library.load("Al7039"), 0.2)["strength"].value == pytest.approx(
-        337e6 + 343e6 * 0.2**0.41, rel=1e-12)  # fmt: skip
+        337e6 + 343e6 * 0.2**0.41, rel=1e-12)
     assert model_materials.quantities(library.load("Al5083:c0-5240"))["sound_speed"].value == 5240.0
 
 
@@ -153,7 +153,7 @@ def test_a_deck_gives_the_geometry():
 @pytest.mark.parametrize(
     ("nose", "key", "value"), [
         ("ogival", "nose.crh", 2.5), ("flat-rounded", "nose.edge_radius", 0.001), ("conical", "nose.half_angle", 0.4)]
-)  # fmt: skip
+)
 def test_a_nose_of_a_deck(nose, key, value):
     from hydro2d.deck import deck
 
@@ -169,12 +169,12 @@ def test_settings_are_checked():
     model = toy()
     assert models.settings(["rod.diameter=8.12 mm", "rod.mass=0.1 kg", "nose.shape=flat"], [model]) == {
         "rod.diameter": pytest.approx(0.00812), "rod.mass": 0.1, "nose.shape": "flat"
-    }  # fmt: skip
+    }
     for text, message in (
         ("rod.diameter", "expected key=value"), ("rod.diametre=1", "did you mean .rod.diameter"),
         ("rod.diameter=1 s", "a time"), ("rod.diameter=1", "has no unit; write .1 mm."),
         ("rod.diameter=-1 m", "must be positive"), ("nose.shape=flad", 'did you mean "flat"'),
-    ):  # fmt: skip
+    ):
         with pytest.raises(InputError, match=message):
             models.settings([text], [model])
 
@@ -309,7 +309,7 @@ def test_the_experiments_are_those_of_the_study():
         ("Al5083", "hemispherical", 1086.0, 1200.0), ("Al7039", "hemispherical", 1038.0, 1165.0),
         ("Al5083", "ogival", 1227.0, None), ("Al7039", "ogival", 1291.0, None),
     ],
-)  # fmt: skip
+)
 def test_brackets_follow_from_the_shots(target, nose, low, high):
     first, *rest = model_transition.brackets("W_alloy", target, nose)
     assert (first.name, first.low, first.high) == ("experiment", low, high)
@@ -350,7 +350,7 @@ def run_directory(folder, velocity, regime, overrides=()):
 
 def test_runs_make_a_bracket(tmp_path):
     runs = [run_directory(tmp_path / str(v), v, word) for v, word in ((900, "rigid"), (1000, "rigid"), (1250, "deforming"),
-                                                                       (1300, "eroding"))]  # fmt: skip
+                                                                       (1300, "eroding"))]
     runs.append(run_directory(tmp_path / "out", 800, "left the mesh"))
     runs.append(run_directory(tmp_path / "ogive", 1800, "rigid", ("body.rod.nose=ogival", "body.rod.crh=2.5")))
     bracket, lines = model_transition.of_runs(runs, "hemispherical")

@@ -45,7 +45,7 @@ def test_the_command(planted, start):
     """With -m, Python itself looks for the modules that it needs to find hydro2d, before hydro2d can prevent it."""
     if "-m" in start:
         loaded = subprocess.run([sys.executable, "-P", "-c", "import runpy, sys; print(*sys.modules)"], capture_output=True,
-                                text=True, check=True, cwd="/").stdout.split()  # fmt: skip
+                                text=True, check=True, cwd="/").stdout.split()
         for name in {name.partition(".")[0] for name in loaded}:
             Path(f"{name}.py").unlink(missing_ok=True)
     done = subprocess.run([*start, "info", "pressure"], capture_output=True, text=True, check=False)
@@ -105,7 +105,7 @@ def test_settings_of_matplotlib_in_the_current_directory_name_no_program(tmp_pat
         "print(matplotlib.rcParams['animation.ffmpeg_path'], matplotlib.rcParams['text.usetex'], os.getcwd())\n"
     )
     done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True,
-                          env={**os.environ, "PYTHONPATH": str(root), "MPLBACKEND": "agg"})  # fmt: skip
+                          env={**os.environ, "PYTHONPATH": str(root), "MPLBACKEND": "agg"})
     assert done.stdout.split() == ["ffmpeg", "False", str(tmp_path.resolve())]
 
 
@@ -123,7 +123,7 @@ def test_every_command_that_draws_imports_it_so(command, tmp_path, monkeypatch):
         monkeypatch.setattr(module, "import_matplotlib", ask)
     picture = str(tmp_path / "a.png")
     words = {"plot": ["-o", picture], "movie": ["-o", picture], "report": [], "curve": ["--figure", picture],
-             "check": ["--picture", picture]}[command]  # fmt: skip
+             "check": ["--picture", picture]}[command]
     what = {"curve": "Al5083", "check": "problems/perforation/sphere.toml"}.get(command, str(tmp_path))
     with pytest.raises(Asked):
         main.call([command, what, *words])

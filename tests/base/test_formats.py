@@ -135,7 +135,7 @@ def test_legends(tmp_path):
 
 
 HOSTILE = ("=1+1", "<img src=x onerror=alert(1)>", "$x_", "[b]a[/b]", "_a", 60 * "$", "CON", "con", "</script>", "%{x}", "{0}",
-           "'=2")  # fmt: skip
+           "'=2")
 
 
 def test_a_report_of_a_study_of_such_names(tmp_path):
@@ -165,7 +165,7 @@ def test_dollar_signs_on_several_lines_of_a_picture():
 @pytest.mark.parametrize(("key", "name", "reason"), [
     ("materials", "a\nb", r"""materials\."a\\nb": 'a\\nb' has '\\n'"""), ("materials", "", 'materials."": is empty'),
     ("materials", "a\u200bb", r"'a\\u200bb' has '\\u200b'"), ("materials", 201 * "x", "has 201 characters"),
-])  # fmt: skip
+])
 def test_names_of_materials_are_printable(key, name, reason):
     with pytest.raises(DeckError, match=reason) as error:
         deck.loads(f'{DECK}\n[{key}.{json.dumps(name)}]\nbased_on = "Al5083"\n')

@@ -24,7 +24,7 @@ SPELLED = r"a\x1b]0;owned\x07\x1b[2J \u202eb\u2066 \x9b31m [red]c[/red] \r"
 @pytest.mark.parametrize(("seconds", "shown", "measured"), [
     (0.4, "0 s", "0.4 s"), (9.94, "10 s", "9.9 s"), (9.96, "10 s", "10 s"), (77.2, "1 min 17 s", "1 min 17 s"),
     (388.8, "6 min 29 s", "6 min 29 s"), (3599.6, "1 h 00 min", "1 h 00 min"), (7384.0, "2 h 03 min", "2 h 03 min"),
-])  # fmt: skip
+])
 def test_a_time_has_one_form(seconds, shown, measured):
     assert duration(seconds) == shown
     assert duration(seconds, tenths=True) == measured
@@ -112,5 +112,5 @@ def test_names_in_charts_are_no_markup():
 def test_only_one_function_prints():
     """`say`."""
     names = [name for name, file in source.modules().items() if name.startswith("hydro2d")
-             for node in ast.walk(source.tree(file)) if isinstance(node, ast.Name) and node.id == "print"]  # fmt: skip
+             for node in ast.walk(source.tree(file)) if isinstance(node, ast.Name) and node.id == "print"]
     assert sorted(names) == ["hydro2d.base.terminal"]

@@ -16,10 +16,10 @@ DRAW = ["curve", "Al5083", "--figure", "never.png"]
     ("NUMBA_DISABLE_JIT", "1", CHECK, "NUMBA_DISABLE_JIT is set"),
     ("MPLBACKEND", "nonsense", DRAW, 'MPLBACKEND = "nonsense" is not a backend of matplotlib'),
     ("SOURCE_DATE_EPOCH", "x", CHECK, 'SOURCE_DATE_EPOCH = "x" is no number of seconds'),
-])  # fmt: skip
+])
 def test_a_variable_that_stops_a_package_is_named(name, value, command, said):
     done = subprocess.run([sys.executable, "-m", "hydro2d", *command], env=os.environ | {name: value}, capture_output=True,
-                          text=True, timeout=300)  # fmt: skip
+                          text=True, timeout=300)
     assert done.returncode == 2
     assert done.stderr.startswith("hydro2d: " + said)
     assert done.stderr.count("\n") == 1
@@ -34,6 +34,6 @@ def test_a_home_that_cannot_be_written_ends_no_command(tmp_path, command):
     nowhere = dict.fromkeys(names, str(tmp_path / "file" / "below"))
     root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     done = subprocess.run([sys.executable, "-m", "hydro2d", *command], cwd=tmp_path, capture_output=True, text=True,
-                          timeout=300, env={**os.environ, **nowhere, "PYTHONPATH": root})  # fmt: skip
+                          timeout=300, env={**os.environ, **nowhere, "PYTHONPATH": root})
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr

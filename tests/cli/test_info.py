@@ -18,7 +18,7 @@ SAID = {
     "restitution": "no coefficient to set",
     "units": 'numbers = "SI"', "Us-up": "mie-grueneisen", "principal": "fracture_stress",
     "BLINT": 'sliding.method = "slip-layer"',
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("word", SAID)
@@ -60,7 +60,7 @@ def test_a_word_that_is_also_a_key_says_both(capsys):
 @pytest.mark.parametrize(("name", "nearest"), [
     ("presure", 'did you mean "pressure", '), ("reference_densty", 'did you mean "reference_density"'),
     ("spal", 'did you mean "spall"'), ("W_aloy", 'did you mean "W_alloy"? '),
-])  # fmt: skip
+])
 def test_an_unknown_name_gets_the_nearest_ones(name, nearest):
     with pytest.raises(DeckError) as caught:
         info.page(name)

@@ -74,7 +74,7 @@ def test_run_plot_export(simulation, deck, tmp_path, capsys):
         "Pressure [Pa]", "Velocity [m/s]", "Material",
         *(f"{what} for {body}{unit}" for body in ("rod", "plate")
           for what, unit in (("Volume Fraction", ""), ("Centroid Offset r", " [m]"), ("Centroid Offset z", " [m]"))),
-    }  # fmt: skip
+    }
     assert (tmp_path / "e" / "history.csv").read_text().startswith("time [s],")
     assert call(["export", str(out)]) == 0
     assert (out / "export" / "interfaces.pvd").exists()
@@ -271,7 +271,7 @@ def test_signals_write_a_restart_file(deck, tmp_path, number, status):
     root = Path(__file__).parents[2]
     child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), "run", deck, "--out", str(out)], cwd=root,
                              stdout=subprocess.DEVNULL,
-                             preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # fmt: skip
+                             preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
     until = time.monotonic() + 60
     while not (out / "vtk" / "dump_000001.vtr").exists() and time.monotonic() < until:
         time.sleep(0.05)
@@ -297,7 +297,7 @@ def test_kill_leaves_whole_files(deck, tmp_path):
     root = Path(__file__).parents[2]
     options = ["--set", "output.restart_interval=1 ns", "--set", "output.vtk_interval=100 ns", "--set", "stop.time=1 ms"]
     child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), "run", deck, "--out", str(out), *options],
-                             cwd=root, stdout=subprocess.DEVNULL)  # fmt: skip
+                             cwd=root, stdout=subprocess.DEVNULL)
     until = time.monotonic() + 60
     while not (out / "restart.previous.h5").exists() and time.monotonic() < until:
         time.sleep(0.05)
@@ -321,7 +321,7 @@ def test_a_directory_below_a_file_is_one_line(deck, finished, tmp_path, capsys, 
 @pytest.mark.parametrize(("arguments", "said"), [
     (["info", "W_aloy"], "W_alloy"), (["run", "none.toml"], "there is no such file"), (["sweep", "none.toml"], "none.toml"),
     (["plot", "nowhere", "-o", "x.png"], "is not a run directory"), (["model", "tat"], 'did you mean "tate"?'),
-])  # fmt: skip
+])
 def test_errors_of_users_are_one_message(arguments, said, capsys):
     assert call(arguments) == 2
     message = capsys.readouterr().err
@@ -336,7 +336,7 @@ def test_the_options_of_workers_are_the_same_in_all_commands_that_run_many_cases
          if entry.names[0][2:] in ("workers", "threads", "scheduler", "slurm", "resume", "overwrite")]
         for arguments in (app[name].assemble_argument_collection(parse_docstring=True)
                           for name in ("sweep", "transition", "converge"))
-    ]  # fmt: skip
+    ]
     assert shown[0] == shown[1] == shown[2]
     assert [name for name, _, _ in shown[0]] == ["--workers", "--threads", "--scheduler", "--slurm", "--resume", "--overwrite"]
     assert all(words for _, words, _ in shown[0])

@@ -11,9 +11,9 @@ from tests.study import fake
 COLUMNS = 80
 #: with rows of every kind: a mesh that follows, a tie, walls, bodies that the mesh cuts off, warnings, long titles
 DECKS = ["cth_nose_shape/hemi_5083_1086", "sliding/impact_head_on", "perforation/sphere", "classic/flyer_spall",
-         "cth_nose_shape/hemi_5083_1296_strain_failure"]  # fmt: skip
+         "cth_nose_shape/hemi_5083_1296_strain_failure"]
 STUDIES = [("sweep", "cth_nose_shape/rigid_rod_failure"), ("sweep", "classic/methods"), ("sweep", "validation/eroding_rods"),
-           ("transition", "cth_nose_shape/transition_hemi_5083")]  # fmt: skip
+           ("transition", "cth_nose_shape/transition_hemi_5083")]
 
 
 def shipped(name):

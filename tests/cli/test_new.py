@@ -70,7 +70,7 @@ def test_check_counts_the_cells_across_every_body(capsys):
         "spall": ["120 cells across the radius of 12 mm, 20 cells across the thickness of 2 mm"],
         "taylor": ["8 cells across the radius of 3.81 mm, 53.3 cells across the height of 25.4 mm"],
         "crater": ["85 cells across the thickness of 60 mm, of which 50 mm lie in the mesh"],
-    }.items():  # fmt: skip
+    }.items():
         assert call(["check", f"problems/templates/{kind}.toml"]) == 0
         shown = capsys.readouterr().out
         assert [text for text in said if text not in shown] == []

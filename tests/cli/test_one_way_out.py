@@ -105,7 +105,7 @@ except KeyboardInterrupt:
 """
     environment = {**os.environ, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
     process = subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, text=True,
-                               preexec_fn=heard)  # fmt: skip
+                               preexec_fn=heard)
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)
     assert process.communicate(timeout=30)[0] == f"whole\n{number.name}\n"
@@ -129,7 +129,7 @@ def test_tests_in_the_background_of_a_script_hear_interrupts():
     """The shell lets them ignore SIGINT."""
     test = f"{__file__}::test_a_signal_waits_for_the_end_of_an_import[{signal.SIGINT:d}]"
     subprocess.run([sys.executable, "-m", "pytest", "-p", "no:cacheprovider", test], cwd=ROOT, check=True, capture_output=True,
-                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))  # fmt: skip
+                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
 
 
 @pytest.mark.parametrize("lost", [
@@ -250,7 +250,7 @@ def test_paths_that_cannot_be_are_one_line(simulation, deck, capsys, out, status
     (RuntimeError("can't start new thread"),
      "can't start new thread: too little memory, or too many threads; allow more with `ulimit -v` or `-u`"),
     (OSError(errno.EMFILE, "Too many open files", "history.h5"),
-     "Too many open files: history.h5; allow more with `ulimit -n`")])  # fmt: skip
+     "Too many open files: history.h5; allow more with `ulimit -n`")])
 def test_a_limit_of_the_machine_is_one_line_with_the_remedy(deck, monkeypatch, capsys, error, said):
     def refuse(*_):
         raise error

@@ -20,10 +20,10 @@ SOLID = {
     "specific_heat": 875.0,
 }
 DENSE = {"reference_density": 999.0, "sound_speed": 1500.0, "adiabatic_index": 1.19, "covolume": 6.72e-4,
-         "specific_heat": 3610.0}  # fmt: skip
+         "specific_heat": 3610.0}
 LIQUID = {"reference_density": 1000.0, "sound_speed": 1480.0, "adiabatic_index": 3.0, "specific_heat": 4180.0}
 TILLOTSON = {"reference_density": 2700.0, "a": 0.5, "b": 1.63, "A": 75.2e9, "B": 65e9, "E0": 5e6, "alpha": 5.0, "beta": 5.0,
-             "incipient_vaporisation": 3e6, "complete_vaporisation": 13.9e6, "specific_heat": 900.0}  # fmt: skip
+             "incipient_vaporisation": 3e6, "complete_vaporisation": 13.9e6, "specific_heat": 900.0}
 
 POROUS = {name: value for name, value in SOLID.items() if name != "reference_density"} | {
     "reference_density": 2770.0 / 1.275, "solid_density": 2770.0, "elastic_sound_speed": 4110.0, "elastic_pressure": 0.08e9,
@@ -102,7 +102,7 @@ STRENGTH_CASES = {
         "shear_modulus": 90.16e9, "A": 0.93, "B": 0.31, "C": 0.007, "M": 0.6, "N": 0.6, "T": 0.2e9, "HEL": 2.79e9,
         "P_HEL": 1.46e9, "crushed_limit": 0.2,
     },
-}  # fmt: skip
+}
 
 #: one constant yield stress for every model that has one, some of the special terms switched off by their values
 CONSTANT_YIELD = {
@@ -263,7 +263,7 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
         (contract.cracks, spoilt("damage", "cochran-banner", tension_left=lambda damage, par: 1.0 - damage), "by its ID"),
         (contract.cracks, spoilt("damage", "cochran-banner", full_opening=lambda par: 0.0), "full_opening is 0 m"),
     ],
-)  # fmt: skip
+)
 def test_a_model_that_breaks_the_contract_is_found(check, case, words):
     with pytest.raises(contract.Broken, match=words):
         check(case)

@@ -40,7 +40,7 @@ SHOT = [
     "mesh.z_start='-24 mm'", "mesh.z=[{to=0.0, cells=42}, {cells=80, across='rod', cells_across=6}]",
     "mesh.r=[{cells=18, across='rod', cells_across=6}]", "stop.time='8 us'", "output.vtk_interval='2 us'",
     "tracer=[" + ", ".join(f"{{name='t{n}', r='{r} m', z='{z} m'}}" for n, (r, z) in enumerate(TRACERS)) + "]",
-]  # fmt: skip
+]
 LINES = vtkXMLPolyDataReader
 #: VTK's readers of the files of every series
 SERIES = {"series.pvd": vtkXMLRectilinearGridReader, "interfaces.pvd": LINES, "tracers.pvd": LINES}
@@ -327,7 +327,7 @@ def test_paths_of_tracers(shot):
 
 
 @pytest.mark.parametrize(("name", "lowest", "highest"), [("Velocity of Hard Bodies [m/s]", 0.5, 1.0),
-                                                         ("Velocity of Soft Bodies [m/s]", 0.0, 0.5)])  # fmt: skip
+                                                         ("Velocity of Soft Bodies [m/s]", 0.0, 0.5)])
 def test_glyphs_of_both_velocities(shot, name, lowest, highest):
     """One arrow in every cell on its side of the interface; on the other side the velocity is zero."""
     read = reader(shot, 4)

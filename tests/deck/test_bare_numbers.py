@@ -51,7 +51,7 @@ def message(text, overrides=()):
     ('"1 us"', "60", 15, 'stop.time: 60 has no unit; write "60 us"'),
     ("[stop]", '[boundaries]\nz_min = "piston"\nz_min_piston = [[0, 0], [2, 300]]\n[stop]', 16,
      'boundaries.z_min_piston: row 1: 2 has no unit; write "2 us"'),
-])  # fmt: skip
+])
 def test_a_number_without_its_unit_is_refused(old, new, line, told):
     assert old in TEXT
     said = message(TEXT.replace(old, new, 1))
@@ -71,7 +71,7 @@ def test_a_number_on_the_command_line_is_refused_unless_the_deck_or_the_line_say
 
 def test_numbers_that_need_no_unit():
     loaded = deck.loads(TEXT, ["mesh.z_start=0", "body.flyer.velocity=[0, 0.0]", "numerics.courant=0.3", "mesh.r.0.cells=5",
-                               "materials.alloy.eos.grueneisen=1.9", "stop.cycles=7"])  # fmt: skip
+                               "materials.alloy.eos.grueneisen=1.9", "stop.cycles=7"])
     assert (loaded.numerics.courant, loaded.stop.cycles, loaded.mesh.r[0].cells) == (0.3, 7, 5)
     assert [type(value) for value in (loaded.numerics.courant, loaded.stop.cycles, loaded.mesh.r[0].cells)] == [float, int, int]
 

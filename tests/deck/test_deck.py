@@ -481,7 +481,7 @@ BARE = changed("W_alloy", "Al7075_T6")
         (changed("W_alloy", "Al7075_T6:spall"), None),
         (BARE + '[failure]\ntensile = "none"', None),
     ],
-)  # fmt: skip
+)
 def test_failure_that_is_left_out_is_warned_of(text, warned):
     assert deck.warnings(deck.loads(text)) == ([warned] if warned else [])
 
@@ -661,7 +661,7 @@ def test_a_key_that_is_not_there_has_no_line():
 
 @pytest.mark.parametrize(("override", "depth"), [
     ("body.rod.velocity=1095 m/s", 0.448), ("body.rod.velocity=1100 m/s", None), ("body.plate.material=Al7039", None),
-])  # fmt: skip
+])
 def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
     shot = deck.load("cth_nose_shape/hemi_5083_1086.toml", [override]).experiment
     assert (shot and shot.penetration) == depth
@@ -669,7 +669,7 @@ def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
 
 @pytest.mark.parametrize(("rod", "plate", "depth"), [
     (700.0, -386.0, 0.448), (0.0, -1086.0, 0.448), (-100.0, -1186.0, 0.448), (1086.0, -100.0, None), (1186.0, 0.0, None),
-])  # fmt: skip
+])
 def test_an_experiment_goes_with_its_velocity_in_any_frame(rod, plate, depth):
     text = deck.find("cth_nose_shape/hemi_5083_1086.toml").read_text().replace('follow = "rod"\n', "")
     shot = deck.loads(text, [f"body.rod.velocity={rod} m/s", f"body.plate.velocity={plate} m/s"]).experiment

@@ -26,7 +26,7 @@ BODIES = {
                 'velocity = "1 km/s"\n',
     "disc": '[[body]]\nname = "rod"\nshape = "plate"\nz_front = "-4 mm"\nthickness = "4 mm"\nradius = "9 mm"\n'
             'material = "W_alloy"\nvelocity = "1 km/s"\n',
-}  # fmt: skip
+}
 PLATE = '[[body]]\nname = "plate"\nshape = "plate"\nz_front = 0.0\nthickness = "300 mm"\nmaterial = "Al5083"\n'
 
 

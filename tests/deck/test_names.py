@@ -19,7 +19,7 @@ def bodies(*names: str) -> str:
     ("plate", "plate_failed", "body_plate_failed_mass_kg"),
     ("X", "X_initial", "body_X_initial_length_m"),
     ("X", "X_radius_at", "body_X_radius_at_z_min_m"),
-])  # fmt: skip
+])
 def test_bodies_that_would_share_a_column_are_refused(one, other, column):
     for names in ((one, other), (other, one)):
         with pytest.raises(DeckError, match=rf"the history would have the column {column} for"):

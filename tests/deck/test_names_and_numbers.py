@@ -150,7 +150,7 @@ def test_an_end_that_nearly_fits_whole_cells_is_met_and_reported():
         ('{to="1 in", size="2 mm"}', "2 mm do not divide 0.0254 m; to = 0.024 m or 0.026 m"),
         ('{to="1 mm", size="3 cm"}', "3 cm do not divide 1 mm; to = 30 mm would fit, or cells = 1 (of 0.1 cm)"),
     ],
-)  # fmt: skip
+)
 def test_a_size_that_does_not_divide_is_reported_in_the_units_of_the_deck(segment, said):
     with pytest.raises(DeckError, match=r"mesh\.z\[0\]") as error:
         deck.loads(TEXT, [f"mesh.z=[{segment}]"])
@@ -165,7 +165,7 @@ def test_a_size_that_does_not_divide_is_reported_in_the_units_of_the_deck(segmen
         ("rdo", ("rho", "rod"), "rod"), ("Tylor", ("to", "taylor"), "taylor"), ("slip", ("none", "slip-layer"), "slip-layer"),
         ("steinberg", ("steinberg-guinan", "johnson-cook"), "steinberg-guinan"),
     ],
-)  # fmt: skip
+)
 def test_only_a_name_that_is_near_is_suggested(name, allowed, near):
     assert nearest(name, allowed) == near
     assert ("did you mean" in unknown("key", name, allowed)) == (near is not None)

@@ -102,7 +102,7 @@ def test_a_hot_bar_at_rest_stays_at_rest():
     (box_of("insert", (0, 8), (5, 8)), box_of("block", (0, 20), (0, 20)), ""),  # all of it inside, and intended
     (box_of("a", (0, 3), (0, 3)), box_of("b", (3, 6), (0, 3)), ""),
     (box_of("a", (0, 3), (0, 3)), box_of("b", (0, 3), (2, 5), join="a"), ""),
-])  # fmt: skip
+])
 def test_overlaps_are_reported_with_their_volume(first, second, said):
     texts = [text for text in warnings(deck.loads(MESH + first + second)) if "overlap" in text]
     assert [text.startswith(said) and "the earlier one" in text for text in texts] == [True] * bool(said)
@@ -158,7 +158,7 @@ def test_a_body_at_an_edge_that_keeps_it_is_not_said_to_leave(kind, start, leave
     ({}, ["plate"]), ({"r_max_axial": "100 m/s"}, []), ({"r_max_radial": "1 m/s"}, ["plate"])])
 def test_bodies_that_a_held_edge_starts_to_shear_are_reported(settings, stuck):
     bodies = (box_of("plate", (0, 20), (0, 10), velocity="100 m/s") + box_of("rod", (0, 3), (-10, 0), velocity="200 m/s")
-              + table("boundaries", r_max="held", **settings))  # fmt: skip
+              + table("boundaries", r_max="held", **settings))
     said = [text for text in warnings(deck.loads(MESH + bodies)) if 'r_max = "held"' in text]
     assert [name for name in ("plate", "rod") if any(f'"{name}" starts at' in text for text in said)] == stuck
 
@@ -189,7 +189,7 @@ def test_liquids_that_bear_any_tension_are_reported():
         text = MESH + box_of("a", (0, 3), (0, 3), material=material) + (table("failure", **failure) if failure else "")
         text += table("materials.melt", eos={"model": "stiffened-gas", "reference_density": "1000 kg/m^3",
                                              "adiabatic_index": 4.4, "sound_speed": "1483 m/s",
-                                             "specific_heat": "4180 J/kg/K"})  # fmt: skip
+                                             "specific_heat": "4180 J/kg/K"})
         return [text for text in warnings(deck.loads(text)) if "bears any tension" in text]
 
     assert told("melt") == [
@@ -203,9 +203,9 @@ def test_water_cavitates():
     """Two slabs at 400 m/s: a step adds little to the tension at which water cavitates, -20 MPa; it used to bear -108 MPa."""
     water = entry("body", name="flyer", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"], z=["-2 mm", "0 mm"],
                   velocity="400 m/s") + entry("body", name="target", material="water_tillotson", shape="box", r=[0.0, "0.4 mm"],
-                                              z=["0 mm", "4 mm"])  # fmt: skip
+                                              z=["0 mm", "4 mm"])
     sim = Simulation(deck.loads(
         mesh(("0.4 mm", 4), ("-6 mm", "12 mm", "0.1 mm")) + water + table("boundaries", r_max="wall") + stop("5 us")
-        + entry("gauge", name="spall", r="0.05 mm", z="2.25 mm")))  # fmt: skip
+        + entry("gauge", name="spall", r="0.05 mm", z="2.25 mm")))
     sim.run()
     assert -25e6 < sim.stations.measure()["gauge_spall"]["least_pressure_Pa"] < 0.0

@@ -50,7 +50,7 @@ def told(mesh, *bodies):
         ([box("near", (0.5, 0.9)), box("far", (0.9, 0.95), more='join = "near"')], []),
         ([ball("ball", 2, 0.5)], []),
     ],
-)  # fmt: skip
+)
 def test_bodies_coats_and_layers(bodies, warned):
     assert told(MESH, *bodies) == warned
 
@@ -82,7 +82,7 @@ def test_the_wall_of_a_shell_counts_and_not_its_diameter():
         ([box("rear", (0.2, 1.03)), box("filler", (1.03, 1.09)), box("front", (1.09, 2))],
          [f'body "filler": 0.6 cells across it along z{ALWAYS}']),
     ],
-)  # fmt: skip
+)
 def test_gaps_and_slits(bodies, warned):
     """Gaps that their bodies close by themselves do not count, nor do wedges next to a point of contact."""
     assert told(MESH, *bodies) == warned

@@ -102,7 +102,7 @@ def test_a_body_of_it_has_the_crack_volume_and_no_other_fracture_pressure():
     ("Al6061_T6", {"fracture_pressure": TENSION}, {"tensile": "none"}, 'write tensile = "material"'),
     ("Al_porous", {"fracture_pressure": TENSION}, {}, "without internal variables, and p-alpha has some"),
     ("alumina_995", {"fracture_pressure": TENSION}, {}, "the strength model johnson-holmquist falls with a damage of its own"),
-])  # fmt: skip
+])
 def test_models_that_do_not_go_with_cracks_are_refused(based_on, keys, failure, message):
     with pytest.raises(DeckError, match=message):
         table_of(material("metal", based_on, damage=CRACKS, **keys) + table("failure", damage="material", **failure))

@@ -9,7 +9,7 @@ from hydro2d.base.errors import DeckError
 from hydro2d.materials import library, slots
 
 TNT = {"reference_density": 1630.0, "A": 371.2e9, "B": 3.231e9, "R1": 4.15, "R2": 0.95, "omega": 0.30,
-       "detonation_energy": 7e9, "detonation_velocity": 6930.0, "cj_pressure": 21e9}  # fmt: skip
+       "detonation_energy": 7e9, "detonation_velocity": 6930.0, "cj_pressure": 21e9}
 ROW = jwl.row(TNT)
 BURNT = np.array([1.0, 0.0, 1e-7])
 

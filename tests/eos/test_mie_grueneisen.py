@@ -25,7 +25,7 @@ AL5083 = {
 }
 MATERIALS = {"tungsten alloy": TUNGSTEN_ALLOY, "aluminium 5083": AL5083}
 WATER = {"reference_density": 1000.0, "sound_speed": 1480.0, "hugoniot_slope": 2.56, "hugoniot_slope_2": -1.986,
-         "hugoniot_slope_3": 0.2268, "grueneisen": 0.5, "specific_heat": 4180.0}  # fmt: skip
+         "hugoniot_slope_3": 0.2268, "grueneisen": 0.5, "specific_heat": 4180.0}
 
 
 @pytest.fixture(params=list(MATERIALS))
@@ -215,7 +215,7 @@ def test_without_curvature_not_a_bit_changes():
     assert (row == mie_grueneisen.row(AL5083)).all()
     d = 1.0 / (1.0 - 1.4 * 0.2)
     assert mie_grueneisen.reference_slope(0.2, 1.4, 0.0, 0.0, 0.985) == d * d * ((1.0 + 1.4 * 0.2) * d * (1.0 - 0.985 * 0.2)
-                                                                                 - 0.985 * 0.2)  # fmt: skip
+                                                                                 - 0.985 * 0.2)
 
 
 def test_temperature_along_the_isentrope_of_a_curved_hugoniot():

@@ -13,7 +13,7 @@ GAMMA, STIFFNESS, COVOLUME, HEAT, T0 = 1.19, 621.78e6, 6.7212e-4, 3610.0, 298.15
 V0 = (GAMMA - 1.0) * HEAT * T0 / STIFFNESS + COVOLUME
 C0 = np.sqrt(GAMMA * STIFFNESS * V0**2 / (V0 - COVOLUME))
 WATER = {"reference_density": 1.0 / V0, "sound_speed": C0, "adiabatic_index": GAMMA, "covolume": COVOLUME,
-         "specific_heat": HEAT, "reference_temperature": T0}  # fmt: skip
+         "specific_heat": HEAT, "reference_temperature": T0}
 ROW = noble_abel.row(WATER)
 #: the energy of their form at which p(V0) = 0
 Q = -GAMMA * STIFFNESS * (V0 - COVOLUME) / (GAMMA - 1.0)

@@ -110,7 +110,7 @@ def test_heat_crushes_as_well():
     ({"elastic_pressure": 0.7e9}, "must be below crush_pressure"),
     ({"elastic_sound_speed": 5400.0}, "above the 5350 of the solid"),
     ({"elastic_pressure": 1e14, "crush_pressure": 2e14}, "reached at no density below twice that at rest"),
-])  # fmt: skip
+])
 def test_constants_that_contradict_one_another(change, words):
     with pytest.raises(ValueError, match=words):
         p_alpha.row({**SOLID, **POROUS, **change}, mie_grueneisen)
@@ -128,7 +128,7 @@ DECK = "problems/verification/porous_compaction.toml"
     ('materials.Al_porous={based_on="Al_porous", eos={sound_speed="-1 m/s"}}', "must be non-negative|must be positive"),
     ('materials.Al_porous={eos={model="p-alpha", reference_density=2000}}', "p-alpha needs solid"),
     ('materials.Al_porous={based_on="Al5083", eos={solid="ideal-gas"}}', "mie-grueneisen does not build on another"),
-])  # fmt: skip
+])
 def test_decks_that_are_wrong(override, words):
     with pytest.raises(DeckError, match=words):
         library.resolve(deck.load(DECK, [override]))

@@ -239,7 +239,7 @@ def test_h_is_of_first_order():
     ({"solid_density": 2690.0}, 1.6, "reference_density = 2690 kg/m.3 and 298 K the table has a pressure of"),
     ({"reference_temperature": 2e4}, 1.6, "reference_temperature = 20000 K is not within the table"),
     ({"sound_speed": 5350.0}, 1.6, 'unknown parameter "sound_speed"'),
-])  # fmt: skip
+])
 def test_a_row_that_the_table_does_not_allow(change, high, words):
     with pytest.raises(ValueError, match=words):
         p_alpha.row({**POROUS, **change}, tabular, table(41, 0.9, high))

@@ -7,7 +7,7 @@ from problems.verification.exact.coggeshall import Free, Slowed, shell_mean
 from problems.verification.exact.collapse import Collapse
 
 FLOWS = [Free(2, 1.0, 5.0 / 3.0, 1.0, 33e3, 1e-3), Free(1, -0.5, 1.4, 2.0, 1e5, 1e-3), Slowed(1, 1.0, 1.4, 1.0, 1e-3),
-         Slowed(2, 0.0, 5.0 / 3.0, 1.0, 1e-3)]  # fmt: skip
+         Slowed(2, 0.0, 5.0 / 3.0, 1.0, 1e-3)]
 
 
 @pytest.mark.parametrize("flow", FLOWS, ids=str)

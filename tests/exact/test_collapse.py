@@ -7,7 +7,7 @@ from problems.verification.exact.collapse import Collapse
 
 #: at t = 0.1, j: density, pressure, energy; from ExactPack's tests
 PRINTED = [(1, 1.1111111111, 0.7946414688, 1.0727659829), (2, 1.2345679012, 0.9471825959, 1.1508268541),
-           (3, 1.3717421125, 1.1290058539, 1.2345679012)]  # fmt: skip
+           (3, 1.3717421125, 1.1290058539, 1.2345679012)]
 
 
 @pytest.mark.parametrize(("j", "rho", "p", "e"), PRINTED)

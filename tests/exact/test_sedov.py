@@ -8,7 +8,7 @@ from problems.verification.exact.sedov import SURFACE, Sedov
 #: the energy that takes the shock to R = 1 at t = 1, and the pressure at the centre over that behind the shock, by an
 #: independent integration that agrees with ExactPack to six digits
 PRINTED = [(3, 1.4, 0.851072, 0.36546), (2, 1.4, 0.984074, 0.37292), (1, 1.4, 1.077486, 0.39002), (3, 5 / 3, 0.493590, 0.30620),
-           (2, 5 / 3, 0.564283, 0.32150), (1, 5 / 3, 0.602935, 0.35320)]  # fmt: skip
+           (2, 5 / 3, 0.564283, 0.32150), (1, 5 / 3, 0.602935, 0.35320)]
 
 
 @pytest.mark.parametrize(("j", "gamma", "alpha", "centre"), PRINTED)

@@ -105,7 +105,7 @@ def test_a_change_is_refused_until_it_is_meant(done, name, change, remedy):
 
 def test_files_of_earlier_versions_are_read(tmp_path):
     texts = {"deck.toml": 'name = "a"\n', "summary.json": '{\n  "deck": "a"\n}\n', "short.json": "{}\n",
-             "series.pvd": '<?xml version="1.0"?>\n<VTKFile type="Collection">\n</VTKFile>\n'}  # fmt: skip
+             "series.pvd": '<?xml version="1.0"?>\n<VTKFile type="Collection">\n</VTKFile>\n'}
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
         assert verified_text(tmp_path / name, Error) == text
@@ -141,14 +141,14 @@ def test_nothing_but_files_is_read(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["deck.toml", "summary.json", "progress.json", "study.json", "series.pvd", "history.h5",
-                                  "restart.h5", "dump_000000.vtr"])  # fmt: skip
+                                  "restart.h5", "dump_000000.vtr"])
 def test_the_size_of_a_file_is_looked_at_before_it_is_read(tmp_path, name):
     """A file of a terabyte takes no memory."""
     file = tmp_path / name
     with open(file, "wb") as sparse:
         sparse.truncate(1 << 40)
     readers = {".toml": verified_text, ".json": read_json, ".pvd": lambda path, _: vtk.read_series(path),
-               ".h5": lambda path, _: history.read(path), ".vtr": lambda path, _: vtk.read_grid(path)}  # fmt: skip
+               ".h5": lambda path, _: history.read(path), ".vtr": lambda path, _: vtk.read_grid(path)}
     with pytest.raises(Error, match=f"{name} cannot be read: it has 1099511627776 bytes; at most "):
         readers[file.suffix](file, Error)
     with pytest.raises(Error, match=f"{name}: cannot be read: it has 1099511627776 bytes; at most "):

@@ -12,7 +12,7 @@ COLUMNS = (
     Column("row", whole, empty=False), Column("length [mm]", number), Column("state", one_of("done", "failed"), empty=False),
     Column("trusted", flag), Column("hash", like(r"[0-9a-f]{4}", "a hash of four digits"), required=False),
     Column("mass [kg]", number, required=False), Column("about"),
-)  # fmt: skip
+)
 HEAD = "row,length [mm],state,trusted,about\n"
 TEXT = HEAD + "1,2.5,done,True,a\n2,,failed,,\n"
 
@@ -34,7 +34,7 @@ def test_a_table_is_read_by_its_columns(tmp_path):
     "\ufeff" + TEXT, TEXT.replace("\n", "\r\n"), TEXT.replace("\n", "\r"), TEXT + "\n\n", TEXT.rstrip(), TEXT + " , ,,,\n",
     TEXT.replace(",", " , "), TEXT.replace("\n", ",,\n"), TEXT.replace("done", '"done"'), TEXT.replace("True", "TRUE"),
     TEXT.replace("\n1", "\n\n\n01"),
-])  # fmt: skip
+])
 def test_what_changes_no_value_is_read(tmp_path, text):
     assert table(tmp_path, text) == table(tmp_path, TEXT)
 
@@ -60,7 +60,7 @@ def test_what_changes_no_value_is_read(tmp_path, text):
     (HEAD + '1,"2,done\n', "x.csv:2: is not a table with commas: unexpected end of data"),
     *((f"{HEAD}{mark}\n", "x.csv:2: has a mark of git between two versions of the file; keep one of them")
       for mark in ("<<<<<<< HEAD", "=======", "||||||| 1a2b", ">>>>>>> branch")),
-])  # fmt: skip
+])
 def test_what_is_not_as_declared_is_refused_in_one_line(tmp_path, text, said):
     with pytest.raises(Error) as error:
         table(tmp_path, text)
@@ -74,7 +74,7 @@ def test_numbers(text):
 
 
 @pytest.mark.parametrize("text", ["nan", "inf", "-inf", "Infinity", "1_0", "1,5", "1 000", "٣", "0x1", "1e", "e1", "1e999",
-                                  "--1", "1.2.3", "12:30", "2026-01-31", "#REF!", "1\n", "½", "1m"])  # fmt: skip
+                                  "--1", "1.2.3", "12:30", "2026-01-31", "#REF!", "1\n", "½", "1m"])
 def test_no_numbers(text):
     with pytest.raises(ValueError, match="is not a"):
         number(text)

@@ -149,7 +149,7 @@ def test_a_pipe_in_a_run_ends_commands_in_words(finished, tmp_path):
         "        sys.exit(f'{command}: {status}, {text}')\n"
     )
     done = subprocess.run([sys.executable, "-c", script, json.dumps(asked)],
-                          capture_output=True, text=True, timeout=120, check=False)  # fmt: skip
+                          capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr
 
 

@@ -306,11 +306,11 @@ def test_a_cache_that_cannot_be_written_is_read(tmp_path):
     """One of a site, on a file system that is mounted read-only."""
     (tmp_path / "shot.toml").write_text(DECK)
     command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--quiet", "--set", "stop.cycles=3",
-               "--threads", "1", "--out"]  # fmt: skip
+               "--threads", "1", "--out"]
     subprocess.run([*command, str(tmp_path / "warm")], check=True)
     folder = cache.root()
     script = f"mount --bind {folder} {folder} && mount -o remount,bind,ro {folder} && ! touch {folder}/x 2>/dev/null && "
     words = " ".join(f"'{word}'" for word in [*command, str(tmp_path / "out")])
     done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script + words], capture_output=True, text=True,
-                          check=False)  # fmt: skip
+                          check=False)
     assert (done.returncode, done.stderr) == (0, "")

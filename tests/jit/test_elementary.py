@@ -49,7 +49,7 @@ def error(computed, exact):
 @long
 @pytest.mark.parametrize("x", [
     RANDOM.uniform(-708.0, 709.78, 200_000), RANDOM.uniform(-1.0, 1.0, 200_000), 10.0 ** RANDOM.uniform(-20.0, -3.0, 20_000),
-], ids=["all", "about 0", "tiny"])  # fmt: skip
+], ids=["all", "about 0", "tiny"])
 def test_exp(x):
     assert error(row_of(exps, x), np.exp(x.astype(np.longdouble))) < 1.0
 
@@ -58,7 +58,7 @@ def test_exp(x):
 @pytest.mark.parametrize("x", [
     2.0 ** RANDOM.uniform(-1022.0, 1023.99, 200_000), RANDOM.uniform(0.5, 2.0, 200_000),
     1.0 + RANDOM.uniform(-1.0, 1.0, 100_000) * 10.0 ** RANDOM.uniform(-15.0, -2.0, 100_000),
-], ids=["all", "about 1", "next to 1"])  # fmt: skip
+], ids=["all", "about 1", "next to 1"])
 def test_log(x):
     x = x[x != 1.0]
     assert error(row_of(logs, x), np.log(x.astype(np.longdouble))) < 1.0
@@ -79,7 +79,7 @@ def test_power():
     (log, 1.0, 0.0), (log, 0.0, -math.inf), (log, -0.0, -math.inf), (log, -1.0, math.nan), (log, -math.inf, math.nan),
     (log, math.inf, math.inf), (log, math.nan, math.nan), (log, -5e-324, math.nan),
     (log, 5e-324, -math.inf), (log, 2e-308, -math.inf),
-])  # fmt: skip
+])
 def test_special_values(function, x, expected):
     np.testing.assert_array_equal(function(x), expected)
 
@@ -88,7 +88,7 @@ def test_special_values(function, x, expected):
     (0.0, 0.3, 0.0), (0.0, -1.0, math.inf), (0.0, 0.0, math.nan), (1.0, 0.41, 1.0), (0.7, 0.0, 1.0), (-1.0, 2.0, math.nan),
     (math.inf, 0.5, math.inf), (math.inf, -0.5, 0.0), (math.nan, 0.5, math.nan), (math.nan, 0.0, math.nan),
     (2.0, math.nan, math.nan),
-])  # fmt: skip
+])
 def test_special_powers(x, y, expected):
     np.testing.assert_array_equal(power(x, y), expected)
 

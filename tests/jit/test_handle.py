@@ -67,7 +67,7 @@ def test_a_handle_keeps_its_arrays_alive(read):
 @pytest.mark.parametrize("value", [
     np.zeros((2, 3)), np.zeros((2, 3, 4), dtype=int), np.zeros((2, 3, 4), dtype=np.float32), np.zeros((2, 3, 8))[..., ::2],
     np.zeros((4, 3, 2)).T, 1.0, [[[1.0]]], None,
-], ids=["axes", "kind", "precision", "steps", "order", "number", "list", "none"])  # fmt: skip
+], ids=["axes", "kind", "precision", "steps", "order", "number", "list", "none"])
 def test_arrays_of_another_type_are_refused(value):
     handle = filled()
     with pytest.raises(TypeError, match="u is an array of float64 with 3 axes"):

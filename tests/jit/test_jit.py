@@ -164,10 +164,10 @@ def test_no_other_private_name_of_numba_is_used():
     for file in (ROOT / "hydro2d").glob("**/*.py"):
         tree = ast.parse(file.read_text(encoding="utf-8"))
         modules = {alias.asname or alias.name for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom))
-                   for alias in node.names if "numba" in (getattr(node, "module", None) or alias.name)}  # fmt: skip
+                   for alias in node.names if "numba" in (getattr(node, "module", None) or alias.name)}
         used = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute) and node.attr.startswith("_")
                 and node.attr != "__version__"
-                and isinstance(node.value, ast.Name) and node.value.id in modules}  # fmt: skip
+                and isinstance(node.value, ast.Name) and node.value.id in modules}
         assert used <= known, file
 
 

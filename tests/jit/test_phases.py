@@ -31,7 +31,7 @@ def test_a_list_becomes_a_function():
         "        wait(w.gate, w.parts)",
         "    if not w.dj:",
         "        _2(part, w.heated_columns, w.heat, w.cell_mass, w.deposited, w.group, w.metrics, w.parts, w.q, w.vof)",
-    ]  # fmt: skip
+    ]
 
 
 def test_arguments_of_a_phase():
@@ -52,7 +52,7 @@ def test_arguments_of_a_phase():
     (("barrier",), "'barrier' is no step"),
     ((lambda part: None,), "is no kernel"),
     ((audit_sums,), "is no kernel"),
-], ids=lambda value: None if isinstance(value, tuple) else value)  # fmt: skip
+], ids=lambda value: None if isinstance(value, tuple) else value)
 def test_lists_that_make_no_sense_are_refused(steps, message):
     with pytest.raises(ValueError, match=message):
         Phase("made", "Made for a test.", *steps)

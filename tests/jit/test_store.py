@@ -155,7 +155,7 @@ def gone(file: Path) -> None:
 
 
 PLACES = {"a folder": lambda file: (file.unlink(), file.mkdir()), "a pipe": lambda file: (file.unlink(), os.mkfifo(file)),
-          "a link to itself": link, "a link to nothing": gone}  # fmt: skip
+          "a link to itself": link, "a link to nothing": gone}
 
 
 @pytest.mark.parametrize("damage", PLACES.values(), ids=PLACES)
@@ -228,7 +228,7 @@ def program(folder: Path, *before: str, root: str = "") -> tuple[str, list[str]]
     (folder / "program.py").write_text(PROGRAM)
     own = {"HYDRO2D_CACHE_DIR": root or str(folder / "cache"), "PYTHONPATH": str(cache.ROOT)}
     done = subprocess.run([*before, sys.executable, str(folder / "program.py")], env={**os.environ, **own}, text=True,
-                          capture_output=True, check=True)  # fmt: skip
+                          capture_output=True, check=True)
     return done.stdout.strip(), done.stderr.splitlines()
 
 

@@ -22,7 +22,7 @@ needs_name = pytest.mark.skipif(not NAME or bool(target.named().missing()), reas
 def in_process(code: str, **environment: str) -> subprocess.CompletedProcess:
     """A process of its own that runs the code."""
     return subprocess.run([sys.executable, "-c", code], cwd=cache.ROOT, env={**os.environ, **environment}, capture_output=True,
-                          text=True, check=False)  # fmt: skip
+                          text=True, check=False)
 
 
 def test_by_default_code_is_for_the_processor_at_hand(monkeypatch):
@@ -80,7 +80,7 @@ def test_a_program_that_has_used_numba_before_gets_a_message(tmp_path):
 #: variables of numba that change code, and the text that says that they differ from the default
 CHANGES = {"NUMBA_OPT": "max", "NUMBA_LOOP_VECTORIZE": "0", "NUMBA_SLP_VECTORIZE": "1", "NUMBA_ENABLE_AVX": "0",
            "NUMBA_BOUNDSCHECK": "1", "NUMBA_DEBUGINFO": "1", "NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": "",
-           "HYDRO2D_TARGET": NAME}  # fmt: skip
+           "HYDRO2D_TARGET": NAME}
 HARMLESS = {"NUMBA_FULL_TRACEBACKS": "1", "NUMBA_DEVELOPER_MODE": "0", "NUMBA_COLOR_SCHEME": "dark_bg"}
 
 
@@ -90,7 +90,7 @@ def test_options_that_change_code_change_the_folder():
     code = "from hydro2d.jit import cache; print(cache.folder_for([cache.HERE / 'bits.py']))"
     processes = {name: subprocess.Popen([sys.executable, "-c", code], cwd=cache.ROOT, stdout=subprocess.PIPE, text=True,
                                         env={**os.environ, **({name: value} if name else {})})
-                 for name, value in {"": "", **CHANGES, **HARMLESS}.items()}  # fmt: skip
+                 for name, value in {"": "", **CHANGES, **HARMLESS}.items()}
     folders = {name: process.communicate()[0] for name, process in processes.items()}
     plain = folders.pop("")
     assert {name for name, folder in folders.items() if folder == plain} == set(HARMLESS)
@@ -210,7 +210,7 @@ def test_shipped_code_that_fits_needs_no_words(shipped):
     ({"processor": "sapphirerapids"}, "is not used: it is for processor sapphirerapids, here is "),
     ({"numba.config.BOUNDSCHECK": "1"}, "is not used: it is for numba.config.BOUNDSCHECK 1, here is None"),
     ({"sources": "0123"}, "is used in part: its sources were changed"),
-])  # fmt: skip
+])
 def test_shipped_code_for_something_else_is_said_in_one_line(changes, said, shipped):
     (line,) = shipped(**changes)
     assert line.startswith(f"hydro2d: the compiled code of the package {said}")

@@ -50,7 +50,7 @@ class Cells:
                       "pushing": none, "loaded": none, "edge_pressure": np.zeros(4), "dj": 0, "di": 1, "steepness": 2.0,
                       "sound_floor": 1.0,
                       "gases": np.zeros(bodies, dtype=bool),
-                      "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}  # fmt: skip
+                      "carried": fields.carried_rows([range(1, self.state.q.shape[0])] * bodies)}
 
     def __getattr__(self, name: str):
         return getattr(self.__dict__["state"], name)
@@ -61,5 +61,5 @@ class Cells:
         assert set(given) <= set(names), set(given) - set(names)
         known = {**self.known, **given}
         values = {name: known[name] if name in known else getattr(self.state, name, None) if hasattr(self.state, name)
-                  else getattr(self.grid, name) for name in names}  # fmt: skip
+                  else getattr(self.grid, name) for name in names}
         return (source(function) if as_python else function)(*(values[name] for name in own), *handles(function, values))

@@ -28,7 +28,7 @@ def started(columns: int, rows: int, *, active: bool, advection: str, sliding: s
         + table("sliding", method=sliding, hard=["rod"])
         + entry("tracer", name="tip", r=0.0, z="-1 mm")
         + stop("1 us")
-    ))  # fmt: skip
+    ))
     for _ in range(WARM):
         simulation.step()
     return simulation

@@ -21,7 +21,7 @@ PARTS = 4
 #: functions of several cells at once that are left compiled
 PLAIN = ("exp", "log", "power")
 DECKS = {"slip-layer": text_of("both", LAYER), "contact": text_of("both", CONTACT, tip="5 mm", follows=False),
-         "following": text_of("ke", CONTACT)}  # fmt: skip
+         "following": text_of("ke", CONTACT)}
 
 
 class Seen(threading.local):
@@ -204,7 +204,7 @@ OFTEN = [
     ("carry_momentum", "momentum.sweep_momentum", "flux_mass"), ("carry_momentum", "momentum.deposit", "deficit"),
     ("carry_momentum", "audit_sums.sum_kinetic_outflow", "cell_mass"),
     ("carry_momentum", "column_ranges.widen_ranges", "group_ranges"),
-]  # fmt: skip
+]
 NEEDED = [*RARE, *(pytest.param(*each, marks=pytest.mark.slow) for each in OFTEN)]
 
 

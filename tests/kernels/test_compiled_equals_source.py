@@ -59,7 +59,7 @@ def text_of(advection: str, sliding: dict, tip: str = "0.2 mm", follows: bool | 
         + table("failure", damage="material", melting="material")
         + table("numerics", initial_dt_factor=1.0, advection=advection)
         + stop("1 us")
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.thorough

@@ -17,7 +17,7 @@ CALLED = sorted(
     if name.startswith(f"{PACKAGE}.")
     for function in source.functions(source.tree(file), *LOOPS, *(("point", "not_inlined", "rowwise")
                                                                   if file.stem in MIXED else ()))
-)  # fmt: skip
+)
 FILES = sorted((source.ROOT / "tests" / "kernels").glob("test_*.py"))
 TESTED = {pair for file in FILES for pair in touched(source.tree(file), PACKAGE)}
 

@@ -17,7 +17,7 @@ TENSION, OPENING, SIZE = 1.2e9, 20e-6, 50e-6
 TEXT = (mesh((4 * SIZE, 4), (12 * SIZE, 12), geometry="planar") + walls("r_max", "z_min", "z_max")
         + box("block", "metal", z=[0.0, 1.0])
         + material("metal", "Al6061_T6", fracture_pressure=TENSION, damage={"model": "cochran-banner", "opening": OPENING})
-        + table("failure", damage="material") + table("numerics", active_region=False) + stop(1e-6))  # fmt: skip
+        + table("failure", damage="material") + table("numerics", active_region=False) + stop(1e-6))
 #: rows of the crack volume and of whether it grows
 WIDE, GROWING = INTERNAL, INTERNAL + 1
 #: a cell in the middle, with ghosts

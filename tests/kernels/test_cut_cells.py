@@ -272,7 +272,7 @@ def test_bodies_act_by_their_shares_with_what_is_left_beside_their_normal_stress
     cell = Cell((0.25, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM), (0.0, np.nan, 0.0, 0.0))
     cell.q[SRR, :, 0, 0], cell.q[SZZ, :, 0, 0], cell.q[SRZ, :, 0, 0] = (0.004, -0.003, np.nan), (0.001, 0.002, np.nan), 0.0005
     given = handle(skin=cell.skin, vof=cell.vof, q=cell.q, group=np.array([1, 0, 0]), by_what_is_solid=by_what_is_solid,
-                   solid=np.full((1, 1), 0.5))  # fmt: skip
+                   solid=np.full((1, 1), 0.5))
     hard = np.array([0.0, 0.25 * (0.001 - 0.004), -0.25 * (0.001 + 2.0 * 0.004), 0.25 * 0.0005])
     soft = np.array([0.0, 0.5 * (0.002 + 0.003), -0.5 * (0.002 - 2.0 * 0.003), 0.5 * 0.0005])
     assert bodies_stress(1, 0, 0, given) == pytest.approx(scale * hard)

@@ -57,7 +57,7 @@ def stressed(**q) -> Cells:
 
 def sums(cells: Cells, **given) -> list:
     cells.call(vertex_forces.total_stress, **{"dt": 0.4, "by_what_is_solid": False, "hard_bodies": np.array([False, False]),
-                                             "threshold": 0.5, **given})  # fmt: skip
+                                             "threshold": 0.5, **given})
     return [getattr(cells, name)[3, 3] for name in ("ph", "sig_rr", "sig_zz", "sig_tt", "sig_rz")]
 
 
@@ -305,7 +305,7 @@ def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
 def seen(cells: Cells, dt: float = 0.0) -> np.ndarray:
     step = np.full(8, 1e300)
     cells.call(contact_motion.contact_viscosity, viscosity_linear=0.5, viscosity_quadratic=2.0, courant=0.5,
-               shock_courant=0.5, dt=dt, row_step=step)  # fmt: skip
+               shock_courant=0.5, dt=dt, row_step=step)
     return step
 
 

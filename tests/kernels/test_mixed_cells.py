@@ -64,12 +64,12 @@ class Cell(Cells):
         self.known |= {"j": 2, "i": 2, "dt": 0.1, "h": 1.0, "rate": 0.1, "total": 1.0, "firm": 1.0, "volume": 1.0,
                        "models": models, "materials": materials, "gases": nobody.copy(), "strong": models[:, STRENGTH] != 0,
                        "hard_bodies": nobody, "threshold": 0.5, "strength_mode": VOLUME,
-                       "internal": np.zeros((5, 4))}  # fmt: skip
+                       "internal": np.zeros((5, 4))}
 
     def moving(self, **gradient: float) -> None:
         """A velocity gradient, constant over the step, and the filter's part."""
         names = {"rr": (RR, MEAN_RR), "tt": (TT, MEAN_TT), "zz": (ZZ, MEAN_ZZ), "rbz": (RBZ, MEAN_RZ), "zbr": (ZBR,),
-                 "filter": (HOURGLASS,)}  # fmt: skip
+                 "filter": (HOURGLASS,)}
         for name, value in gradient.items():
             self.motion[2, :, names[name]] = value
 

@@ -22,7 +22,7 @@ from tests.rules.source import ROOT
 #: a rod that begins deep in the plate, on a fixed mesh: contact nodes in most rows
 DEEP = text_of("both", CONTACT, tip="5 mm", follows=False)
 DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contact": text_of("both", CONTACT),
-         "both, deep contact": DEEP, "ke, following": text_of("ke", {"method": "none"}, follows=True)}  # fmt: skip
+         "both, deep contact": DEEP, "ke, following": text_of("ke", {"method": "none"}, follows=True)}
 #: two divisions into parts, and contact for most of them
 CYCLES = 20
 PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, value in vars(module).items()

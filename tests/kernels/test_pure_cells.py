@@ -30,7 +30,7 @@ def gas(**given) -> Cells:
 
 def limit(cells: Cells) -> None:
     cells.call(thermodynamics.limit_step, courant=0.5, shock_courant=0.5, advective_courant=1.0, mesh_speed=0.0, hourglass=0.1,
-               **VISCOSITY)  # fmt: skip
+               **VISCOSITY)
 
 
 def closed(cells: Cells, **given) -> Cells:

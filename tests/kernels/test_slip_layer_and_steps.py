@@ -19,7 +19,7 @@ def zoned() -> Cells:
     cells = Cells(nr=6, nz=4, bodies=2)
     cells.vof[1, :, 2:4], cells.vof[0, :, 4:8] = 1.0, 1.0
     cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_bodies=np.array([False, True]),
-               normal=cells.normal)  # fmt: skip
+               normal=cells.normal)
     return cells
 
 
@@ -35,7 +35,7 @@ def test_the_surface_in_a_mixed_cell_lies_where_its_fraction_says():
     cells = zoned()
     cells.vof[1, :, 4] = 0.25
     cells.call(sliding.slip_zones, width_bl=1.0, width_sl=1.0, threshold=0.5, hard_bodies=np.array([False, True]),
-               normal=cells.normal)  # fmt: skip
+               normal=cells.normal)
     assert cells.distance[3, 4:6] == pytest.approx([0.25, 1.25])
     assert cells.zone[3, 4:7].tolist() == [BOUNDARY_LAYER, SLIP_LAYER, OUTSIDE]
 
@@ -107,7 +107,7 @@ def test_energies_that_are_farthest_beyond_reach():
     gas = ideal_gas
     given = {"m": 0, "sliver": 0.01, "lowest": -2.0, "highest": 40.0, "plastic": 10.0, "most_strain": 0.8, "model": gas.ID,
              "memory": INTERNAL, "shear": 0.0, "chill": 1.0,
-             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "worst": farthest}  # fmt: skip
+             "par": gas.row({"adiabatic_index": 1.4, "reference_density": 1.0}), "worst": farthest}
     cells.q[RHO, 0, 3, 2:6], given["volume"] = 1.0, np.full(cells.vof.shape[1:], 0.5)
     cells.call(thermodynamics.worst_energies, warm=False, **given)
     elastic = 45.0 * 0.4 / (2 * 1.4)  # p^2/(2 K rho) of the gas, p = 0.4 rho e and K = 1.4 p

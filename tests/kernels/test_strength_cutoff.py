@@ -16,7 +16,7 @@ def test_shear_ends_at_the_cutoff(density, cutoff, solid):
         + box("block", "Al5083", r=[0.0, "10 mm"], z=[0.0, "10 mm"], density=f"{density} kg/m^3", pressure="0 Pa")
         + table("failure", strength_cutoff=cutoff)
         + stop("1 us")
-    ))  # fmt: skip
+    ))
     simulation.state.v[0] += 10.0 * simulation.grid.r / 10e-3  # a shear flow
     simulation.state.v[0, 2], simulation.state.v[0, 12] = 0.0, 0.0
     simulation.step()

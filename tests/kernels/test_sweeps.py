@@ -125,7 +125,7 @@ def column(*orders: int) -> list:
     cells.fz[3:10], cells.pre_sweep_volume[...] = 0.1, 1.0
     cells.flux_volume[0, 3:10] = 0.1
     two = {"parts": np.array([2, 6, 10]), "flux": np.zeros((*cells.flux.shape[:2], 12, cells.flux.shape[3])),
-           "scratch": np.zeros((4, 2, 13))}  # fmt: skip
+           "scratch": np.zeros((4, 2, 13))}
     given = {"face": cells.fz, "second": True}
     for part in orders:
         cells.call(remap.shared_fluxes, part=part, **two)
@@ -221,7 +221,7 @@ def swept(advection: int, dj: int, di: int, pushing=None, component: int = 1) ->
     step = (np.arange(13) > 6).astype(float)
     cells.velocity0[component, 0] = step[:, None] if dj else step[None, :]
     cells.call(momentum.sweep_momentum, dj=dj, di=di, advection=advection, ke_bound=2.0,
-               **({} if pushing is None else {"pushing": pushing}), edge_velocity=np.zeros(8))  # fmt: skip
+               **({} if pushing is None else {"pushing": pushing}), edge_velocity=np.zeros(8))
     return cells
 
 
@@ -256,7 +256,7 @@ def test_a_vertex_at_rest_on_an_edge_that_only_pushes_stays_at_rest():
     cells.flux_mass[...] = 0.2
     cells.velocity0[1, 0] = np.where(np.arange(13) == 7, 0.0, 1.0)[:, None]
     cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, ke_bound=2.0, pushing=np.array([-1, -1, 7, -1]),
-               edge_velocity=np.zeros(8))  # fmt: skip
+               edge_velocity=np.zeros(8))
     assert not cells.v[0, 7].any()
     assert cells.momentum_sums[4, 7] > 0.0
 

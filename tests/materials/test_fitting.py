@@ -152,7 +152,7 @@ def test_the_command(tmp_path, capsys):
     assert call([*arguments, "--fix", "rate_coefficient"]) == 2
     given, others = arguments[:2] + arguments[4:10], {"--columns": arguments[3]}
     for option, bare, wanted in (("--fix", "yield_stress=0.8", "0.8 GPa"), ("--temperature", "290:600", "290 K"),
-                                 ("--heated-from", "100", "100 /s")):  # fmt: skip
+                                 ("--heated-from", "100", "100 /s")):
         capsys.readouterr()
         assert call([*given, *sum((others | {option: bare}).items(), ())]) == 2
         assert f'has no unit; write "{wanted}"' in capsys.readouterr().err
@@ -209,11 +209,11 @@ def test_the_librarys_steels_are_the_fits_of_the_page(hardness, model, fixed, rm
     """Their constants, the root-mean-square difference and the largest one in the table of the page."""
     points = fitting.read_points(POINTS, unit=1e6)
     points = points.chosen((points.group == hardness) & (points.temperature >= 200.0) & (points.temperature <= 800.0)
-                           if hardness == 38 else points.group == hardness)  # fmt: skip
+                           if hardness == 38 else points.group == hardness)
     law, base = fitting.law(model), library.load("steel_4340")
     fitted = fitting.fit(law, points, fitting.from_material(law, base) | fixed, heating=fitting.heating_of(base, 100.0))
     assert (round(fitted.rms, 3), round(fitted.largest, 3)) == (rms, largest)
     kept = library.load(f"steel_4340_Rc{hardness}", None if model == "johnson-cook" else model).strength.values
     constants = fitted.constants[float(hardness)]
     assert {name: kept[name] for name in law.free} == pytest.approx({name: constants[name] for name in law.free}, rel=3e-3,
-                                                                     abs=1e-9)  # fmt: skip
+                                                                     abs=1e-9)

@@ -212,7 +212,7 @@ def test_the_sintered_tungsten_names_recalled_and_adopted_constants():
     assert recalled == {
         "yield_stress": 1197e6, "hardening": 580e6, "hardening_exponent": 0.05, "rate_coefficient": 0.025,
         "thermal_exponent": 1.9, "melt_temperature": 1752.0,
-    }  # fmt: skip
+    }
     adopted = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
     adopted += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
     adopted += [(material.fracture_pressure, W.fracture_pressure)]
@@ -280,7 +280,7 @@ def test_variants_of_a_material_of_the_deck():
     ("W_aloy:cv-printed", "", 'unknown material "W_aloy"; did you mean "W_alloy"?'),
     ("mine:cv-prined", '[materials.mine]\nbased_on = "W_alloy"\n',
      'mine:cv-prined: unknown variant "cv-prined"; did you mean "cv-printed"?'),
-])  # fmt: skip
+])
 def test_a_body_of_an_unknown_variant(material, own, said):
     with pytest.raises(deck.DeckError, match=r"body\[0\]\.material: ") as raised:
         of_body(material, own)

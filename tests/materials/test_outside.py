@@ -160,7 +160,7 @@ def test_an_internal_variable_is_a_field_that_can_be_written(folder):
 
 
 @pytest.mark.parametrize(("right", "wrong"), [('"body"', '"vertex"'), ('"mass"', '"bogus"'), (', 1, "', ', 7, "'),
-                                              ('"softness"', '"soft ness"')])  # fmt: skip
+                                              ('"softness"', '"soft ness"')])
 def test_an_internal_variable_that_no_body_can_have_is_refused(folder, right, wrong):
     declared = INTERNAL[INTERNAL.index("INTERNAL = ") : INTERNAL.index("\nEXAMPLE")]
     assert right in declared, declared
@@ -270,7 +270,7 @@ def test_workers_take_over_the_models_of_a_study(folder):
     (VOCE, "np.zeros(ROW)", "np.zeros(3)", "my_model.py: row gives float64 (3,), not float64 ("),
     (GAS, "return rho * e, e,", "return np.nan, e,", 'body "ball": cannot begin with a density of 1.2 kg/m^3'),
     (GAS, "return rho * e, e,", "return rho * e, -1e9,", "gas has no speed of sound"),
-])  # fmt: skip
+])
 def test_a_command_says_in_a_line_what_is_wrong_with_a_model(folder, command, text, old, new, said):
     """`row` and `evaluate` are called only with the numbers of a deck."""
     assert old in text

@@ -133,7 +133,7 @@ def test_a_row_that_kernels_cannot_read_is_one_line_with_its_reason(text, old, n
 def test_a_model_that_never_ends_is_ended_by_an_interrupt(tmp_path):
     (tmp_path / "model.py").write_text(VOCE.replace("def row(", "print('begun', flush=True)\nwhile True: pass\ndef row("))
     process = subprocess.Popen([sys.executable, "-m", "hydro2d", "check-model", str(tmp_path / "model.py")], cwd=ROOT,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "begun\n"
     process.send_signal(signal.SIGTERM)
     assert process.communicate(timeout=30) == ("", "")

@@ -69,7 +69,7 @@ def test_other_records_and_free_energies_change_nothing(text):
     ("0.9 1.0 1.1", "0.0 1.0 1.1", "line 4: at density zero and 0 K there is a pressure of -0.1 GPa"),
     ("0.298 0.298 0.298", "0.298 0.0 0.298", "line 8: at 1 Mg/m.3 the energy does not rise from 0 to 298 K: 0 to 0 MJ/kg"),
     ("TYPE =  301", "TYPE =  304", "has no record 301, only 304"),
-])  # fmt: skip
+])
 def test_a_fault_has_its_line_and_number(old, new, words):
     assert old in PLAIN
     with pytest.raises(sesame.TableError, match=words):

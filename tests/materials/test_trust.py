@@ -32,7 +32,7 @@ def strange(finished, mark):
     run = f"\nopen({str(mark)!r}, 'w').close()\n"
     material = deck["materials"]["W_alloy"]
     material["strength"] = {"model": "voce", "code": VOCE + run, "code_from": "my_model.py", "shear_modulus": 1.6e11,
-                            "yield_stress": 1e9, "saturation": 0.0}  # fmt: skip
+                            "yield_stress": 1e9, "saturation": 0.0}
     text = toml.dumps(deck)
     (finished / "deck.toml").write_text(text)
     saved = snapshot.read(finished / "restart.h5")
@@ -123,7 +123,7 @@ def test_variables_of_unknown_models_are_found_by_their_names(tmp_path):
 
     shape = (2, 3)
     fields = {"Volume Fraction for a": np.ones(shape), "Volume Fraction for b of a": np.zeros(shape),
-              "Softness of a": np.full(shape, 2.0), "Back Pull rr of b of a [Pa]": np.full(shape, 3.0)}  # fmt: skip
+              "Softness of a": np.full(shape, 2.0), "Back Pull rr of b of a [Pa]": np.full(shape, 3.0)}
     data = datasets.of_state(vtk.Dump(np.arange(4.0), np.arange(3.0), fields, 0.0))
     assert set(data) == {"volume_fraction", "softness", "back_pull_rr"}
     assert data.back_pull_rr.attrs["units"] == "Pa"

@@ -30,7 +30,7 @@ DECK = (
 )
 #: fields, and the equal quantities of stations
 SAME = {"pressure": "pressure_Pa", "density": "density_kg_m3", "temperature": "temperature_K", "von_mises": "von_mises_Pa",
-        "plastic_strain": "plastic_strain"}  # fmt: skip
+        "plastic_strain": "plastic_strain"}
 MASS = 4.0 / 3.0 * math.pi * 0.005**3 * 18160.0
 
 

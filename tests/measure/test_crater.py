@@ -26,7 +26,7 @@ TEXT = (
 )
 #: as above, but flying to -z
 BACK = ['body.rod.tip="0.3 mm"', "body.rod.direction=-1", 'body.rod.velocity="-1 km/s"', 'body.plate.z_front="-24 mm"',
-        'mesh.z_start="-30 mm"', 'mesh.z.0.to="10 mm"']  # fmt: skip
+        'mesh.z_start="-30 mm"', 'mesh.z.0.to="10 mm"']
 PLANAR = ['mesh.geometry="planar"', 'boundaries.r_min="wall"']
 RADIUS = 2.63e-3
 
@@ -310,7 +310,7 @@ def test_rows_that_leave_the_mesh_are_kept(options):
 @pytest.mark.parametrize("options", [THIN, THIN_BACK], ids=["to +z", "to -z"])
 @pytest.mark.parametrize("end", [11.3e-3, *(
     pytest.param(far, marks=pytest.mark.xfail(strict=True, reason="6 % too wide once the mouth is far behind; cause not known"))
-    for far in (13.2e-3, 15.1e-3))])  # fmt: skip
+    for far in (13.2e-3, 15.1e-3))])
 def test_rows_of_a_dish_that_leave_the_mesh(options, end):
     """A mesh that travels leaves the mouth of the hole in a dished plate behind: the stored rows are those of the hole."""
     sim = simulation(*options)

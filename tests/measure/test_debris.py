@@ -118,7 +118,7 @@ def test_debris_that_flies_down_is_counted_along_its_flight():
                      ('z = ["8 mm", "10 mm"]', 'z = ["-6 mm", "-4 mm"]'), ('velocity = "300 m/s"', 'velocity = "-300 m/s"'),
                      ('z = ["12 mm", "13 mm"]', 'z = ["-9 mm", "-8 mm"]'),
                      ('["100 m/s", "100 m/s"]', '["100 m/s", "-100 m/s"]'),
-                     ('z_front = "20 mm"', 'z_front = "-14 mm"')):  # fmt: skip
+                     ('z_front = "20 mm"', 'z_front = "-14 mm"')):
         assert old in turned
         turned = turned.replace(old, new)
     behind = Simulation(decks.loads(turned)).debris()["plate"]

@@ -21,7 +21,7 @@ TEXT = (
 #: the same along -z
 BACK = ['body.ball.centre="6.3 mm"', 'body.ball.velocity="-800 m/s"', 'body.plate.z_front="-15 mm"',
         'body.chip.z=["7 mm", "8 mm"]', 'body.chip.velocity="300 m/s"', 'body.other.z=["11 mm", "12 mm"]',
-        'body.other.velocity="-100 m/s"']  # fmt: skip
+        'body.other.velocity="-100 m/s"']
 CHIP = 2660.0 * math.pi * (0.014**2 - 0.012**2) * 0.001
 
 
@@ -36,7 +36,7 @@ def test_what_flies_back(options):
 def test_velocities_are_relative_to_a_target_that_flies():
     """Everything 500 m/s faster: the same ejecta."""
     faster = ['body.ball.velocity="1300 m/s"', 'body.plate.velocity="500 m/s"', 'body.chip.velocity="200 m/s"',
-              'body.other.velocity="600 m/s"']  # fmt: skip
+              'body.other.velocity="600 m/s"']
     ejecta = Simulation(decks.loads(TEXT, faster)).ejecta()
     assert (ejecta["mass_kg"], ejecta["momentum_N_s"]) == (pytest.approx(CHIP), pytest.approx(300.0 * CHIP))
 

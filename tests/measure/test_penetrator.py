@@ -66,7 +66,7 @@ def test_a_rod_before_impact(simulation):
 @pytest.mark.parametrize(("keys", "length"), [
     ({"nose": "ogival", "crh": 3.0}, 20.2e-3),  # its tip is thinner than half a cell
     ({"nose": "hemispherical"}, 20.2e-3),
-])  # fmt: skip
+])
 def test_a_rod_has_the_length_of_the_deck(keys, length):
     """And loses none of it while its cells are as at the start; their losses count in proportion."""
     own = Simulation(deck.loads(text(tip="-0.3 mm", **keys)))
@@ -84,7 +84,7 @@ def test_a_rod_has_the_length_of_the_deck(keys, length):
 @pytest.mark.parametrize(("before", "after", "length"), [
     (box("bore", "Al5083", r=["0 mm", "1 mm"], z=["-25 mm", "-18 mm"]), "", 17.7e-3),  # an earlier body takes its place
     ("", box("tail", "W_alloy", r=["0 mm", "3 mm"], z=["-22.5 mm", "-20.5 mm"], join="rod", velocity="1 km/s"), 22.2e-3),
-])  # fmt: skip
+])
 def test_a_rod_that_is_not_by_itself_has_the_length_of_its_cells(before, after, length):
     whole = text(nose="flat", tip="-0.3 mm").replace("[[body]]", before + "[[body]]", 1) + after
     shot = Simulation(deck.loads(whole))
@@ -129,7 +129,7 @@ def test_fragments_behind_the_tail_do_not_count(simulation):
     (1.0, 1.0, 1.0, RIGID), (0.951, 1.099, 0.901, RIGID), (1.0, 1.101, 1.0, DEFORMING), (0.949, 1.0, 1.0, DEFORMING),
     (0.667, 1.5, 0.901, DEFORMING), (0.666, 1.0, 1.0, ERODING), (0.22, 1.3, 1.0, ERODING), (1.0, 1.0, 0.899, ERODING),
     (0.0, 0.0, 0.0, ERODING),
-])  # fmt: skip
+])
 def test_the_rule_of_the_regimes(length, radius, core, expected):
     assert regime(length, radius, core) == expected
 
@@ -138,7 +138,7 @@ def test_the_rule_is_among_the_words():
     """The page that explains the words has the numbers of the rule."""
     page = " ".join((source.ROOT / "docs/reference/words.md").read_text(encoding="utf-8").split())
     numbers = (f"{100 * RIGID_LENGTH:g} %", f"{1 + RIGID_RADIUS:g} times", f"{100 * ERODED_MASS:g} %",
-               "more than a third of its length")  # fmt: skip
+               "more than a third of its length")
     assert [number for number in numbers if number not in page] == []
     assert ERODED_LENGTH == pytest.approx(1.0 / 3.0, abs=1e-15)
 
@@ -240,7 +240,7 @@ def test_a_ball_that_breaks_up_has_perforated_and_left(options, reason):
 def test_a_rod_that_earlier_bodies_cover_has_no_speed():
     """Where bodies overlap the earlier one counts: nothing remains of a rod inside a block that comes first."""
     text = TEXT.replace("TIP", "-0.3").replace('[[body]]\nname = "rod"', '[[body]]\nname = "block"\nmaterial = "Al5083"\n'
-                        'shape = "box"\nz = ["-25 mm", "0 mm"]\n[[body]]\nname = "rod"')  # fmt: skip
+                        'shape = "box"\nz = ["-25 mm", "0 mm"]\n[[body]]\nname = "rod"')
     sim = Simulation(deck.loads(text, ["stop.speed_below=1.0"]))
     assert sim.diagnostics()["rod_mean_velocity_m_s"] is None
     assert (sim.penetrator.speed(), sim.stop_reason()) == (None, None)
@@ -258,10 +258,10 @@ def test_a_body_that_is_gone_has_no_speed():
 
 #: thin air behind a thin plate, and coarse cells: the rod is out of the mesh in a few hundred cycles
 SHORT = ["mesh.r.0.cells=12", "mesh.z.0.cells=36", "mesh.z.0.to=11e-3", "body.plate.thickness=2e-3", "body.rod.tip=-0.3e-3",
-         "body.rod.length=12e-3", "mesh.z_start=-13e-3"]  # fmt: skip
+         "body.rod.length=12e-3", "mesh.z_start=-13e-3"]
 BACKWARD = ["mesh.r.0.cells=12", "mesh.z.0.cells=36", "mesh.z_start=-11e-3", "mesh.z.0.to=13e-3", "body.plate.z_front=-2e-3",
             "body.plate.thickness=2e-3", "body.rod.tip=0.3e-3", "body.rod.direction=-1", "body.rod.velocity=-1e3",
-            "body.rod.length=12e-3"]  # fmt: skip
+            "body.rod.length=12e-3"]
 
 
 def shot(*options):
@@ -321,7 +321,7 @@ def test_a_rod_that_has_perforated_flies_on():
     [(["stop.speed_below=1.0"], "rod left the mesh"), (["stop.rebound=true"], "rod left the mesh"),
      (["stop.perforation=true", "body.plate.thickness=9e-3", "body.rod.velocity=2e3", "numerics.clip_limit=0.05"],
       "rod left the mesh"), ([], None)],
-)  # fmt: skip
+)
 def test_a_run_that_watches_its_rod_ends_when_that_is_gone(options, reason):
     sim = shot(*SHORT, *options)
     while sim.stop_reason() is None and not (reason is None and sim.penetrator.gone and sim.cycle % WATCH_EVERY == 0):

@@ -154,7 +154,7 @@ def test_an_elastic_element_that_a_piston_squeezes_is_sound():
         + walls("r_max", "z_min", z_max="piston", z_max_piston=[[0.0, 0.0], [5e-6, -50.0], [1e-3, -50.0]])
         + table("materials.elastic", based_on="steel_4340",
                 strength={"model": "elastic-plastic", "yield_stress": "50 GPa", "shear_modulus": "77 GPa"})
-        + box("block", "elastic", z=[0.0, "25 mm"]) + stop("30 us")))  # fmt: skip
+        + box("block", "elastic", z=[0.0, "25 mm"]) + stop("30 us")))
     while simulation.stop_reason() is None:
         simulation.step()
     assert simulation.faults() == simulation.doubts() == []
@@ -240,7 +240,7 @@ def test_a_note_becomes_a_doubt_when_more_of_the_body_follows():
     """One cell in 441 of a plate, 30 J/kg too hot, decides nothing; forty of them do."""
     simulation = Simulation(decks.loads(
         mesh(("10 mm", 21), ("12 mm", 24)) + box("plate", "Al5083", z=["1 mm", "11.5 mm"], velocity="20 m/s")
-        + box("other", "Al5083", z=["11.5 mm", "12 mm"], join="plate") + stop("1 us")))  # fmt: skip
+        + box("other", "Al5083", z=["11.5 mm", "12 mm"], join="plate") + stop("1 us")))
     s, most = simulation.state, simulation._reach.cell_highest[0]
     energy, audit = s.e[0].copy(), simulation.audit
     cells = np.argwhere(s.vof[0] == 1.0)

@@ -28,7 +28,7 @@ TEXT = (
 )
 #: as above, but flying to -z
 BACK = ['body.ball.centre="6 mm"', 'body.ball.velocity="-1500 m/s"', 'body.rear.z_front="-16 mm"',
-        'body.front.z_front="-3 mm"', 'mesh.z_start="-31 mm"', 'mesh.z.0.to="13 mm"']  # fmt: skip
+        'body.front.z_front="-3 mm"', 'mesh.z_start="-31 mm"', 'mesh.z.0.to="13 mm"']
 RING = '[[body]]\nname = "ring"\nmaterial = "Al6061_T6"\nshape = "box"\nr = ["10 mm", "12 mm"]\nz = ["5 mm", "8 mm"]\n'
 BEHIND = '[[body]]\nname = "behind"\nmaterial = "Al6061_T6"\nshape = "plate"\nz_front = "-13 mm"\nthickness = "1 mm"\n'
 NAMED = '[penetration]\nrod = "ball"\n'
@@ -57,7 +57,7 @@ def test_a_resolved_deck_says_the_same_again():
     ("keys", "targets"),
     [('target = "rear"', ("rear",)), ('targets = ["front", "rear"]', ("front", "rear")),
      ('target = "front"\ntargets = ["front", "rear"]', ("front", "rear"))],
-)  # fmt: skip
+)
 def test_named_targets(keys, targets):
     section = penetration(TEXT + NAMED + keys)
     assert (section.target, section.targets) == (targets[0], targets)
@@ -71,7 +71,7 @@ def test_named_targets(keys, targets):
      ('targets = ["front", "front"]', "targets names a body twice"),
      ('target = "rear"\ntargets = ["front", "rear"]', 'target is "rear" and the first of targets is "front"'),
      ("", "target or targets is missing")],
-)  # fmt: skip
+)
 def test_targets_that_cannot_be(keys, said):
     with pytest.raises(DeckError) as refused:
         penetration(TEXT + NAMED + keys)
@@ -160,7 +160,7 @@ def test_a_mirrored_shot_does_the_same(tmp_path, shot):
 def test_the_models_take_one_target(tmp_path, capsys):
     deck = tmp_path / "two.toml"
     deck.write_text(TEXT.replace('shape = "sphere"\ncentre = "-6 mm"', 'shape = "rod"\ntip = "-1 mm"\nlength = "20 mm"')
-                    .replace('z_start = "-13 mm"', 'z_start = "-25 mm"'))  # fmt: skip
+                    .replace('z_start = "-13 mm"', 'z_start = "-25 mm"'))
     assert call(["model", "forrestal", "--deck", str(deck)]) == 2
     assert "the models allow one target" in capsys.readouterr().err
 
@@ -168,7 +168,7 @@ def test_the_models_take_one_target(tmp_path, capsys):
 def test_a_run_to_the_end_of_the_tail():
     """The ball goes on until all of it is beyond the rear, and its velocity falls on the way."""
     early, late = (Simulation(decks.loads(TEXT, [option, 'penetration.rod="ball"', 'penetration.target="front"']))
-                   for option in ("stop.perforation=true", 'stop.perforation="tail"'))  # fmt: skip
+                   for option in ("stop.perforation=true", 'stop.perforation="tail"'))
     for sim in (early, late):
         while (reason := sim.stop_reason()) is None:
             sim.step()

@@ -15,7 +15,7 @@ TEXT = (
     + stop("1 us")
 )
 BACK = ['body.ball.centre="3.1 mm"', 'body.ball.velocity="-1 km/s"', 'body.plate.z_front="-6 mm"', 'mesh.z_start="-20 mm"',
-        'mesh.z.0.to="10 mm"']  # fmt: skip
+        'mesh.z.0.to="10 mm"']
 BOTH = pytest.mark.parametrize("options", [[], BACK], ids=["to +z", "to -z"])
 
 

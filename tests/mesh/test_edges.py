@@ -63,7 +63,7 @@ def test_a_piston_moves_by_its_table():
 
 def test_a_held_edge_has_a_velocity_across_and_along_it():
     boundaries = {edge: "held" for edge in EDGES} | {f"{edge}_radial": 1.0 for edge in EDGES} | {
-        f"{edge}_axial": None if edge == "z_max" else 2.0 for edge in EDGES}  # fmt: skip
+        f"{edge}_axial": None if edge == "z_max" else 2.0 for edge in EDGES}
     conditions = BoundaryConditions.of(boundaries)
     assert conditions.velocity.tolist() == [1.0, 1.0, 2.0, 0.0, 2.0, 2.0, 1.0, 1.0]
     assert conditions.sinks == []
@@ -113,7 +113,7 @@ def test_matter_that_moves_with_an_edge_crosses_the_cell_next_to_it():
      "z_min and z_max move the bodies between them into each other, at 10 m/s"),
     (['boundaries.z_min="held"', "boundaries.z_min_radial=30 m/s", 'boundaries.r_max="anvil"'],
      "a held edge that moves along itself has no corner with an anvil, here r_max"),
-])  # fmt: skip
+])
 def test_wrong_edges(overrides, words):
     with pytest.raises(DeckError, match=words):
         deck.loads(TEXT, overrides)

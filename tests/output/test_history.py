@@ -60,7 +60,7 @@ def test_dimension_scale(tmp_path):
     ("name", "expected"),
     [("dt", "s"), ("rod_tail_velocity_m_s", "m/s"), ("x_N_s", "N s"), ("x_kg", "kg"), ("x_J", "J"), ("cycle", "1"),
      ("rod_max_plastic_strain", "1"), ("mass_change_rod", "1")],
-)  # fmt: skip
+)
 def test_units(name, expected):
     assert unit(name) == expected
 

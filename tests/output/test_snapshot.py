@@ -24,7 +24,7 @@ def test_round_trip_is_exact(tmp_path):
         assert back.arrays[name].dtype == array.dtype
     assert (back.scalars, back.run, back.deck, back.provenance) == (
         sample().scalars, sample().run, sample().deck, sample().provenance
-    )  # fmt: skip
+    )
 
 
 def test_two_are_kept(tmp_path):

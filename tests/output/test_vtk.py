@@ -147,7 +147,7 @@ def test_a_lack_of_space_is_reported_in_one_line_and_not_by_vtk(tmp_path, most):
     """A limit on the size of a file acts like a full disk; printed output goes through pipes."""
     command = [sys.executable, "-c", FULL.format(most=most)]
     done = subprocess.run(command, cwd=tmp_path, text=True, capture_output=True, timeout=120, check=False,
-                          env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})  # fmt: skip
+                          env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
     assert (done.returncode, done.stderr) == (0, "")
     assert [line.split("'")[1] for line in done.stdout.splitlines()] == ["a.vtr", "a.vtp", "a.vtp"]
     assert list(tmp_path.iterdir()) == []

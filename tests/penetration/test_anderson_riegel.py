@@ -16,7 +16,7 @@ from hydro2d.penetration.anderson_riegel import (
     effective_flow_stress,
     fit,
     nondimensional_velocity,
-)  # fmt: skip
+)
 from hydro2d.penetration.centreline import Rod, Target
 from hydro2d.penetration.model import InputError
 from hydro2d.penetration.walker_anderson import penetrate
@@ -24,11 +24,11 @@ from hydro2d.penetration.walker_anderson import penetrate
 STEEL_4340 = {
     "yield_stress": 792e6, "hardening": 510e6, "exponent": 0.26, "rate_coefficient": 0.014, "thermal_exponent": 1.03,
     "melt_temperature": 1793.0, "density": 7830.0, "specific_heat": 477.0,
-}  # fmt: skip
+}
 STEEL_A36 = {
     "yield_stress": 286.1e6, "hardening": 500.1e6, "exponent": 0.2282, "rate_coefficient": 0.022, "thermal_exponent": 0.917,
     "melt_temperature": 1811.0, "density": 7850.0, "specific_heat": 486.0,
-}  # fmt: skip
+}
 VALUES = {"rod.density": 17600.0, "rod.length": 0.1, "target.density": 7850.0, "target.effective_flow_stress": 1.2e9}
 
 
@@ -137,7 +137,7 @@ def test_model_with_the_stress_and_from_johnson_and_cook():
     assert given_stress["effective_flow_stress"] == 1.2e9
     assert given_stress["depth"] == pytest.approx(0.1 * given_stress["depth_over_length"])
     names = {"yield_stress": "johnson_cook_a", "hardening": "johnson_cook_b", "exponent": "johnson_cook_n",
-             "rate_coefficient": "johnson_cook_c", "thermal_exponent": "johnson_cook_m"}  # fmt: skip
+             "rate_coefficient": "johnson_cook_c", "thermal_exponent": "johnson_cook_m"}
     parameters = {f"target.{names.get(name, name)}": value for name, value in STEEL_4340.items()}
     result = MODEL(1500.0, {"rod.density": 17600.0, "rod.length": 0.1, **parameters})
     assert result["effective_flow_stress"] == pytest.approx(effective_flow_stress(**STEEL_4340), rel=1e-12)

@@ -42,7 +42,7 @@ def test_names_are_unique_and_every_module_is_listed():
     with_models = {
         file.stem for file in folder.glob("*.py")
         if any(line.startswith(("MODEL =", "MODELS =", "MODEL:", "MODELS:")) for line in file.read_text().splitlines())
-    } - {"catalogue"}  # fmt: skip
+    } - {"catalogue"}
     assert with_models == {module.__name__.rsplit(".", 1)[-1] for module in catalogue.MODULES}
 
 

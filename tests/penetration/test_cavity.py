@@ -39,7 +39,7 @@ def test_quasi_static_coefficients(solid, printed, tolerance):
     ("solid", "velocity", "printed"),
     [(LUK_6061, 2400.0, 1.0336), (LUK_6061, 2400.0, 1.0338), (LUK_4340, 2400.0, 1.0124), (LUK_4340, 2400.0, 1.0210),
      (CHEN_LI_6061, 1200.0, 1.133), (CHEN_LI_6061, 1200.0, 1.136)],
-)  # fmt: skip
+)
 def test_dynamic_coefficients_within_a_percent(solid, velocity, printed):
     """The spread of the points of the fit moves B by more than this; our fit is even in velocity."""
     assert coefficients(solid, velocity).b == pytest.approx(printed, rel=0.01)
@@ -49,7 +49,7 @@ def test_dynamic_coefficients_within_a_percent(solid, velocity, printed):
     ("solid", "velocity", "a", "b"),
     [(LUK_6061, 2400.0, 4.2452, 1.0242), (LUK_4340, 2400.0, 4.0751, 1.0128), (CHEN_LI_6061, 1200.0, 4.4082, 1.1255),
      (CHEN_LI_7075, 1200.0, 4.4218, 1.0947), (LUK_6061, 500.0, 4.2452, 1.1791)],
-)  # fmt: skip
+)
 def test_the_numbers_of_the_page(solid, velocity, a, b):
     fitted = coefficients(solid, velocity)
     assert (round(fitted.a, 4), round(fitted.b, 4)) == (a, b)
@@ -59,7 +59,7 @@ def test_the_numbers_of_the_page(solid, velocity, a, b):
     ("velocity", "similarity", "lagrangian", "front"),
     [(100.0, 1.10877, 1.10863, 500.52), (300.0, 1.37265, 1.37312, 1465.64), (600.0, 2.22655, 2.22833, 2712.07),
      (1000.0, 4.14219, 4.14849, 3852.21)],
-)  # fmt: skip
+)
 def test_perfect_plasticity_against_two_independent_solutions(velocity, similarity, lagrangian, front):
     """Stress in GPa from a similarity solution (read off by interpolation) and from a one-dimensional Lagrangian code."""
     solution = expansion(velocity, PERFECT)
@@ -71,7 +71,7 @@ def test_perfect_plasticity_against_two_independent_solutions(velocity, similari
 @pytest.mark.parametrize(
     ("velocity", "stress"), [(1.2299669260178387, 1.0747121143548412e9), (407.2923925175057, 1.616985763392763e9),
                              (992.0769596563617, 4.095585445706903e9), (1820.2574474770772, 10.525241502469540e9)],
-)  # fmt: skip
+)
 def test_the_whole_curve_of_the_independent_solution(velocity, stress):
     """At the velocities for which it was computed the two agree to seven digits."""
     assert expansion(velocity, PERFECT).stress == pytest.approx(stress, rel=2e-7)
@@ -141,7 +141,7 @@ def test_evaluate_at_rest_is_the_quasi_static_stress():
     values = dict(
         target_density=2710.0, target_strength=0.345e9, target_youngs_modulus=68.95e9, target_poisson_ratio=0.33,
         target_hardening_exponent=0.054, target_tangent_modulus=0.0, cavity_velocity=1200.0,
-    )  # fmt: skip
+    )
     at_rest = cavity.evaluate(0.0, cavity_solid="compressible", **values)
     assert at_rest["cavity_stress"] == pytest.approx(4.2452 * 0.345e9, rel=2e-5)
     assert at_rest["front_velocity"] == 0.0
@@ -152,7 +152,7 @@ def test_evaluate_at_rest_is_the_quasi_static_stress():
     ("change", "word"),
     [({"strength": 0.0}, "strength"), ({"strength": 30e9}, "strength"), ({"poisson_ratio": 0.5}, "poisson"),
      ({"density": -1.0}, "density"), ({"hardening_exponent": 1.0}, "hardening"), ({"youngs_modulus": math.nan}, "youngs")],
-)  # fmt: skip
+)
 def test_impossible_solids_are_refused(change, word):
     with pytest.raises(InputError, match=word):
         Solid(**{"density": 2710.0, "youngs_modulus": 69e9, "poisson_ratio": 0.33, "strength": 0.3e9} | change)

@@ -16,14 +16,14 @@ SHOT = dict(
     rod_diameter=7.11e-3, nose_shape="hemispherical", nose_crh=3.0, nose_half_angle=0.5, nose_edge_radius=None, friction=0.0,
     target_density=2710.0, target_strength=276e6, cavity_a=4.407, cavity_b=1.133, target_youngs_modulus=None,
     target_poisson_ratio=None, target_hardening_exponent=0.0, cavity_velocity=1200.0,
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize(
     ("velocity", "depth"),
     [(496.0, 51.019567646), (572.0, 65.220377545), (781.0, 107.712365225), (821.0, 116.142950512), (841.0, 120.372095914),
      (932.0, 139.651973349), (967.0, 147.054805378)],
-)  # fmt: skip
+)
 def test_depth_with_chen_and_lis_coefficients(velocity, depth):
     """mm, computed independently from the closed form with A = 4.407, B = 1.133."""
     result = chen_li.evaluate(velocity, rod_mass=0.023, rod_strength=5e9, **SHOT)
@@ -34,7 +34,7 @@ def test_depth_with_chen_and_lis_coefficients(velocity, depth):
 @given(
     st.sampled_from(SHAPES), st.floats(1.0, 2000.0), st.floats(0.001, 1.0),
     st.floats(0.0, 0.2),
-)  # fmt: skip
+)
 def test_one_curve_is_forrestals_depth(shape, velocity, mass, friction):
     nose, target = Nose(a_nose(shape, 0.02), friction), Target(1.2e9, 3000.0)
     assert numbers(velocity, mass, nose, target).depth * 0.02 == pytest.approx(
@@ -59,7 +59,7 @@ def test_the_pressure_at_the_transition_is_the_strength():
 def test_a_sharp_nose_stays_rigid_longer():
     target = Target(1.2e9, 3000.0)
     limits = [transition_velocity(2.5e9, Nose(a_nose(*each)), target) for each in (
-        ("flat", 0.01), ("hemispherical", 0.01), ("ogival", 0.01, 2.5), ("ogival", 0.01, 6.0))]  # fmt: skip
+        ("flat", 0.01), ("hemispherical", 0.01), ("ogival", 0.01, 2.5), ("ogival", 0.01, 6.0))]
     assert limits == sorted(limits)
     assert limits[0] < limits[1] < limits[2] < limits[3]
 

@@ -21,7 +21,7 @@ BALL = Nose(a_nose("hemispherical", 7.11e-3))
     ("velocity", "closed", "entry"),
     [(496.0, 46.00408, 47.09970), (572.0, 59.27111, 60.34398), (781.0, 100.03803, 101.04908), (821.0, 108.30286, 109.30274),
      (841.0, 112.46944, 113.46383), (932.0, 131.63135, 132.60185), (967.0, 139.05897, 140.02076)],
-)  # fmt: skip
+)
 def test_the_seven_shots(velocity, closed, entry):
     """mm, computed independently from the two-term closed form, without and with the entry of the nose."""
     assert deep(velocity, STEEL, BALL, ALUMINIUM)[0] * 1e3 == pytest.approx(closed, abs=1e-5)
@@ -36,7 +36,7 @@ def test_the_seven_shots(velocity, closed, entry):
         ("hemispherical", 7039, 0.0631, 1038.0, (37.9, 35.5, 33.4)), ("ogival", 7039, 0.0631, 1075.0, (51.3, 42.9, 36.9)),
         ("ogival", 7039, 0.0634, 1156.0, (58.6, 49.1, 42.2)), ("ogival", 7039, 0.0634, 1291.0, (71.0, 59.6, 51.3)),
     ],
-)  # fmt: skip
+)
 def test_tungsten_alloy_into_aluminium_with_friction(shape, alloy, mass, velocity, expected):
     """cm at mu = 0, 0.05 and 0.10, expectations rounded to a millimetre; B = 1.1, an ogive of length 1.5 d."""
     static, density = {5083: (1.326e9, 2660.0), 7039: (1.769e9, 2770.0)}[alloy]
@@ -167,7 +167,7 @@ SHOT = dict(
     friction=0.0,
     target_density=2710.0, target_strength=276e6, cavity_a=5.0394, cavity_b=0.9830, target_youngs_modulus=None,
     target_poisson_ratio=None, target_hardening_exponent=0.0, cavity_velocity=1200.0,
-)  # fmt: skip
+)
 
 
 def test_evaluate_takes_coefficients_from_the_target_where_none_are_given():
@@ -182,7 +182,7 @@ def test_evaluate_takes_coefficients_from_the_target_where_none_are_given():
     ("change", "word"),
     [({"rod_mass": 0.0}, "mass"), ({"friction": -0.1}, "friction"), ({"nose_crh": 0.3, "nose_shape": "ogival"}, "crh"),
      ({"cavity_b": None}, r"cavity\.b"), ({"rod_diameter": -1.0}, "diameter"), ({"nose_shape": "pointed"}, "unknown nose")],
-)  # fmt: skip
+)
 def test_impossible_shots_are_refused(change, word):
     with pytest.raises(InputError, match=word):
         forrestal.evaluate(781.0, nose_entry="resisted", **(SHOT | change))

@@ -36,7 +36,7 @@ INTO_ALUMINIUM, INTO_STEEL = (STEEL_ROD, ALUMINIUM), (TUNGSTEN_ROD, STEEL)
 @pytest.mark.parametrize(("pair", "velocity", "printed", "ours"), [
     (INTO_ALUMINIUM, 2120.0, 7.43, 7.445), (INTO_ALUMINIUM, 2660.0, 10.36, 10.368), (INTO_ALUMINIUM, 3090.0, 12.29, 12.300),
     (INTO_STEEL, 2070.0, 10.72, 10.766), (INTO_STEEL, 2460.0, 13.17, 13.208), (INTO_STEEL, 3010.0, 16.48, 16.525),
-])  # fmt: skip
+])
 def test_cavity_diameters_of_tables_2_and_3(pair, velocity, printed, ours):
     computed = 1e3 * penetrate(*pair, velocity).cavity_diameter
     assert computed == pytest.approx(printed, rel=0.01)
@@ -54,7 +54,7 @@ def test_depths_of_table_3(velocity, printed, tolerance):
     (INTO_ALUMINIUM, 2120.0, None, 126.95, 99.2),
     (INTO_ALUMINIUM, 2660.0, None, 136.67, 108.7),
     (INTO_ALUMINIUM, 3090.0, None, 85.13, 112.7),
-])  # fmt: skip
+])
 def test_depths_that_are_not_reproduced(pair, velocity, critical, ours, printed):
     """The page has both numbers; the primary stage does not give the difference, the recovered secondary stage does."""
     computed = 1e3 * penetrate(*pair, velocity, critical).depth
@@ -173,7 +173,7 @@ def test_the_transition_is_the_least_velocity_or_the_one_given():
     (2660.0, {"rod.strength": -1.0}, "rod.strength"),
     (2660.0, {"rod.length": 1e-3}, "rod.length"),
     (2660.0, {"critical.velocity": 2700.0}, "critical"),
-])  # fmt: skip
+])
 def test_wrong_input(velocity, change, message):
     with pytest.raises(InputError, match=message):
         MODEL(velocity, {**GIVEN, **change})

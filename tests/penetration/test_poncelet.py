@@ -108,7 +108,7 @@ def test_fit_keeps_drag_from_being_negative():
     ("velocities", "depths"),
     [([500.0], [1.0]), ([500.0, 500.0], [1.0, 1.1]), ([500.0, 600.0], [1.0]), ([500.0, 600.0], [1.0, 0.0]),
      ([500.0, math.nan], [1.0, 2.0])],
-)  # fmt: skip
+)
 def test_shots_that_no_fit_can_take_are_refused(velocities, depths):
     with pytest.raises(InputError, match="a fit needs"):
         poncelet.fit(velocities, depths, rod_density=7850.0)

@@ -15,7 +15,7 @@ from hydro2d.penetration.ravid_bodner import MODEL, SHEAR, first_stage, flow, in
 VALUES = {
     "rod.density": 7750.0, "rod.diameter": 0.010, "rod.length": 0.050,
     "target.density": 2660.0, "target.strength": 0.4e9, "target.thickness": 0.030,
-}  # fmt: skip
+}
 SHOT = {name.replace(".", "_"): value for name, value in VALUES.items()}
 
 

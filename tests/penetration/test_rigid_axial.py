@@ -24,7 +24,7 @@ SHOT = dict(
     target_density=DENSITY, target_strength=STRENGTH, cavity_a=5.0394, cavity_b=0.9830, cavity_c=None,
     target_youngs_modulus=None, target_poisson_ratio=None, target_hardening_exponent=0.0, cavity_velocity=1200.0,
     surface_velocity="normal", nose_entry="resisted",
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_first_order_in_time():
     ratio = PRINTED.dynamic * n2 * 781.0**2 / PRINTED.static
     exact = MASS / (2.0 * whole * PRINTED.dynamic * n2) * math.log1p(ratio)
     errors = [abs(penetrate(rings, MASS, 781.0, PRINTED, entry=False, time_step=dt).depth - exact)
-              for dt in (2e-6, 1e-6, 5e-7, 2.5e-7)]  # fmt: skip
+              for dt in (2e-6, 1e-6, 5e-7, 2.5e-7)]
     assert all(0.9 < order < 1.1 for order in orders(errors))
 
 
@@ -106,14 +106,14 @@ def test_the_closed_form_with_entry_and_friction(shape):
 @given(
     st.sampled_from(SHAPES), st.floats(100.0, 1500.0), st.floats(0.01, 0.1),
     st.floats(0.0, 0.2), st.sampled_from(("normal", "axial")), st.booleans(),
-)  # fmt: skip
+)
 def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, velocity, mass, friction, surface_velocity, entry):
     """To round-off by the steps' own sum; and by quadrature of the recorded force over the recorded depth."""
     rings = nose_surface(a_nose(shape, DIAMETER), rings=30)
     flight = penetrate(
         rings, mass, velocity, PRINTED, friction=friction, surface_velocity=surface_velocity, entry=entry,
         time_step=0.01 * DIAMETER / velocity,
-    )  # fmt: skip
+    )
     lost = 0.5 * mass * velocity**2
     assert flight.work == pytest.approx(lost, rel=1e-10)
     _, depth, _, pushed = flight.history.T
@@ -160,7 +160,7 @@ def test_slow_and_fast_rods(velocity):
     ("change", "word"),
     [({"rod_mass": 0.0}, "mass"), ({"friction": -0.1}, "friction"), ({"cavity_a": -1.0}, "static"),
      ({"cavity_c": -1.0}, "dynamic"), ({"cavity_b": None}, r"cavity\.b")],
-)  # fmt: skip
+)
 def test_impossible_shots_are_refused(change, word):
     with pytest.raises(InputError, match=word):
         rigid_axial.evaluate(781.0, **SHOT | change)

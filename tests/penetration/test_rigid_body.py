@@ -181,7 +181,7 @@ def test_only_facets_inside_a_layer_feel_it(rod):
 
 @pytest.mark.parametrize(("velocity", "depth"), [
     (496.0, 47.100), (572.0, 60.344), (781.0, 101.049), (821.0, 109.303), (841.0, 113.464), (932.0, 132.602), (967.0, 140.021),
-])  # fmt: skip
+])
 def test_depths_of_a_spherical_nose(velocity, depth):
     """mm, by quadrature of M v dv/dz over the entry of the nose and in closed form from there on."""
     body = projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, shank_rings=2, sectors=4)
@@ -328,7 +328,7 @@ def test_obliquity_and_friction_cost_depth(rod):
 GIVEN = {
     "rod.mass": MASS, "rod.diameter": DIAMETER, "rod.length": LENGTH, "target.density": DENSITY, "target.strength": STRENGTH,
     "cavity.a": A, "cavity.b": B,
-}  # fmt: skip
+}
 
 
 def test_model():

@@ -15,7 +15,7 @@ from tests.penetration.noses import SHAPES, a_nose
 NOSES = {
     "shape": st.sampled_from(SHAPES), "crh": st.floats(0.5, 12.0), "half_angle": st.floats(0.05, 1.5),
     "rings": st.integers(1, 200),
-}  # fmt: skip
+}
 
 
 @settings(max_examples=60)

@@ -66,7 +66,7 @@ def by_time(velocity, *, rod_density, rod_strength, target_density, resistance):
     [(INTO_5083, 1200.0), (INTO_5083, 1800.0), (INTO_7039, 1100.0), (INTO_7039, 2000.0), (WEAK_ROD, 500.0), (WEAK_ROD, 1500.0),
      ({**WEAK_ROD, "rod_density": 2770.0}, 2000.0), ({**INTO_5083, "rod_density": 2660.0 * (1 + 1e-9)}, 1500.0),
      ({**INTO_5083, "rod_density": 2000.0}, 1500.0)],
-)  # fmt: skip
+)
 def test_quadrature_agrees_with_integration_over_time(pair, velocity):
     reached, left, duration = by_time(velocity, **pair)
     track = tate.penetrate(velocity, rod_length=LENGTH, **pair)

@@ -27,7 +27,7 @@ VALUES = {
     ("target", "extents"),
     [(STEEL, (9.322674, 8.946009, 7.799907, 6.594554, 5.631580, 4.400322, 3.706185)),
      (ALUMINIUM, (10.512495, 10.088095, 8.818682, 7.443243, 6.317711, 4.859389, 4.033755))],
-)  # fmt: skip
+)
 def test_extent_of_the_plastic_flow(target, extents):
     velocities = (100.0, 250.0, 500.0, 750.0, 1000.0, 1500.0, 2000.0)
     assert [plastic_extent(u, target)[0] for u in velocities] == pytest.approx(extents, abs=1e-6)
@@ -38,7 +38,7 @@ def test_extent_of_the_plastic_flow(target, extents):
     [(1.2e9, 1000.0, 0.3741), (1.2e9, 1250.0, 0.6417), (1.2e9, 1500.0, 0.8945), (1.2e9, 1750.0, 1.0984),
      (1.2e9, 2000.0, 1.2506), (1.4e9, 1000.0, 0.3086), (1.4e9, 1250.0, 0.5498), (1.4e9, 1500.0, 0.7943),
      (1.4e9, 1750.0, 1.0024), (1.4e9, 2000.0, 1.1651)],
-)  # fmt: skip
+)
 def test_worked_depths(strength, velocity, ratio):
     result = MODEL(velocity, {**VALUES, "target.strength": strength})
     assert result["depth_over_length"] == pytest.approx(ratio, abs=6e-5)
@@ -50,7 +50,7 @@ def test_worked_depths(strength, velocity, ratio):
     ("velocity", "first", "radius", "duration"),
     [(1000.0, 647.0, 7.175, 156.3), (1250.0, 804.0, 7.950, 155.3), (1500.0, 959.7, 8.8175, 149.7),
      (1750.0, 1114.3, 9.7775, 141.7), (2000.0, 1267.9, 10.830, 132.9)],
-)  # fmt: skip
+)
 def test_worked_first_velocity_crater_and_duration(velocity, first, radius, duration):
     result = MODEL(velocity, VALUES)
     assert result["interface_velocity"] == pytest.approx(first, abs=0.06)
@@ -259,7 +259,7 @@ def test_the_crater_may_be_given():
     [({"rod.strength": -1.0}, r"rod\.strength"), ({"target.strength": 0.0}, r"target\.strength"),
      ({"crater.radius": 0.0}, r"crater\.radius"), ({"target.strength": 200e9}, r"target\.shear_modulus"),
      ({"target.hugoniot_slope": 0.1, "target.sound_speed": 100.0}, "faster than a shock")],
-)  # fmt: skip
+)
 def test_wrong_input(changes, message):
     with pytest.raises(InputError, match=message):
         MODEL(1500.0, {**VALUES, **changes})

@@ -80,7 +80,7 @@ def test_a_bulge_moves_with_its_own_velocity():
     plate = Plate(1000.0, TUNGSTEN, STEEL, 0.060, 1e9)
     track = plate.solve()
     rates = [plate.further(u, plastic_extent(u, STEEL)[0], [v, u, length, depth, bulge, strain])
-             for v, u, length, depth, bulge, strain in track.states.T]  # fmt: skip
+             for v, u, length, depth, bulge, strain in track.states.T]
     by_trapezia = np.sum(0.5 * np.diff(track.times)[:, None] * (np.array(rates)[1:] + np.array(rates)[:-1]), axis=0)
     assert by_trapezia == pytest.approx(track.states[4:, -1], rel=0.05)
     assert track.states[4, -1] > 0.0

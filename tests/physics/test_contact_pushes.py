@@ -208,7 +208,7 @@ def test_two_rows_on_either_side_of_a_mesh_line_stand_out_as_one():
 def test_a_full_cell_pushes_with_its_least_principal_pressure():
     cells = Surface(8.0, WHOLE)
     for stress, push in (((-9.0, -4.0, -6.0), 4.0), ((-5.0, -9.0, -6.0), 5.0), ((-9.0, -9.0, 2.0), -2.0),
-                         ((-5.0, -5.0, -9.0, 2.0), 3.0)):  # fmt: skip
+                         ((-5.0, -5.0, -9.0, 2.0), 3.0)):
         cells.press(2, 2, *stress)
         assert cells.push(2, 2) == pytest.approx(push)
 

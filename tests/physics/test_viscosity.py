@@ -97,7 +97,7 @@ def test_the_quadratic_part_can_be_the_pressure_of_a_strong_shock():
 
 
 @pytest.mark.parametrize(("courant", "expected"), [(0.0, 0.5), (0.3, 0.5), (0.5, 0.5), (0.6, 0.325), (0.7, 0.26 / 1.4),
-                                                   (0.9, 0.0)])  # fmt: skip
+                                                   (0.9, 0.0)])
 def test_a_step_carries_so_much_linear_viscosity(courant, expected):
     """courant^2 + 2 linear courant is no more than it is with 0.5 and 0.5; a deck with less keeps that."""
     assert linear_in_step(0.5, courant) == pytest.approx(expected)
@@ -157,7 +157,7 @@ def test_a_plane_compression_is_found_in_its_own_direction(turn):
 
 @pytest.mark.parametrize(("rr", "zz", "expected"), [
     (0.0, -3.0, (-3.0, 0.0, 1.0)), (-3.0, 0.0, (-3.0, 1.0, 0.0)), (2.0, -1.0, (-1.0, 0.0, 1.0)), (-5.0, -1.0, (-5.0, 1.0, 0.0)),
-])  # fmt: skip
+])
 def test_without_shear_it_is_a_direction_of_the_mesh_to_the_last_bit(rr, zz, expected):
     assert strongest_compression(rr, zz, 0.0) == expected
 

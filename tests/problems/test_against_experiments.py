@@ -33,7 +33,7 @@ def test_a_row_has_the_median_the_spread_and_the_difference():
     assert str(Row("a", "b", 10.0, "cm", (9.0, 12.0, 10.5))) == "| a | b | 10.0 cm | 10.5 cm (9.0 to 12.0, 3 runs) | +5 % |"
     assert str(Row("a", "b", 10.0, "cm", (9.0,))) == "| a | b | 10.0 cm | 9.0 cm | -10 % |"
     assert str(Row("a", "b", None, "cm", (53.3,), "perforated in 1 of 1 runs")) == (
-        "| a | b | perforated | perforated in 1 of 1 runs |  |")  # fmt: skip
+        "| a | b | perforated | perforated in 1 of 1 runs |  |")
 
 
 def test_shots_that_were_run_once_are_those_of_the_folders():

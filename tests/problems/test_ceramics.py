@@ -20,7 +20,7 @@ def test_the_tables_of_the_page_are_those_of_the_kept_results():
     page = (FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
     assert [line for line in page if line.startswith(("| 5.5 |", "| 8.5 |", "| 11.5 |"))] == read.table(TILES)[2:]
     assert [line for line in page if line.startswith(("| cover |", "| bare |"))] == [
-        *dwell.table(DWELLS)[2:], *dwell.members_table(MEMBERS)[2:]]  # fmt: skip
+        *dwell.table(DWELLS)[2:], *dwell.members_table(MEMBERS)[2:]]
     assert (len(TILES), len(DWELLS), len(MEMBERS)) == (32, 12, 23)
 
 
@@ -29,7 +29,7 @@ def efficiencies(cells):
     alone = read.references(TILES)[cells]
     return {(ceramic, float(thickness)): read.efficiency(
         alone - median(float(row["in_steel_mm"]) for row in members), float(members[0]["density_kg_m3"]), float(thickness))
-        for (on, ceramic, thickness), members in read.cases(TILES).items() if on == cells and ceramic != "steel"}  # fmt: skip
+        for (on, ceramic, thickness), members in read.cases(TILES).items() if on == cells and ceramic != "steel"}
 
 
 def depths(cells, ceramic, thickness):
@@ -101,7 +101,7 @@ def test_how_dwell_is_read(monkeypatch, tmp_path, capsys):
     time = np.linspace(0.0, 50e-6, 501)
     depth = np.maximum(time - 10e-6, 0.0) * 200.0
     history = {"time": time, "rod_length_m": 40e-3 - 800.0 * time, "penetration_depth_m": depth,
-               "rod_tail_velocity_m_s": np.full(501, 990.0)}  # fmt: skip
+               "rod_tail_velocity_m_s": np.full(501, 990.0)}
     run = SimpleNamespace(deck=decks.load(FOLDER / "dwell.toml"), history=history)
     monkeypatch.setattr(dwell, "ended", lambda directory: run)
     assert dwell.of_run(tmp_path) == ("cover", 1000, 13.86, 0.0, 2.0, 4.0, 8.0, 200, 990)

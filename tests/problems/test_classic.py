@@ -18,13 +18,13 @@ KEPT = {name: table.read(FOLDER / "results" / f"{name}.csv") for name in ("metho
 
 def of(shot, sliding, advection):
     return next(result for result in KEPT["methods"] if (result.shot, result.sliding, result.advection) ==
-                (shot, sliding, advection))  # fmt: skip
+                (shot, sliding, advection))
 
 
 @pytest.mark.parametrize("name", KEPT)
 def test_every_case_of_the_study_is_kept(name):
     planned = [(case.values["shot"], case.values.get("sliding", "none"), case.values["advection"])
-               for case in cases.plan(FOLDER / f"{name}.toml", quiet=True).cases]  # fmt: skip
+               for case in cases.plan(FOLDER / f"{name}.toml", quiet=True).cases]
     assert [(result.shot, result.sliding, result.advection) for result in KEPT[name]] == planned
 
 
@@ -39,14 +39,14 @@ def test_the_table_of_the_page_is_that_of_the_kept_results(name):
 def test_the_shots_are_the_decks_of_the_folder():
     decks, _ = source.problems()
     assert {file.stem for file in decks if file.parent == FOLDER} == set(table.MEASURES) == {
-        result.shot for result in KEPT["methods"]}  # fmt: skip
+        result.shot for result in KEPT["methods"]}
 
 
 def test_the_defaults_carry_every_shot():
     """`ke` does not, and `momentum` discards too much energy."""
     carried = {choice: {result.status for result in KEPT["methods"]
                         if result.advection == choice and result.sliding == Sliding().method} == {"trusted"}
-               for choice in table.ADVECTION}  # fmt: skip
+               for choice in table.ADVECTION}
     assert Numerics().advection == "both"
     assert carried == {"ke": False, "momentum": False, "both": True}
     assert of("block_in_hole", Sliding().method, Numerics().advection).value < 10.0, "the page says that it sticks"
@@ -70,10 +70,10 @@ def case(directory, shot, advection, status="done", clipped=0.0, fault="", **sum
     (directory / "deck.toml").write_text('title = "a shot"\n')
     sinks = {"advection": {"energy_J": -0.04}, "ke_bound": {"energy_J": clipped}}
     data = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault,
-            "faults": [fault] if fault else [], "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}  # fmt: skip
+            "faults": [fault] if fault else [], "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}
     (directory / "summary.json").write_text(json.dumps(data))
     return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status, summary=data,
-                           directory=directory)  # fmt: skip
+                           directory=directory)
 
 
 @pytest.fixture

@@ -21,7 +21,7 @@ def schemes():
     return findings.grouped([
         made(SHOTS[0], 44.0), made(SHOTS[0], 46.0, member=1), made(SHOTS[1], 20.0, loss=60.0), made(SHOTS[2], None),
         made(SHOTS[0], 40.0, "momentum"), made(SHOTS[0], 41.0, "momentum", member=1), made(SHOTS[1], 30.0, "momentum", 12.0),
-    ])  # fmt: skip
+    ])
 
 
 def test_depths_of_every_way_to_compute(schemes):
@@ -30,7 +30,7 @@ def test_depths_of_every_way_to_compute(schemes):
         "| experiment | 44.8 cm | 20.0 cm |",
         "| contact, P, ke | 45.0 (44.0 to 46.0), 2.0 % | 20.0, 60 % |",
         "| contact, P, momentum | 40.5 (40.0 to 41.0), 2.0 % | 30.0, 12 % |",
-    ]  # fmt: skip
+    ]
     assert findings.depths(schemes, "ogival")[-1] == "| contact, P, ke | perforated, 2.0 % |"
     doubtful = replace(made(SHOTS[0], 44.0), trusted=False)
     assert findings.depths(findings.grouped([doubtful]), "hemispherical")[-1] == "| contact, P, ke | 44.0†, 2.0 % |"
@@ -51,7 +51,7 @@ def test_scores_of_each_scheme(schemes):
     head, _, *rows = findings.scores(schemes)
     assert head.startswith("| sliding, failure, advection | shots |")
     assert [row.split(" | ")[:3] for row in rows] == [
-        ["| contact, P, ke", "3", "4 of 4 (60 to 100 %)"], ["| contact, P, momentum", "2", "2 of 3 (25 to 92 %)"]]  # fmt: skip
+        ["| contact, P, ke", "3", "4 of 4 (60 to 100 %)"], ["| contact, P, momentum", "2", "2 of 3 (25 to 92 %)"]]
 
 
 def test_the_figure_has_a_dot_for_every_run(schemes):

@@ -12,7 +12,7 @@ def bench(path, processor="EPYC", name="contact, ke", times=(100.4, 60.2)):
     """A file as `hydro2d bench --json` writes it."""
     about = {"cpu": processor, "cpu_count": 2, "written": "2026-11-28T10:00:00", "version": "0.3", "git_commit": "a" * 40}
     cases = [{"name": name, "cells": 131325, "threads": number, "ns_per_cell_cycle": ns, "triad_gb_s": 12.3}
-             for number, ns in enumerate(times, 1)]  # fmt: skip
+             for number, ns in enumerate(times, 1)]
     path.write_text(json.dumps({"provenance": about, "cases": cases}))
     return path
 

@@ -29,7 +29,7 @@ def test_the_readme_shows_the_kept_values():
 
 @pytest.mark.parametrize("key", [
     pytest.param(key, marks=[pytest.mark.xfail(strict=True, reason=BEYOND[key])] if key in BEYOND else []) for key in ROWS],
-    ids=", ".join)  # fmt: skip
+    ids=", ".join)
 def test_what_a_handbook_says(key):
     assert off(key, KEPT[key]["obtained"]) <= 1.0
 

@@ -20,7 +20,7 @@ def made(shot, depth, failure=None, law=None):
 def test_runs_are_gathered_by_shot_law_and_way_to_fail():
     results = [made("steel-2120", 7.8, "none"), made("steel-2120", 11.0, "strain 150 %"), made("5083-1296", 21.0, law="A"),
                made("5083-1296", 15.0, law="A"), made("5083-1296", 25.0, "strain 150 %", "A"),
-               made("7039-1248", 13.0, law="A"), made("5083-1086", 46.0, law="A")]  # fmt: skip
+               made("7039-1248", 13.0, law="A"), made("5083-1086", 46.0, law="A")]
     gathered = heads.cases(results)
     assert list(gathered) == [("5083-1296", "A"), ("steel-2120", "")]  # one failure only: nothing to compare
     assert gathered["5083-1296", "A"] == {"fracture pressure": [21.0, 15.0], "strain 150 %": [25.0]}

@@ -40,10 +40,10 @@ def test_the_aim(shot, depth, within):
 
 def test_scores_count_members_and_shots():
     results = [made(44.0, 2.0), made(43.0, 2.5), made(20.0, 60.0, "5083-1200"), made(41.0, 9.0, "5083-1200"),
-               made(9.0, 80.0, law="B")]  # fmt: skip
+               made(9.0, 80.0, law="B")]
     assert members.scores(members.grouped(results))[2:] == [
         "| A | 2 | 3 of 4 (36 to 94 %) | 1 | 1 |", "| B | 1 | 0 of 1 (0 to 73 %) | 0 | 0 |",
-    ]  # fmt: skip
+    ]
 
 
 def test_every_shot_of_the_experiments_is_rigid_or_not():
@@ -58,7 +58,7 @@ def test_the_figure_has_a_dot_for_every_member():
     dots = [line for line in first.lines if line.get_marker() in ("o", "^") and line.get_alpha() == 0.6]
     assert [len(line.get_xdata()) for line in dots] == [3, 1]
     (line,) = (line for line in first.lines if line.get_linewidth() == 0.8 and line.get_linestyle() == "-"
-               and len(line.get_xdata()) == 2)  # fmt: skip
+               and len(line.get_xdata()) == 2)
     assert list(line.get_ydata()) == [median([44.0, 46.0, rigid_rod.PLATE]), 20.0]
 
 

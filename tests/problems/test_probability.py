@@ -38,7 +38,7 @@ def made_up(shot, number=64, seed=0, held_longer=1.0):
     middle = np.array([half(*each) for each in zip(columns[LAW], columns[FACTOR], columns[PLATE_FACTOR], strict=True)])
     lost = np.log((shot.velocity + columns[VELOCITY]) / (held_longer * middle)) + CHANCE * generator.logistic(size=number) > 0.0
     columns |= {"row": np.arange(1.0, number + 1), "status": np.full(number, "done"), "perforated": np.full(number, "no"),
-                "depth_m": np.where(lost, 0.2, 0.4), "length_ratio": np.where(lost, 0.3, 0.95)}  # fmt: skip
+                "depth_m": np.where(lost, 0.2, 0.4), "length_ratio": np.where(lost, 0.3, 0.95)}
     return hydro2d.Samples(str(shot), INPUTS, columns)
 
 
@@ -211,4 +211,4 @@ def test_ogival_rods_hold_with_the_strong_laws_at_the_worst_corner():
     assert kept == {
         ("5083", "Steinberg-Guinan"): 98.6, ("5083", "JC-sintered"): 98.6, ("5083", "JC-90W"): 97.8, ("5083", "JC-Y925"): 96.0,
         ("7039", "Steinberg-Guinan"): 92.7, ("7039", "JC-sintered"): 94.0, ("7039", "JC-90W"): 20.1, ("7039", "JC-Y925"): 61.8,
-    }  # fmt: skip
+    }

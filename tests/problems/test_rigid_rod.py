@@ -22,7 +22,7 @@ KEPT = sorted(source.PROBLEMS / name for name in (
     "cth_nose_shape/results/advection.csv", "cth_nose_shape/results/rigid_rod_failure.csv",
     "cth_nose_shape/results/twelve_shots.csv", "cth_nose_shape/results/yield_factor.csv", "validation/results/eroded_heads.csv",
     "validation/results/eroding_rods.csv", "validation/results/rigid_steel_rods.csv",
-    "validation/results/steel_rods_fitted.csv"))  # fmt: skip
+    "validation/results/steel_rods_fitted.csv"))
 #: a result of a run on a page, as Result writes it
 CELL = re.compile(r"(?:\d+\.\d cm|perforated at \d+ m/s), [\d.]+ %")
 AXES = ("law", "shot", "nose", "plate", "velocity")
@@ -30,7 +30,7 @@ AXES = ("law", "shot", "nose", "plate", "velocity")
 
 def row(labels, depth, length, status="done", reason="speed of rod below 5 m/s", member=0, method=METHOD):
     numbers = {"depth_m": depth, "length_ratio": length / 0.1, "residual_velocity_m_s": 123.4, "regime": "rigid",
-               "hole_m3": 1.6e-5}  # fmt: skip
+               "hole_m3": 1.6e-5}
     about = {"cells_across": "8.5", "member": member, "status": status, "stop_reason": reason, "method": method}
     return dict.fromkeys(AXES, "") | labels | about | numbers
 
@@ -45,7 +45,7 @@ def study(tmp_path):
         row({"law": "B", "shot": "5083-1200"}, 0.1, 0.09, status="unphysical"),
         row({"law": "B", "shot": "something else"}, 0.1, 0.09),
         row({"law": "B", "plate": "5083", "velocity": "700 m/s"}, 0.2, 0.095),
-    ])  # fmt: skip
+    ])
 
 
 def write(file, rows):
@@ -65,7 +65,7 @@ def test_labels(label, shot):
     ({"law": "A", "nose": "ogival", "plate": "7039", "velocity": "875 m/s", "cells_across": "5.5"},
      Shot("ogival", "7039", 875.0), "A"),
     ({"plate": "5083-H116", "shot": "5083-1086"}, Shot("hemispherical", "5083", 1086.0), "5083-H116"),
-    ({"plate": "6061", "velocity": "875 m/s"}, None, "")])  # fmt: skip
+    ({"plate": "6061", "velocity": "875 m/s"}, None, "")])
 def test_shots_of_studies_and_of_searches(labels, shot, column):
     result = Result(labels, 0, 1.0, 0.0, None, "rigid", None, METHOD)
     assert (result.shot, result.column) == (shot, column)
@@ -97,7 +97,7 @@ def test_the_table(study, capsys):
         "| rods | runs in 5083 | energy over volume | runs in 7039 | energy over volume |", "|---|---|---|---|---|",
         "| hemispherical, up to a tenth of the length lost | 2 | 1.0 to 2.3 GPa | 0 | |",
         "| hemispherical, more | 0 | | 1 | 2.7 GPa |",
-    ]  # fmt: skip
+    ]
 
 
 @pytest.mark.parametrize(("depths", "said"), [

@@ -16,7 +16,7 @@ ROWS = keeping.read(transitions.FILE)
 def rows(runs, nose="hemispherical", method=METHOD):
     """Rows of a search, of velocities and shares of the length."""
     return [{"nose": nose, "law": "a", "plate": "5083", "cells_across": "5.5", "velocity": f"{velocity} m/s", "status": "done",
-             "length_ratio": f"{left}", "method": method} for velocity, left in runs]  # fmt: skip
+             "length_ratio": f"{left}", "method": method} for velocity, left in runs]
 
 
 def test_the_velocity_lies_between_what_kept_and_what_lost():

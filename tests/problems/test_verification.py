@@ -15,7 +15,7 @@ FOLDER = source.PROBLEMS / "verification"
 NUMBERS = kept.rows(table.NUMBERS, table.COLUMNS)
 CURVES = kept.rows(table.CURVES, table.CURVE_COLUMNS)
 PLANNED = [(problem.name, variant, str(cells)) for problem in PROBLEMS for variant in problem.variants
-           for cells in problem.cells]  # fmt: skip
+           for cells in problem.cells]
 
 
 def test_every_run_is_kept():
@@ -24,7 +24,7 @@ def test_every_run_is_kept():
 
 def test_every_curve_is_kept():
     assert list(dict.fromkeys((row["problem"], row["cells"]) for row in CURVES)) == [
-        (problem.name, str(cells)) for problem in PROBLEMS for cells in problem.cells]  # fmt: skip
+        (problem.name, str(cells)) for problem in PROBLEMS for cells in problem.cells]
 
 
 @pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: problem.name)

@@ -62,7 +62,7 @@ def test_how_a_run_is_read(monkeypatch, tmp_path):
     fraction = np.zeros((1, 1, 4, 3))
     fraction[0, 0, 1:3] = 1.0
     fields = xarray.Dataset({"volume_fraction": (("time", "body", "z", "r"), fraction)},
-                            coords={"time": [0.0], "body": ["wall"], "z": np.arange(4.0), "r": np.arange(3.0)})  # fmt: skip
+                            coords={"time": [0.0], "body": ["wall"], "z": np.arange(4.0), "r": np.arange(3.0)})
     summary = {"stop_reason": "end time", "targets": {"wall": {"debris": {"mass_kg": 48e-6}}}}
     monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: SimpleNamespace(deck=deck, fields=fields, summary=summary))
     row = dict(zip(read.COLUMNS, read.of_run(tmp_path), strict=True))

@@ -106,7 +106,7 @@ NOT_THE_SAME = "cells that no signal has reached bound the time step only where 
 @pytest.mark.parametrize("options", [
     pytest.param(options, id=name, marks=[pytest.mark.xfail(strict=True, reason=NOT_THE_SAME)] if name in (
         "contact", "contact, both, friction", "melting, contact") else [])
-    for name, options in CASES.items()])  # fmt: skip
+    for name, options in CASES.items()])
 def test_active_region(options):
     on = cycles(started(*options), 120)
     off = cycles(started("numerics.active_region=false", *options), 120)

@@ -25,7 +25,7 @@ def test_the_program_of_the_page(tmp_path):
     environment = {**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
     environment.pop("PYTHONPATH", None)
     done = subprocess.run([os.environ[VARIABLE], "bar.py"], cwd=tmp_path, env=environment, capture_output=True, text=True,
-                          timeout=900)  # fmt: skip
+                          timeout=900)
     assert done.returncode == 0, done.stderr
     mean, velocity, factor = map(float, re.findall(r"[\d.]+(?=\])", done.stdout))
     assert mean == pytest.approx(0.0173, abs=2e-4)

@@ -95,7 +95,7 @@ LONG = (
     "docs/how-to/find-a-transition.md", "docs/how-to/index.md", "docs/how-to/report.md", "docs/how-to/run-a-shot.md",
     "docs/how-to/run-a-study.md", "docs/how-to/uncertain-inputs.md", "docs/tutorials/first-study.md",
     "problems/ceramics/README.md", "problems/cth_nose_shape/README.md", "problems/verification/README.md",
-)  # fmt: skip
+)
 #: decks under which keys are laid, in addition to those of the nose shapes
 BASES = {
     "docs/how-to/perforate-a-plate.md": "../perforation/two_plates.toml",
@@ -258,7 +258,7 @@ def run(command: str) -> int:
 
 
 @pytest.mark.parametrize("page", [pytest.param(page, marks=[pytest.mark.thorough] * (page in LONG))
-                                  for page in with_kind("sh", "python")])  # fmt: skip
+                                  for page in with_kind("sh", "python")])
 def test_examples_run(page, folder, capsys):
     folder(page)
     names = {"__name__": page}

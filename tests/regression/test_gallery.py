@@ -93,7 +93,7 @@ def test_the_charts_of_studies_are_those_of_the_kept_results(docs, tmp_path):
 
 
 PAGES = [file for file in source.tracked_files() if file.suffix == ".md" and DOCS in file.parents
-         and file.parent in (DOCS, DOCS / "how-to", DOCS / "tutorials")]  # fmt: skip
+         and file.parent in (DOCS, DOCS / "how-to", DOCS / "tutorials")]
 
 
 @pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
@@ -115,10 +115,10 @@ def test_the_pictures_of_a_page_are_small_and_made_by_its_commands(file, docs):
 
 def test_steps_are_those_down_to_the_last_picture(docs):
     text = ("![a](../_static/a.png)\n```sh\nhydro2d new rod   # a deck\npip install x\nhydro2d plot r -o a.png\n```\n"
-            "```python\nprint(1)\n```\n```sh\nhydro2d plot r -o a.png.svg\nhydro2d bench\n```\n")  # fmt: skip
+            "```python\nprint(1)\n```\n```sh\nhydro2d plot r -o a.png.svg\nhydro2d bench\n```\n")
     page = DOCS / "page.md"
     assert docs["figures"].needed(text, page) == [("sh", "hydro2d new rod"), ("sh", "hydro2d plot r -o a.png"),
-                                            ("python", "print(1)\n"), ("sh", "hydro2d plot r -o a.png.svg")]  # fmt: skip
+                                            ("python", "print(1)\n"), ("sh", "hydro2d plot r -o a.png.svg")]
     assert docs["figures"].needed("![a](../_static/a.png)\n```sh\nhydro2d bench\n```\n", page) == []
     report = "![a](../_static/page_rods_1.png)\n```sh\nhydro2d report r\nhydro2d bench\n```\n"
     assert docs["figures"].needed(report, page) == [("sh", "hydro2d report r")]

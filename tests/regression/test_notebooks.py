@@ -76,7 +76,7 @@ def test_a_notebook_runs(file, tmp_path):
          "ValueError"),
         (lambda cells: cells[1].outputs.append(nbformat.v4.new_output("stream", name="stderr", text="a warning")), "a warning"),
     ],
-)  # fmt: skip
+)
 def test_a_fault_of_a_notebook_is_found(spoil, said):
     notebook = read(NOTEBOOKS[0])
     cells = code(notebook)

@@ -17,7 +17,7 @@ MAKERS = ("new", "run", "sweep")
 OTHER_USES = {"--check", "--status", "--resume", "--list", "--repeats"}
 #: pages whose Python is run elsewhere, and where
 ELSEWHERE = {"how-to/add-a-model": "tests/regression/test_add_a_model.py follows it word for word",
-             "how-to/easyvvuq": "tests/regression/test_easyvvuq.py, in an environment of its own"}  # fmt: skip
+             "how-to/easyvvuq": "tests/regression/test_easyvvuq.py, in an environment of its own"}
 #: pages with studies of several cases, whose workers have to start
 LONG = ("how-to/depth-curves", "how-to/run-a-study", "how-to/uncertain-inputs", "tutorials/first-study")
 

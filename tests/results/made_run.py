@@ -16,7 +16,7 @@ BODIES = ("rod", "plate")
 SCALARS = {
     "Pressure [Pa]": 5e9, "Density [kg/m3]": 18e3, "Von Mises Stress [Pa]": 1e9, "Temperature [K]": 900.0,
     "Plastic Strain": 2.0, "Temperature of rod [K]": 700.0,
-}  # fmt: skip
+}
 DECK_TEXT = """\
 title = "A made shot"
 [mesh]
@@ -45,7 +45,7 @@ def edges(shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fields(r: np.ndarray, z: np.ndarray, time: float, noise: float, random: np.random.Generator,
-           everywhere: bool = False) -> dict[str, np.ndarray]:  # fmt: skip
+           everywhere: bool = False) -> dict[str, np.ndarray]:
     """Fields at a time: a rod of radius 3 mm whose nose is at 1 km/s times the time, in a plate from z = 0 on.
 
     noise : share of each value; everywhere : fields are nowhere zero, so that there is noise in all cells
@@ -57,7 +57,7 @@ def fields(r: np.ndarray, z: np.ndarray, time: float, noise: float, random: np.r
     wave = np.exp(-(((zc - nose) / 8e-3) ** 2) - (rc / 8e-3) ** 2)
     filled = rod + plate
     values = {"Volume Fraction for rod": rod, "Volume Fraction for plate": plate,
-              "Material": np.where(rod > 0.5, 1, np.where(plate > 0.5, 2, 0)).astype(np.int32)}  # fmt: skip
+              "Material": np.where(rod > 0.5, 1, np.where(plate > 0.5, 2, 0)).astype(np.int32)}
     for number, (name, size) in enumerate(SCALARS.items()):
         rough = 1.0 + noise * random.standard_normal(wave.shape)
         shape = 0.2 * name.startswith(("Dens", "Temp")) + wave * np.cos(400 * rc * number)
@@ -71,7 +71,7 @@ def fields(r: np.ndarray, z: np.ndarray, time: float, noise: float, random: np.r
 
 def write(directory: Path, *, shape=(55, 24), dumps: int = 5, noise: float = 0.0, travels: bool = False, stations: bool = True,
           names=None, geometry: str = "cylindrical", ended: bool = True, everywhere: bool = False,
-          time: float = 40e-6) -> Path:  # fmt: skip
+          time: float = 40e-6) -> Path:
     """Writes the run; names : fields in addition to volume fractions and material, default all. Returns its directory."""
     (directory / vtk.FOLDER).mkdir(parents=True)
     write_text(directory / DECK, DECK_TEXT.format(geometry=geometry))
@@ -81,7 +81,7 @@ def write(directory: Path, *, shape=(55, 24), dumps: int = 5, noise: float = 0.0
         here = z + (500.0 * when if travels else 0.0)
         arrays = fields(r, here, when, noise, random, everywhere)
         kept = {name: values for name, values in arrays.items()
-                if names is None or name in names or name == "Material" or name.startswith("Volume")}  # fmt: skip
+                if names is None or name in names or name == "Material" or name.startswith("Volume")}
         name = f"{vtk.FOLDER}/dump_{number:06d}.vtr"
         vtk.write_grid(directory / name, r, here, kept.items(), when)
         entries.append((when, name))
@@ -96,7 +96,7 @@ def _write_history(path: Path, end: float, stations: bool) -> None:
     columns = history.History(path)
     for when in np.linspace(0.0, end, 81):
         row = {"time": when, "penetration_depth_m": 1e3 * when, "rod_length_m": 30e-3 - 100 * when, "regime": "rigid",
-               "rod_tail_velocity_m_s": 1000.0 - 1e6 * when, "rod_max_plastic_strain": 1e4 * when}  # fmt: skip
+               "rod_tail_velocity_m_s": 1000.0 - 1e6 * when, "rod_max_plastic_strain": 1e4 * when}
         if stations:
             for kind, name, z in (("tracer", "tip", 1e3 * when - 1e-3), ("gauge", "deep", 12e-3)):
                 row |= {f"{kind}_{name}_{key}": {"r_m": 1e-3, "z_m": z}.get(key, 5.0) for key in KEYS}

@@ -128,7 +128,7 @@ def test_a_line_outside_of_the_window_does_not_stretch_the_figure(dump, tmp_path
 
 def test_panels_share_their_colours(dump):
     other = Dump(dump.r_edges, dump.z_edges, {n: 2 * v for n, v in dump.fields.items()} | {
-        n: v for n, v in dump.fields.items() if n.startswith("Vol") or n == "Material"}, 0.0)  # fmt: skip
+        n: v for n, v in dump.fields.items() if n.startswith("Vol") or n == "Material"}, 0.0)
     figure = figures.draw_sections([[(dump, "", None)], [(other, "", None)]], "von_mises")
     limits = {mesh.get_clim() for axes in figure.axes[:2] for mesh in axes.collections[:2]}
     assert len(limits) == 1
@@ -154,7 +154,7 @@ def test_words(dump, word):
     ("word", "said"),
     [("presure", 'did you mean "pressure"'), ("body_density", "write body_density:NAME"), ("body_density:rd", '"rod"'),
      ("pressure:r", "only velocity"), ("velocity:x", "velocity:r")],
-)  # fmt: skip
+)
 def test_wrong_words(dump, word, said):
     with pytest.raises(FigureError, match=said):
         figures.chosen(dump, word)

@@ -80,7 +80,7 @@ def test_scales_clip_and_are_logarithmic():
     assert Scale(log=True).drawn((1.0, 10.0))["norm"](10.0**0.5) == pytest.approx(0.5)
     for wrong, said in ((lambda: Scale(clip=50.0), "between 0 and 50"), (lambda: Scale(colours="jett"), 'did you mean "jet"'),
                         (lambda: Scale(log=True).limits([-values]), "has none"),
-                        (lambda: Scale(log=True).drawn((-1.0, 1.0)), "begins above 0")):  # fmt: skip
+                        (lambda: Scale(log=True).drawn((-1.0, 1.0)), "begins above 0")):
         with pytest.raises(FigureError, match=said):
             wrong()
 
@@ -129,7 +129,7 @@ def test_debris_are_drawn(run, monkeypatch):
     debris = {"body": np.array(["rod", "plate"]), "speed_edges_m_s": np.linspace(0.0, 1000.0, 5),
               "mass_by_speed_kg": np.array([[0.0, 1e-3], [0.0, 2e-3], [0.0, 0.0], [5e-3, 0.0]]),
               "angle_edges_rad": np.linspace(0.0, np.pi, 5), "mass_by_angle_kg": np.array([[5e-3, 3e-3], *[[0.0, 0.0]] * 3]),
-              "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}  # fmt: skip
+              "fragment_mass_kg": np.array([5e-3, 2e-3, 1e-3])}
     monkeypatch.setattr(Results, "debris", {"plate": debris})
     speed, angle, fragments = line_figures.debris([run]).axes
     assert [patch.get_data().values.sum() for patch in speed.patches] == [pytest.approx(5.0), pytest.approx(3.0)]
@@ -145,10 +145,10 @@ def test_the_command_draws_debris_and_refuses_options_of_other_kinds(run, tmp_pa
                             (["--kind", "section", "--line", "0,0,0,1"], "--line is for --kind line and xt"),
                             (["--kind", "line", "--line", "0,0,0,0"], "expected two points"),
                             (["--kind", "xt", "--map", "nothing"], "unknown colour map"),
-                            (["--kind", "debris"], "has no debris")):  # fmt: skip
+                            (["--kind", "debris"], "has no debris")):
         assert call(["plot", str(run.directory), "-o", str(tmp_path / "x.png"), *arguments]) == 2
         assert said in capsys.readouterr().err
     for kind in ("line", "xt"):
         assert call(["plot", str(run.directory), "-o", str(tmp_path / f"{kind}.png"), "--kind", kind, "--clip", "1", "--line",
-                     "1 mm,-1 cm,1 mm,3 cm"]) == 0  # fmt: skip
+                     "1 mm,-1 cm,1 mm,3 cm"]) == 0
         assert (tmp_path / f"{kind}.png").stat().st_size > 5000

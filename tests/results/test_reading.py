@@ -102,7 +102,7 @@ def test_xarray_has_units(shot):
 def test_a_run_says_what_it_is(shot):
     text = shot._repr_html_()
     for said in ("a rod that meets a plate", "the stop time was reached at 20.", "20.0 mm long, deforming", "12.1 mm",
-                 "5, the last at 20.", "<table>"):  # fmt: skip
+                 "5, the last at 20.", "<table>"):
         assert said in text
     assert str(shot.directory.parent) not in text
     assert re.fullmatch(rf"<Results {shot.label}: the stop time was reached at 20\.\d\d µs, depth 20\.0 mm>", repr(shot))
@@ -115,7 +115,7 @@ def test_titles_are_escaped(shot):
 
 @pytest.mark.parametrize(("directory", "label"), [
     ("1086m-s", "1086 m/s"), ("1086 m-s", "1086 m/s"), ("1.3km-s_soft", "1.3 km/s_soft"), ("ke_1086m-s-2", "ke_1086 m/s-2"),
-    ("m-s", "m-s"), ("5083-1086", "5083-1086"), ("12m-seconds", "12m-seconds"), ("form-s", "form-s")])  # fmt: skip
+    ("m-s", "m-s"), ("5083-1086", "5083-1086"), ("12m-seconds", "12m-seconds"), ("form-s", "form-s")])
 def test_velocities_in_names_of_directories_have_their_slash_back(shot, directory, label):
     shot.directory = shot.directory.parent / directory
     assert shot.label == label

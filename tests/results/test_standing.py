@@ -22,7 +22,7 @@ def under_way(tmp_path):
     deck = [line for line in (run / "deck.toml").read_text().splitlines() if not line.startswith("#")]
     (run / "deck.toml").write_text("\n".join([*deck, "[stop]", "time = 80e-6", "perforation = true"]) + "\n")
     write_json(run / "progress.json", {"time_s": 40e-6, "cycles": 1000, "fraction": 0.5, "left_s": 90.0, "wall_s": 100.0,
-                                       "penetration_depth_m": 0.04, "host": "here", "process": 1})  # fmt: skip
+                                       "penetration_depth_m": 0.04, "host": "here", "process": 1})
     return run
 
 
@@ -89,7 +89,7 @@ def test_a_folder_that_is_no_run_is_reported(tmp_path, capsys):
 def columns(speed, rows=40):
     time = np.linspace(0.0, 100e-6, rows)
     return {"time": time, "cycle": np.arange(rows) * 50, "rod_core_velocity_m_s": speed(time),
-            "body_ball_velocity_m_s": 0.5 * speed(time)}  # fmt: skip
+            "body_ball_velocity_m_s": 0.5 * speed(time)}
 
 
 def test_a_constant_deceleration_is_foreseen():
@@ -97,7 +97,7 @@ def test_a_constant_deceleration_is_foreseen():
     end = list(ending.ends({"time": 1e-3, "speed_below": 10.0, "body": "rod", "cycles": 3900}, slowing))
     assert [(each.reason, round(each.time * 1e6, 3)) for each in end] == [
         ("end time", 1000.0), ("3900 cycles", 200.0), ("speed below 10 m/s at its present deceleration", 495.0),
-    ]  # fmt: skip
+    ]
     backwards = columns(lambda time: -(1000.0 - 2e6 * time))
     (end,) = ending.ends({"rebound": True, "body": "rod"}, backwards)
     assert (end.reason, end.time) == ("rebound at its present deceleration", pytest.approx(500e-6))

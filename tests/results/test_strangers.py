@@ -96,7 +96,7 @@ def test_any_value_in_the_deck_of_a_stranger(finished, running):
 @pytest.mark.parametrize("name", ["progress.json", "summary.json"])
 def test_any_value_in_what_a_stranger_says_of_the_run(finished, name):
     summary = {"time_s": 1e-6, "cycles": 3, "fraction": 0.5, "left_s": 3.0, "wall_s": 2.0, "penetration_depth_m": 0.1,
-               "rod_tail_velocity_m_s": 3.0, "host": "a", "process": 3}  # fmt: skip
+               "rod_tail_velocity_m_s": 3.0, "host": "a", "process": 3}
     tables = summary if name == "progress.json" else read_json(finished / "summary.json", Error)
     with held(finished / "run.lock"):
         for path in places(tables):
@@ -147,7 +147,7 @@ def test_names_in_histories(tmp_path):
     stored = history.read(tmp_path / "history.h5")
     assert set(stored) == {"time", *columns}
     assert {name: values[0] for name, values in stored.items() if name != "time"} == {
-        name: float(number) for number, name in enumerate(columns)}  # fmt: skip
+        name: float(number) for number, name in enumerate(columns)}
     history.write_csv(stored, tmp_path / "history.csv")
     table = pandas.read_csv(tmp_path / "history.csv")
     assert [re.sub(r" \[[^\[]*\]$", "", head) for head in table] == list(stored)
@@ -157,7 +157,7 @@ def test_names_in_histories(tmp_path):
 @pytest.mark.parametrize("write", [
     lambda name: to_csv([{name: name}]),
     lambda name: to_csv([{"a": 1, name: "x"}]),
-])  # fmt: skip
+])
 def test_no_cell_is_a_formula(write):
     for name in PLACED:
         rows = pandas.read_csv(io.StringIO(write(name)), dtype=str, keep_default_na=False)
@@ -190,7 +190,7 @@ def test_a_run_with_such_names(tmp_path):
     for command in (["check", deck], ["run", deck, "--out", out, "--quiet", "--set", "stop.cycles=3"], ["status", out],
                     ["plot", out, "--out", f"{tmp_path}/a.png"], ["export", out, "--out", f"{tmp_path}/export"],
                     ["report", out, "--out", f"{tmp_path}/report"], ["view", out, "--no-open", "--out", f"{tmp_path}/a.html"],
-                    ["run", deck, "--out", out, "--quiet", "--restart", "--set", "stop.cycles=5"]):  # fmt: skip
+                    ["run", deck, "--out", out, "--quiet", "--restart", "--set", "stop.cycles=5"]):
         assert call(command) == 0, command
     looked_at(tmp_path / "out")
 

@@ -31,7 +31,7 @@ def read(path):
 def test_a_line_out_has_the_numbers_of_the_picture(run, tmp_path):
     file = tmp_path / "x.csv"
     assert call(["plot", str(run.directory), "-o", str(file), "--kind", "line", "--time", "13 us", "--time", "40 us", "--line",
-                 "1 mm,-1 cm,1 mm,6 cm"]) == 0  # fmt: skip
+                 "1 mm,-1 cm,1 mm,6 cm"]) == 0
     heads, rows = read(file)
     assert heads == ["run", "t [us]", "r [mm]", "z [mm]", "Pressure [GPa]"]
     drawn = line_figures.line_outs([run], "pressure", ALONG_Z, (13e-6, 40e-6)).axes[0].lines
@@ -58,7 +58,7 @@ def test_a_line_across_has_its_distance_and_units_are_plain_letters(run):
 def test_a_history_has_the_numbers_of_the_picture(run, tmp_path):
     file = tmp_path / "x.CSV"
     assert call(["plot", str(run.directory), str(run.directory), "-o", str(file), "--kind", "history", "--quantity",
-                 "rod_length_m", "--quantity", "rod_tail_velocity_m_s"]) == 0  # fmt: skip
+                 "rod_length_m", "--quantity", "rod_tail_velocity_m_s"]) == 0
     heads, rows = read(file)
     assert heads == ["run", "t [us]", "projectile length [mm]", "projectile tail velocity [m/s]"]
     drawn = [axes.lines[0] for axes in figures.histories([run], ["rod_length_m", "rod_tail_velocity_m_s"]).axes]
@@ -88,7 +88,7 @@ def test_requests_without_a_table_are_refused(run, tmp_path, capsys):
                             (["--kind", "line", "--log"], "are for pictures, not for a table"),
                             (["--kind", "line", "--colours", "0,1"], "are for pictures, not for a table"),
                             (["--kind", "line", "--line", "1 m,0,1 m,1 m"], "misses the mesh"),
-                            (["--kind", "crater"], "has no crater")):  # fmt: skip
+                            (["--kind", "crater"], "has no crater")):
         assert call(["plot", str(run.directory), "-o", str(tmp_path / "x.csv"), *arguments]) == 2
         assert said in " ".join(capsys.readouterr().err.split())
     assert call(["plot", str(run.directory), "-o", str(tmp_path / "no" / "x.csv"), "--kind", "line"]) == 2

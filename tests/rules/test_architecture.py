@@ -39,12 +39,12 @@ def named(cell: str) -> list[str]:
     here, *inside = re.split(r"in `(\w+)` ", cell)
     at_once = re.findall(r"`([\w/]+(?:\.py|/))`", here)
     return at_once + [f"{folder}/{name}" for folder, names in zip(inside[::2], inside[1::2], strict=True)
-                    for name in re.findall(r"`(\w+\.py)`", names)]  # fmt: skip
+                    for name in re.findall(r"`(\w+\.py)`", names)]
 
 
 def test_the_layers_are_those_of_the_rule():
     table = [{module(path) for number, cell, _ in FOLDERS if int(number) == k + 1 for path in named(cell)}
-             for k in range(len(LAYERS))]  # fmt: skip
+             for k in range(len(LAYERS))]
     assert table == [set(places) for places in LAYERS]
     numbers = [int(number) for number, *_ in FOLDERS]
     assert numbers == sorted(numbers)
@@ -61,7 +61,7 @@ def phases(function) -> set[str]:
     """The phases that a method of the cycle runs."""
     syntax = ast.parse(textwrap.dedent(inspect.getsource(function)))
     return {f"{node.value.id}.{node.attr}" for node in ast.walk(syntax)
-            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in PHASES}  # fmt: skip
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in PHASES}
 
 
 def kernels(method: str) -> set[str]:

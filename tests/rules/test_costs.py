@@ -40,7 +40,7 @@ def test_an_addition_touches_the_files_of_its_row(example):
     addition, files = rows()[example]
     pattern = re.compile(NAMED[example], re.MULTILINE)
     files_with_it = {file.relative_to(source.ROOT).as_posix() for name, file in source.modules().items()
-                     if pattern.search(file.read_text(encoding="utf-8"))}  # fmt: skip
+                     if pattern.search(file.read_text(encoding="utf-8"))}
     assert files_with_it == files, f"CONTRIBUTING.md: {addition}"
 
 

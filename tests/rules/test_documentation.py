@@ -188,11 +188,11 @@ def test_docstrings_have_their_arguments_as_definitions():
     lines = [
         "Runs.", "", "deck, out : where", "    it is", "**keys : more", "", "Raises Error.", "", "Attributes", "----------",
         "rows : int", "    how many", "left : what is left",
-    ]  # fmt: skip
+    ]
     assert docstrings.converted(lines) == [
         "Runs.", "", "deck, out", "    where", "    it is", r"\*\*keys", "    more", "", "Raises Error.", "",
         ".. rubric:: Attributes", "", "rows : int", "    how many", "left", "    what is left", "",
-    ]  # fmt: skip
+    ]
     prose = ["The name: that of the file.", "It is short."]
     assert docstrings.converted(prose) == [*prose, ""]
 
@@ -243,7 +243,7 @@ SECTIONS = {
     "`[experiment]`": sections.Experiment, "`[penetration]`": sections.Penetration,
     "Segment: a table of `mesh.r` and `mesh.z`": mesh_sections.Segment, "Flow: a table of `body.flow`": body.Flow,
     **{f'`[[body]]` with `shape = "{shape}"`': kind for shape, kind in shapes.KINDS.items()},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("heading", SECTIONS)
@@ -251,7 +251,7 @@ def test_the_example_of_every_key_is_valid(heading):
     """Each line is parsed and checked against the type and the bounds of its key in the code."""
     lines, kind = sections_of_the_page()[heading], SECTIONS[heading]
     tables = {"mesh", "boundaries", "body", "materials", "numerics", "sliding", "failure", "stop", "output", "tracer", "gauge",
-              "source", "experiment", "penetration"} if kind is sections.Deck else set()  # fmt: skip
+              "source", "experiment", "penetration"} if kind is sections.Deck else set()
     assert set(lines) - {"include"} == set(kind.model_fields) - tables
     for key, line in lines.items():
         value = tomllib.loads(line)[key]

@@ -73,7 +73,7 @@ def test_no_file_that_is_tracked_is_ignored():
     """The wheel and the sdist leave out all files that .gitignore names."""
     names = "\n".join(str(file.relative_to(source.ROOT)) for file in source.tracked_files())
     done = subprocess.run(["git", "check-ignore", "--no-index", "--stdin"], cwd=source.ROOT, input=names, text=True,
-                          capture_output=True, check=False)  # fmt: skip
+                          capture_output=True, check=False)
     assert (done.returncode, done.stdout) == (1, "")
 
 

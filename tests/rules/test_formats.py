@@ -15,7 +15,7 @@ READ_BY_LIBRARY = {
     "ElementTree": {"parse", "fromstring", "XML", "iterparse"}, "pyvista": {"read", "get_reader"}, "zipfile": {"ZipFile"},
     "tarfile": {"open"}, "gzip": {"open"}, "pandas": {"read_csv", "read_json", "read_hdf"}, "shelve": {"open"},
     "subprocess": {"run", "Popen", "check_output"},
-}  # fmt: skip
+}
 
 
 def calls() -> Iterator[tuple[str, str, ast.Call]]:
@@ -97,7 +97,7 @@ READ = {
               "base.interrupt.open_closed_streams: open", "base.interrupt.open_closed_streams: os.open",
               "cli.base.import_matplotlib: os.open", "cli.view._open: open", "files.locks.turn: os.open",
               "files.whole.sync: os.open", "solver.cycle.Cycle.prepare: open", "kernels.cracks.open_cracks: opened"},
-}  # fmt: skip
+}
 
 
 def test_every_reader_is_attacked():
@@ -114,7 +114,7 @@ def test_the_attacks_exist():
 
 #: the functions of the one module for names, and what figures call one of them
 GUARDS = {node.name for node in source.tree(source.modules()["hydro2d.base.formats"]).body
-          if isinstance(node, ast.FunctionDef)}  # fmt: skip
+          if isinstance(node, ast.FunctionDef)}
 #: calls that write a name into a format, by their last word; where only those of some modules do, with these
 WRITE = {
     "file": {"with_name", "with_stem", "joinpath", "Path"}, "HDF5": {"create_dataset", "create_group"}, "VTK": {"SetName"},
@@ -122,9 +122,9 @@ WRITE = {
     "shell": {"quote", "join"}, "rich": {"Text", "add_column"},
     "figure": {"set_title", "suptitle", "set_xlabel", "set_ylabel", "annotate", "set_xticks", "set_yticks"},
     "chart": {"add_scatter", "add_annotation", "update_xaxes", "update_yaxes"},
-}  # fmt: skip
+}
 OWNERS = {"escape": {"html", ""}, "dumps": {"json"}, "dump": {"json"}, "join": {"shlex"}, "quote": {"shlex"},
-          "writer": {"csv"}, "DictWriter": {"csv"}, "Path": {""}, "Text": {""}}  # fmt: skip
+          "writer": {"csv"}, "DictWriter": {"csv"}, "Path": {""}, "Text": {""}}
 
 
 def _holds_a_name(part: ast.AST) -> bool:
@@ -165,7 +165,7 @@ def unguarded() -> set[str]:
             if not isinstance(function, ast.FunctionDef) or name == "hydro2d.base.formats":
                 continue
             used = {ast.unparse(part).rpartition(".")[2] for part in ast.walk(function)
-                    if isinstance(part, (ast.Name, ast.Attribute))}  # fmt: skip
+                    if isinstance(part, (ast.Name, ast.Attribute))}
             if not used & _guards(source.tree(file)):
                 found |= {f"{name}.{function.name}: {kind}" for node in ast.walk(function) if (kind := _written(node))}
     return found
@@ -204,7 +204,7 @@ UNGUARDED = {
         "study.report.divergence._draw: figure", "study.report.marks.ensembles: chart", "study.report.marks.points: chart",
         "study.report.rods.draw: figure", "study.report.uncertain._part: file", "study.report.uncertain._pictures: file",
     },
-}  # fmt: skip
+}
 
 
 def test_every_writer_of_a_name_calls_the_function_of_its_format():

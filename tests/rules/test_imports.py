@@ -148,7 +148,7 @@ SCRIPTS_WITH_MORE = {
     "problems.verification.hugoniot": "it verifies equations of state and melting lines themselves",
 }
 SCRIPTS = {".".join(file.relative_to(source.ROOT).with_suffix("").parts): file
-           for file in sorted(source.ROOT.glob("problems/**/*.py"))}  # fmt: skip
+           for file in sorted(source.ROOT.glob("problems/**/*.py"))}
 
 
 def internals(name: str) -> set[str]:

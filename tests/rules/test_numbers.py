@@ -16,7 +16,7 @@ CARRIERS = ("hydro2d.solver.method", "hydro2d.kernels.names")
 def written(syntax: ast.AST, key: str) -> int:
     """How often a text has a key as a variable, an attribute, a parameter, a keyword or a word."""
     return sum(key in (getattr(node, "id", None), getattr(node, "attr", None), getattr(node, "arg", None),
-                       getattr(node, "value", None)) for node in ast.walk(syntax))  # fmt: skip
+                       getattr(node, "value", None)) for node in ast.walk(syntax))
 
 
 def read(syntax: ast.AST, key: str) -> int:
@@ -27,7 +27,7 @@ def read(syntax: ast.AST, key: str) -> int:
 def readers(key: str, *packages: str) -> dict[str, int]:
     """How often each module of these packages reads a key, those that do."""
     counts = {name: read(source.tree(file), key) for name, file in source.modules().items()
-              if name.startswith(packages) and name != DECLARED}  # fmt: skip
+              if name.startswith(packages) and name != DECLARED}
     return {name: count for name, count in counts.items() if count}
 
 
@@ -42,7 +42,7 @@ def test_what_carries_numbers_names_none(module):
 
 
 @pytest.mark.parametrize("text", ["Method(courant=n[0])", "n.courant", "courant: float", "Work('courant', '', '')",
-                                  "def f(courant): ..."])  # fmt: skip
+                                  "def f(courant): ..."])
 def test_a_copy_is_found(text):
     assert written(ast.parse(text), "courant") == 1
 

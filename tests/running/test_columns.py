@@ -27,7 +27,7 @@ DECK = (
 NAMES = {
     "BODY": "rod|plate", "TARGET": "plate", "STATION": "tracer_tip|gauge_line_[123]", "SINK": "|".join(SINKS),
     "DERIVED": "P/L", "TRANSFER": "|".join(audit.CONTACT_TRANSFERS),
-}  # fmt: skip
+}
 
 
 @pytest.fixture(scope="module")

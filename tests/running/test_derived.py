@@ -77,7 +77,7 @@ def test_without_a_projectile_there_is_no_depth():
 
 def test_the_values(tmp_path):
     lines = ('"P/L" = "depth / length0"', 'hole_m3 = "crater_volume_m3"', '"v/u" = "v / u"', 'never = "time / (time - time)"',
-             'rear_m = "gauge_rear_z_m - \'8 mm\'"', "share = \"'body_back plate_kinetic_energy_J' / energy0\"")  # fmt: skip
+             'rear_m = "gauge_rear_z_m - \'8 mm\'"', "share = \"'body_back plate_kinetic_energy_J' / energy0\"")
     summary = run(decks.loads(DECK + "\n".join(lines)), tmp_path / "run", quiet=True)
     columns, results = Results(tmp_path / "run").history, summary["derived"]
     assert list(results) == ["P/L", "hole_m3", "v/u", "never", "rear_m", "share"]

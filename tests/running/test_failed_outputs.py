@@ -17,7 +17,7 @@ from tests import fake
 from tests.cli.test_main import DECK
 
 RAISED = (RuntimeError("header too large"), ValueError("no"), KeyError("x"), TypeError("y"), MemoryError("8 EiB"),
-          OSError("Unable to create attribute"), OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))  # fmt: skip
+          OSError("Unable to create attribute"), OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
 
 
 def raising(error):
@@ -138,7 +138,7 @@ def test_a_restart_file_has_the_rows_that_the_history_lacks(simulation, tmp_path
     (lambda file: file.unlink(), "lacks 20 of 20 rows"),
     (lambda file: file.write_bytes(b"nothing"), "lacks 20 of 20 rows"),
     (lambda file: shorten(file, 15), "lacks 5 of 20 rows"),
-])  # fmt: skip
+])
 def test_a_history_that_lost_rows_is_not_trusted(simulation, tmp_path, spoil, lacks):
     """Not even after another restart."""
     deck = fake.FakeDeck()

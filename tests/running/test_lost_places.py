@@ -87,7 +87,7 @@ def test_a_stopped_run_does_not_write_into_its_successor(tmp_path):
     """As on a laptop that sleeps: a run is suspended, its directory removed, and another one runs there to its end."""
     (tmp_path / "shot.toml").write_text(DECK)
     command = [sys.executable, "-m", "hydro2d", "run", str(tmp_path / "shot.toml"), "--out", str(tmp_path / "out"), "--quiet",
-               "--threads", "1", "--set", "output.vtk_interval='0.2 us'"]  # fmt: skip
+               "--threads", "1", "--set", "output.vtk_interval='0.2 us'"]
     first = subprocess.Popen([*command, "--set", "stop.time='1 ms'"], stderr=subprocess.PIPE, text=True)
     until = time.monotonic() + 300
     while not (tmp_path / "out" / "vtk" / "dump_000003.vtr").exists():  # by then it holds no lock of the cache

@@ -131,7 +131,7 @@ def recorded(code, columns):
     fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
     about = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES", "NO_COLOR")}
     child = subprocess.Popen([sys.executable, "-c", code], stdin=follower, stdout=follower, stderr=follower,
-                             env=about | {"TERM": "xterm"})  # fmt: skip
+                             env=about | {"TERM": "xterm"})
     os.close(follower)
     data = b""
     with suppress(OSError):  # the terminal is gone with the last process that uses it
@@ -179,7 +179,7 @@ def test_lines_break_at_words_on_a_terminal_and_commands_stay_whole():
 def closing(theory=(), **changes):
     """The last lines for a bar that was 25.4 mm long, with a gauge and a derived quantity."""
     body = {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 17.43e-3, "r_max_m": 6.6e-3,
-            "outflow_kg": 0.0, "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}  # fmt: skip
+            "outflow_kg": 0.0, "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}
     station = {"peak_pressure_Pa": 3.21e9, "peak_pressure_time_s": 1.5e-6, "peak_speed_m_s": 190.0}
     return result({
         "status": "done", "stop_reason": "end time", "faults": [], "cycles": 9, "time_s": 6e-5, "wall_s": 3.0,
@@ -187,14 +187,14 @@ def closing(theory=(), **changes):
         "ns_per_cell_cycle": None, "penetration_depth_m": None, "projectile": None, "bodies": {"bar": body},
         "stations": {"gauge_wall": station}, "derived": {"P/L": 0.5, "hole_m": None},
         "conservation": {"mass": {"bar": 0.0}, "axial_momentum": 0.0, "total_energy": 0.0}, **changes,
-    }, theory)  # fmt: skip
+    }, theory)
 
 
 def test_the_last_lines_name_compilation_cycles_and_outputs_separately():
     """The pace is that of the cycles; parts that took no time are not named."""
     assert closing()[:2] == ["done: end time", "9 cycles to 60.000 us in 2.5 s"]
     costs = {"cycles": 450, "time_s": 26.8e-6, "cycles_s": 3.14, "compilation_s": 77.2, "outputs_s": 0.41, "set_up_s": 151.0,
-             "ns_per_cell_cycle": 31.24}  # fmt: skip
+             "ns_per_cell_cycle": 31.24}
     assert closing(**costs)[1] == (
         "450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); "
         "compilation 1 min 17 s, set-up 2 min 31 s, outputs 0.4 s")
@@ -203,7 +203,7 @@ def test_the_last_lines_name_compilation_cycles_and_outputs_separately():
 @pytest.mark.parametrize(("command", "again"), [
     ("hydro2d run shot.toml --out 'a b' --set x=1 --overwrite", "hydro2d run shot.toml --out 'a b' --set x=1 --restart"),
     ("python -m hydro2d run shot.toml --restart", "python -m hydro2d run shot.toml --restart"),
-    ("python shot.py", "hydro2d.run(..., restart=True)"), ("pytest run", "hydro2d.run(..., restart=True)")])  # fmt: skip
+    ("python shot.py", "hydro2d.run(..., restart=True)"), ("pytest run", "hydro2d.run(..., restart=True)")])
 def test_the_last_lines_of_an_interrupted_run_say_how_it_continues(command, again):
     said = closing(status="interrupted", stop_reason="interrupted (SIGINT)", time_s=26.8e-6, provenance={"command": command})
     assert said[0] == f"interrupted at 26.800 us (SIGINT); continue with: {again}"
@@ -215,7 +215,7 @@ def test_the_last_lines_give_the_length_and_the_ends_of_a_bar():
     said = closing()
     assert "bar length            17.43 mm of 25.40 mm, 0.686; radius 6.60 mm at the wider end, 3.81 mm at the other" in said
     same = {"bar": {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 25.399e-3,
-                    "outflow_kg": 0.0, "r_max_m": 3e-3, "radius_at_z_min_m": 3e-3, "radius_at_z_max_m": 3e-3}}  # fmt: skip
+                    "outflow_kg": 0.0, "r_max_m": 3e-3, "radius_at_z_min_m": 3e-3, "radius_at_z_max_m": 3e-3}}
     assert not any("wider" in line for line in closing(bodies=same))
     short = {"tube": same["bar"] | {"length_m": 9e-3}}
     assert any("wider" in line for line in closing(bodies=short))
@@ -230,7 +230,7 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     ball = {"body": "ball", "length_m": 9e-3, "initial_length_m": 9.98e-3, "initial_radius_m": 5e-3, "max_plastic_strain": 0.4}
     shot = {"penetration_depth_m": 14.7e-3, "nose_depth_m": 14.7e-3, "penetration_over_length": 1.473, "experiment": None,
             "regime": "deforming", "projectile": ball | {"tail_velocity_m_s": None},
-            "targets": {"first": stopped}, "outcome": {"perforated": False}}  # fmt: skip
+            "targets": {"first": stopped}, "outcome": {"perforated": False}}
     assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
     assert "penetration depth     1.47 cm, P/D 1.473; 0.81 cm at the end" in closing(**shot | {"nose_depth_m": 8.1e-3})
     theory = "analytic, at rest     Tate 1.83 cm"
@@ -242,7 +242,7 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     one = closing(**shot | {"targets": {"first": through, "second": stopped}})
     assert any(line.startswith("penetration depth") for line in one)
     both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through},
-                             "outcome": {"perforated": True}})  # fmt: skip
+                             "outcome": {"perforated": True}})
     assert "perforated            first, second; nose 1.46 cm behind the first face" in both
     assert not any(line.startswith("penetration depth") for line in both)
     assert "ejecta                2 g, 0.42 N s; momentum multiplication 1.210" in said

@@ -44,7 +44,7 @@ def test_run_directory(simulation, tmp_path):
     stored = json.loads((tmp_path / "a" / "summary.json").read_text())
     for key in ("deck", "version", "stop_reason", "time_s", "cycles", "wall_s", "ns_per_cell_cycle", "cells",
                 "penetration_depth_m", "nose_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain",
-                "rod_tail_velocity_m_s", "regime", "conservation"):  # fmt: skip
+                "rod_tail_velocity_m_s", "regime", "conservation"):
         assert key in stored
     assert stored["conservation"]["total_energy"] is None  # not finite, and still JSON
 

@@ -40,7 +40,7 @@ def message(*options: str, text: str = TEXT) -> str:
      'deck.toml:29: boundaries.z_min: a mesh that follows "rod" must have open ends along z; a wall cannot travel with it'),
     ("[stop]", '[boundaries]\nz_max = "wall"\n[stop]', "deck.toml:29: boundaries.z_max: a mesh that follows"),
     ('z_front = "20 mm"', 'z_front = "-40 mm"', 'deck.toml:22: body[2]: "second" lies outside the mesh'),
-])  # fmt: skip
+])
 def test_a_wrong_use_of_a_following_mesh_is_one_error_with_its_line(old, new, said):
     assert TEXT.count(old) == 1
     text = message(text=TEXT.replace(old, new))

@@ -9,7 +9,7 @@ from tests.decks import body, entry, mesh, plate, rod, stop, table
 
 #: keys of velocities in the mesh's frame, which change by V; keys of energies, which follow no such rule
 VELOCITIES = ("interface_velocity_m_s", "rod_mean_velocity_m_s", "rod_core_velocity_m_s", "rod_nose_velocity_m_s",
-              "rod_tail_velocity_m_s", "rod_residual_velocity_m_s", "exit_velocity_m_s", "ejected_velocity_m_s")  # fmt: skip
+              "rod_tail_velocity_m_s", "rod_residual_velocity_m_s", "exit_velocity_m_s", "ejected_velocity_m_s")
 ENERGIES = ("rod_initial_kinetic_energy_J", "rod_kinetic_energy_J")
 
 

@@ -447,7 +447,7 @@ def test_flows(flow, r, z, expected):
     ("verification/noh_spherical.toml", "energy = 0.0", "pressure = -1.0", 'body "gas": cannot begin with a density of 1 kg/m'),
     ("validation/copper_bar.toml", 'name = "bar"', 'name = "bar"\ndensity = "950 kg/m^3"',
      'body "bar": cannot begin with a den'),
-])  # fmt: skip
+])
 def test_a_start_without_a_speed_of_sound_is_an_error(name, old, new, said):
     d = deck.loads(deck_text_of(name).replace(old, new), name="torn")
     with pytest.raises(deck.DeckError, match=said):

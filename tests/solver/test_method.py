@@ -19,7 +19,7 @@ NUMBERS = {
                      9.592567614552601e-07, 66.5401876761526, 0.09761846318997441),
     "slip layer, momentum": ([*LAYER, "numerics.advection=momentum"],
                              9.65611174832738e-07, 48.43101082146654, 0.09763461097362161),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", NUMBERS)

@@ -11,7 +11,7 @@ from hydro2d.solver.simulation import Simulation
 
 QUICK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 SOFT = ["body.rod.material=own", "materials.own.based_on=W_alloy", "materials.own.strength.model=elastic-plastic",
-        "materials.own.strength.shear_modulus=160 GPa", "materials.own.strength.hardening_modulus=0 Pa"]  # fmt: skip
+        "materials.own.strength.shear_modulus=160 GPa", "materials.own.strength.hardening_modulus=0 Pa"]
 CYCLES = 40
 
 
@@ -46,7 +46,7 @@ def test_without_a_factor_nothing_changes():
     ([*SOFT[:2], "materials.own.strength.model=kinematic-hardening", "materials.own.strength.shear_modulus=160 GPa",
       "materials.own.strength.yield_stress=1 GPa", "body.rod.strength_factor=1.1"],
      "the back stress of kinematic-hardening would not be scaled"),
-])  # fmt: skip
+])
 def test_refusals(overrides, said):
     with pytest.raises(DeckError, match=said):
         decks.load(QUICK, overrides)

@@ -84,7 +84,7 @@ def test_material_out_of_reach_is_not_pushed():
     ('source.gravity.axial="3 m/s"', r"is a speed; expected an acceleration|expected .*m/s\^2"),
     ("source.gravity.kind=gravity", r"unknown kind .gravity. \(allowed: acceleration, detonation, heating\)"),
     ("source.gravity.axle=1", 'unknown key "axle"; did you mean "axial"'),
-])  # fmt: skip
+])
 def test_wrong_tables(override, words):
     with pytest.raises(DeckError, match=words):
         deck.loads(FALL, [override])

@@ -98,7 +98,7 @@ def test_the_reach_limits_what_is_lit():
     ("source.fuse.speed=0", "must be positive"),
     ("body.charge.energy=1 MJ/kg", r"body\[1\].energy: would replace the energy of the detonation"),
     ("source.fuse.kind=burn", r"unknown kind .burn. \(allowed: acceleration, detonation, heating\)"),
-])  # fmt: skip
+])
 def test_wrong_tables(override, words):
     with pytest.raises(DeckError, match=words):
         deck.loads(TEXT, [override])

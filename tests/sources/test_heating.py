@@ -41,7 +41,7 @@ ROWS = ((1.0, 2.0), (3.0, 4.0), (4.0, 0.0))
 @pytest.mark.parametrize(("first", "last", "expected"), [
     (0.0, 10.0, 8.0), (1.0, 3.0, 6.0), (3.0, 4.0, 2.0), (0.0, 1.0, 0.0), (4.0, 9.0, 0.0), (1.5, 2.5, 3.0), (2.0, 3.5, 5.0),
     (3.0, 3.0, 0.0), (-5.0, 1.5, 1.125),
-])  # fmt: skip
+])
 def test_the_integral_of_a_table(first, last, expected):
     assert tables.integral(ROWS, first, last) == pytest.approx(expected, abs=1e-15)
 
@@ -61,7 +61,7 @@ def test_the_value_of_a_table(time, expected):
     ("source.beam.power=[[0, 0], [1]]", r"row 1 is not \[time, value in W/kg\]"),
     ("source.beam.z=['2 m', '1 m']", "the second must be greater than the first"),
     ("source.beam.pover=1", 'unknown key "pover"; did you mean "power"'),
-])  # fmt: skip
+])
 def test_wrong_tables(override, words):
     with pytest.raises(DeckError, match=words):
         deck.loads(TEXT, [override])

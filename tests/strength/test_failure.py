@@ -90,7 +90,7 @@ def test_without_an_exponent_the_cell_does_not_matter(given):
     ({"reference_cell": 1e-3, "cell_exponent": 1.5}, "cell_exponent = 1.5: must be at most 1"),
     ({"reference_cell": 1e-3, "cell_exponent": -0.5}, "cell_exponent = -0.5: must be non-negative"),
     ({"reference_cell": 0.0, "cell_exponent": 0.5}, "reference_cell = 0: must be positive"),
-])  # fmt: skip
+])
 def test_sizes_of_cells_that_make_no_sense_are_refused(given, said):
     for model, values in ((damage, {"D1": 1.5}), (crushing, GLASS)):
         with pytest.raises(ValueError, match=said):
@@ -100,6 +100,6 @@ def test_sizes_of_cells_that_make_no_sense_are_refused(given, said):
 @pytest.mark.parametrize(("given", "cause"), [
     ({"D1": 1.5, "reference_rate": 5.0}, PLASTIC_STRAIN), ({"D1": 1.5, "D2": 0.1, "D3": -1.0}, JOHNSON_COOK),
     ({"D1": 1.5, "rate_exponent": 0.02}, JOHNSON_COOK), ({"D1": 1.5, "D5": 0.3, "melt_temperature": 1800.0}, JOHNSON_COOK),
-])  # fmt: skip
+])
 def test_a_constant_fracture_strain_is_a_criterion_of_its_own(given, cause):
     assert damage.criterion(damage.row(given)) == cause

@@ -232,7 +232,7 @@ IRON = zerilli_armstrong.row(
         "shear_modulus": 80e9, "athermal_stress": 65e6, "thermal_stress": 1033e6, "thermal_softening": 6.98e-3,
         "rate_hardening": 4.15e-4, "hardening": 266e6, "hardening_exponent": 0.289, "melt_temperature": 1809.0,
     }
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize(("ep", "rate", "T", "MPa"), [

@@ -144,7 +144,7 @@ def test_a_resolved_deck_keeps_the_line():
     ('based_on = "Al6061_T651"\nmelting = 1220.0', "must be a table"),
     ('based_on = "nylon"\nmelting.melt_exponent = 1.0', "needs melt_temperature"),
     ('based_on = "Al_porous"\nmelting.melt_temperature = 1220.0', "does not say the density of the solid"),
-])  # fmt: skip
+])
 def test_refused_melting_lines(text, words):
     with pytest.raises(deck.DeckError, match=words):
         deck.loads(DECK + text)

@@ -68,18 +68,18 @@ def within(value: float, low: float | None, high: float | None) -> bool:
 def measure(searches: int, runs: int) -> list[Held]:
     """Makes so many searches for each transition with so many runs, prints how often the intervals hold, and returns it."""
     print(f"{'v50':>6} {'width':>6}  {'interval':<12} {'told':>5} {'v50 held':>9} {'width held':>11}  "
-          "median size of the interval of v50 and median estimate of the width, both over the width")  # fmt: skip
+          "median size of the interval of v50 and median estimate of the width, both over the width")
     counts = []
     for number, true in enumerate(TRANSITIONS):
         first = FIRST + number * searches
         fits = [logit.fit_transition(*searched(true, seed, runs)) for seed in range(first, first + searches)]
         estimates = [each for each in fits if each is not None]
         counts.append(Held(len(estimates), sum(within(true.v50, each.v50_low, each.v50_high) for each in estimates),
-                           sum(within(true.width, each.width_low, each.width_high) for each in estimates)))  # fmt: skip
+                           sum(within(true.width, each.width_low, each.width_high) for each in estimates)))
         size = _median([_size(each.v50_low, each.v50_high) for each in estimates]) / true.width
         estimate = _median([each.width for each in estimates]) / true.width
         print(f"{true.v50:6g} {true.width:6g}  {true.ends[0]:4g} to {true.ends[1]:4g} {counts[-1].told:5} {counts[-1].v50:9} "
-              f"{counts[-1].width:11}  {size:.2f}, {estimate:.2f}", flush=True)  # fmt: skip
+              f"{counts[-1].width:11}  {size:.2f}, {estimate:.2f}", flush=True)
     estimated = sum(each.told for each in counts)
     for what, number in (("v50", sum(each.v50 for each in counts)), ("width", sum(each.width for each in counts))):
         share = chance.wilson(number, estimated)

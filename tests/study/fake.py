@@ -35,7 +35,7 @@ def deck_text(*overrides: str) -> str:
 
 
 def write_run(directory: Path, velocity: float = 1086.0, depth: float = 0.31, shortened: float = 0.02, rows: int = 200,
-              overrides: tuple[str, ...] = (), text: str = "", **summary) -> Path:  # fmt: skip
+              overrides: tuple[str, ...] = (), text: str = "", **summary) -> Path:
     """A finished run into a directory; ``text`` is another deck's, ``summary`` replaces entries of summary.json."""
     directory.mkdir(parents=True)
     text = text or deck_text(f"body.rod.velocity={velocity} m/s", *overrides)
@@ -62,7 +62,7 @@ def with_outcome(summary: dict, text: str) -> dict:
     measured = Projectile(**{name: sound.get(name) for name in Projectile.model_fields})
     came = outcome.of(measured, status=summary["status"], stop_reason=summary["stop_reason"],
                       impact_velocity=deck.impact_velocity(made), thickness=thickness, dropped=None,
-                      experiment=made.experiment)  # fmt: skip
+                      experiment=made.experiment)
     return summary | {"outcome": came.model_dump()}
 
 
@@ -73,7 +73,7 @@ def _write_history(directory: Path, velocity: float, depth: float, shortened: fl
             "time": share * TIME, "cycle": int(1000 * share), "penetration_depth_m": depth * (2.0 - share) * share,
             "rod_tail_velocity_m_s": velocity * (1.0 - share), "rod_length_m": LENGTH * (1.0 - shortened * share),
             "rod_max_radius_m": RADIUS * (1.0 + shortened), "rod_mass_kg": MASS, "regime": "rigid",
-        })  # fmt: skip
+        })
     history.write()
 
 
@@ -109,11 +109,11 @@ def _summary(depth: float, shortened: float, text: str) -> dict:
             "threads": 1, "cpu": "a processor", "host": "a machine", "system": "Linux", "command": "hydro2d run <deck> & more",
             "written": "2026-01-01T00:00:00+00:00",
         },
-    }  # fmt: skip
+    }
 
 
 def write_study(directory: Path, axes: dict[str, dict[str, tuple[str, ...]]], title: str = "A study",
-                repeats: int = 1) -> Path:  # fmt: skip
+                repeats: int = 1) -> Path:
     """A study as `hydro2d sweep` leaves it, without its cases: axes -> label -> overrides. Every case is done.
 
     The depth falls and the rod is shortened from case to case, so that no two rows are the same. Members of an ensemble of
@@ -133,16 +133,16 @@ def write_study(directory: Path, axes: dict[str, dict[str, tuple[str, ...]]], ti
             factor = (f"numerics.initial_dt_factor={0.1 - 1e-4 * member}",) if member else ()
             depth, shortened = 0.35 - 1e-3 * number + 0.01 * member, 0.01 + 1e-3 * number
             place = write_run(directory / "cases" / own, speed, 0.14 if last else depth, 0.7 if last else shortened,
-                              overrides=others + factor, **({"regime": "eroding"} if last else {}))  # fmt: skip
+                              overrides=others + factor, **({"regime": "eroding"} if last else {}))
             entry = {"name": own, "directory": f"cases/{own}", "values": values, "deck": BASE, "overrides": overrides,
-                     "deck_sha256": deck_hash((place / "deck.toml").read_text()), "status0": None, "message": ""}  # fmt: skip
+                     "deck_sha256": deck_hash((place / "deck.toml").read_text()), "status0": None, "message": ""}
             if repeats > 1:
                 entry |= {"of": name or directory.name, "member": member, "changed": {"first step": 1.0 - 1e-3 * member}}
             entries.append(entry)
     keys = {"velocity": "body.rod.velocity"}
     described = [{"name": axis, "key": keys.get(axis), "values": list(labels)} for axis, labels in axes.items()]
     data = {"title": title, "name": directory.name, "version": "0.1.0", "study_sha256": "cd" * 32, "axes": described,
-            "cases": entries}  # fmt: skip
+            "cases": entries}
     data |= {"ensemble": {"repeats": repeats, "by": ["first step"], "seed": 0}} if repeats > 1 else {}
     (directory / "study.json").write_text(json.dumps(data))
     return directory

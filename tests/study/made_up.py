@@ -98,7 +98,7 @@ def write(place: Path, text: str, regime: str = "rigid", depth: float = 0.3, **s
     velocity = tomllib.loads(text)["body"][0]["velocity"][1]
     fake.write_run(place, velocity, depth, REGIMES[regime], rows=3, text=text, **{
         "deck_sha256": deck_hash(text), "regime": regime, "rod_core_mass_kg": fake.MASS * (1.0 - REGIMES[regime]), **summary,
-    })  # fmt: skip
+    })
 
 
 def study_file(folder: Path, text: str) -> Path:

@@ -186,7 +186,7 @@ def test_faults_are_seen(browser, page, tmp_path):
     spoilt = tmp_path / "spoilt.html"
     text = page.read_text(encoding="utf-8")
     wrong = ('<img alt="x" src="data:image/png;base64,AAAA"><img alt="y" src="https://example.invalid/x.png">'
-             '<div style="width: 900px">wide</div><script>nothing.there();</script>')  # fmt: skip
+             '<div style="width: 900px">wide</div><script>nothing.there();</script>')
     wrong += '<p style="color: #222">faint</p><p class="key" style="width: 3em; word-break: break-all">body.anotherlongword</p>'
     spoilt.write_text(text.replace("</main>", f"{wrong}</main>"), encoding="utf-8")
     answer = browser.ask(spoilt, STATE, PHONE, "dark")
@@ -267,7 +267,7 @@ TICKS = """
 
 @pytest.mark.thorough
 @pytest.mark.parametrize(("speeds", "shown"), [((1500,), ["1500"]), ((1500, 1500.5), ["1500", "1500.5"]),
-                                               ((9000, 12000), ["9000", "12000"])])  # fmt: skip
+                                               ((9000, 12000), ["9000", "12000"])])
 def test_ticks_are_numbers_as_decks_write_them(browser, tmp_path, speeds, shown):
     """Without separators of thousands, and at the velocity itself where there is one."""
     study = fake.write_study(tmp_path / "study", {"velocity": fake.velocities(*speeds)})

@@ -201,7 +201,7 @@ def plate(velocity, deck):
     if not erodes(velocity, deck, 4.0):
         return {"regime": "rigid", "depth": 0.3}
     return {"regime": "eroding", "depth": 0.54, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 100.0,
-            "stop_reason": "perforation of plate"}  # fmt: skip
+            "stop_reason": "perforation of plate"}
 
 
 def test_a_ballistic_limit_has_the_estimate_of_the_military_standard_as_well(tmp_path, capsys):

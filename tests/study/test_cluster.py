@@ -196,7 +196,7 @@ def test_few_open_files(tmp_path, limit, status):
     """One line with the remedy, before anything starts; a limit that can be raised is raised."""
     file = tubes.write(tmp_path)
     ended, said = tubes.sweep(file, "--workers", 1, "--out", tmp_path / "out", "--only", "ke_0.1", "--quiet",
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))  # fmt: skip
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))
     assert ended == status, said
     assert said == ("" if status == 0 else "hydro2d: the workers need 64 open files at a time and the system allows 20; allow "
                     "more with `ulimit -n`\n")

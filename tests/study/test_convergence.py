@@ -47,7 +47,7 @@ def test_without_scatter_it_is_richardson():
     ((45, 47, 44), 0.02, "up and down"), ((45, 46, 47.5), 0.02, "does not fall as fast"),
     ((42, 45, 45.2), 0.02, "coarsest mesh does not belong"),
     ((45, 45, 45), 1.0, "chance"),
-])  # fmt: skip
+])
 def test_where_it_does_not_it_says_why(means, scatter, said):
     estimates = [limit(means, scatter, seed=seed) for seed in range(10)]
     assert all(each.value is None for each in estimates)
@@ -119,7 +119,7 @@ def test_meshes_without_a_value_are_one_line(tmp_path):
     (["--cells", "a"], "expected numbers"), (["--cells", "5,inf"], "from 0.5 to 1000"),
     (["--cells", "3,4", "--repeats", "0"], "from 2 to 1000"),
     (["--cells", "3,4", "--set", "mesh.r=[{first='1 mm',ratio=1.1,to='80 mm'}]"], "not all of one size"),
-])  # fmt: skip
+])
 def test_wrong_options_are_one_message(options, said, capsys, tmp_path):
     assert call(["converge", SHOT, "--out", str(tmp_path / "out"), *options]) == 2
     (line,) = capsys.readouterr().err.splitlines()

@@ -89,7 +89,7 @@ def test_keys_are_removed_for_every_case(tmp_path):
     (('["body.rod.crh"]', '["body.rod.chr"]'), 'no deck has the key body.rod.chr: body[0]: unknown key "chr"'),
     (('["body.rod.crh"]', '"body.rod.crh"'), "remove: expected a list of deck keys"),
     (('["body.rod.crh"]', '["body.rod.nose"]'), "remove: body.rod.nose is given a value as well"),
-])  # fmt: skip
+])
 def test_keys_that_cannot_be_removed(tmp_path, change, said):
     with pytest.raises(StudyError) as raised:
         noses(tmp_path, change=change)

@@ -45,7 +45,7 @@ def pretend(directory, plan, name, status, **extra):
     if status is not None:
         write_json(place / "summary.json", {
             "status": status, "stop_reason": "a reason", "deck_sha256": planned.sha256, "method": METHOD, "wall_s": 100.0,
-            "penetration_depth_m": 0.123} | extra)  # fmt: skip
+            "penetration_depth_m": 0.123} | extra)
     return place
 
 

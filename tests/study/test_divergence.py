@@ -27,7 +27,7 @@ def write_run(directory, grown=False, cells=4, late=0.0, wide=0.0):
     for time in np.linspace(0.0, 60e-6, 601):
         apart = FIRST * np.exp(time / GROWTH) * grown
         history.append({"time": time, "cycle": 1, "penetration_depth_m": 1000.0 * time + apart,
-                        "rod_length_m": 0.1, "rod_tail_velocity_m_s": 1000.0, "regime": "rigid"})  # fmt: skip
+                        "rod_length_m": 0.1, "rod_tail_velocity_m_s": 1000.0, "regime": "rigid"})
     history.write()
     entries = []
     for number, time in enumerate(TIMES + late):

@@ -187,7 +187,7 @@ def test_the_ensembles_of_several_studies_are_kept(several):
         ("ke/cases/1086m-s_ke", 5), ("ke/cases/1200m-s_ke", 5),
         ("momentum/cases/1086m-s_momentum", 3), ("momentum/cases/1200m-s_momentum", 3),
         ("both/cases/1086m-s_both", 1), ("both/cases/1200m-s_both", 1), ("alone", 1),
-    ]  # fmt: skip
+    ]
     assert contents.ensembles[0].spread("penetration_depth_m") == pytest.approx((0.36, 0.224, 0.376, 5))
 
 
@@ -197,7 +197,7 @@ def test_members_of_several_studies_are_dots_of_the_series_of_their_case(several
     choice = responses.choose(contents.study, contents.records)
     panel = panels.panels(contents, choice)[0]
     assert [(each.label, len(each.records)) for each in panel.series] == [
-        ("advection ke", 11), ("advection momentum", 6), ("advection both", 2)]  # fmt: skip
+        ("advection ke", 11), ("advection momentum", 6), ("advection both", 2)]
     figure = charts.response(panel.setup, panel.series, choice.x, choice.y[0], contents.belonging, panel.shots, (), ())
     assert [len(trace.y) for trace in figure.data if trace.meta == "member"] == [11, 6]
     first = next(trace for trace in figure.data if "median" in (trace.name or ""))
@@ -211,7 +211,7 @@ def test_the_page_of_several_studies_has_their_ensembles(several, tmp_path):
     assert "36, 22.4 to 37.6" in page.text
     assert "rigid 4 of 5" in page.text
     assert ("2 cases with 5 members each, by first step, seed 0; 2 cases with 3 members each, by first step, seed 0; "
-            "3 cases with one run each.") in page.text  # fmt: skip
+            "3 cases with one run each.") in page.text
     for name, count in (("ensembles.csv", 7), ("cases.csv", 19)):
         with open(tmp_path / "out" / name, newline="", encoding="utf-8") as file:
             rows = {row["case"]: row for row in csv.DictReader(file)}

@@ -47,7 +47,7 @@ def lines(axes):
 
 def test_series_are_cases_that_differ_in_more_than_velocity(panel, contents):
     assert [(each.label, [record.velocity for record in each.records]) for each in panel.series] == [
-        ("ke", [1086, 1200, 1296]), ("momentum", [1086, 1200, 1296])]  # fmt: skip
+        ("ke", [1086, 1200, 1296]), ("momentum", [1086, 1200, 1296])]
     assert [each.label for each in grouped(contents, ())] == ["advection ke", "advection momentum"]
     by = grouped(contents, contents.study.axes, by=("velocity",))
     assert [(each.label, len(each.records)) for each in by] == [(f"impact velocity {v}", 2) for v in (1086, 1200, 1296)]
@@ -94,7 +94,7 @@ def test_runs_experiments_rear_and_models_are_drawn(contents, panel):
     assert "1086m-s_ke" in traces["ke"].text[0]
     assert "depth [cm]: 35" in traces["ke"].text[0]
     assert list(zip(traces["experiment"].x, traces["experiment"].y, strict=True)) == [
-        (1086, pytest.approx(44.8)), (1200, 20.0), (1296, pytest.approx(21.6))]  # fmt: skip
+        (1086, pytest.approx(44.8)), (1200, 20.0), (1296, pytest.approx(21.6))]
     assert traces["rear of the target"].y[0] == pytest.approx(53.34)
     for title in ("Forrestal's rigid rod", "Tate-Alekseevskii", "Walker-Anderson", "Hydrodynamic theory"):
         assert title in traces
@@ -125,7 +125,7 @@ def test_words_stand_below_in_the_order_of_the_study(contents, panel):
     choice = choose(contents, x="advection")
     assert choice.x.order == ("ke", "momentum")
     assert [each.label for each in panels.panels(contents, choice)[0].series] == ["velocity 1086 m/s", "velocity 1200 m/s",
-                                                                                 "velocity 1296 m/s"]  # fmt: skip
+                                                                                 "velocity 1296 m/s"]
     assert list(traces["ke"].x) == ["ke"] * 3
     assert set(traces["experiment"].x) == {"ke", "momentum"}
     assert "rear of the target" not in traces

@@ -17,7 +17,7 @@ BUDGET = test_chance.STUDY.replace("budget = 16", "budget = 5\nround = 3")
     pytest.param(BISECTION, test_transition.usual, True, id="bisection, full for one file"),
     pytest.param(BUDGET, test_chance.chancy, False, id="budget, full from then on", marks=pytest.mark.slow),
     pytest.param(BUDGET, test_chance.chancy, True, id="budget, full for one file", marks=pytest.mark.slow),
-])  # fmt: skip
+])
 def test_no_space_at_any_write_of_a_search(tmp_path, monkeypatch, capsys, text, becomes, once):
     """A search with a budget goes on without the outcome of a shot for which there was no space, and makes it later; only then
     may it choose other velocities."""

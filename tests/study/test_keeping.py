@@ -68,7 +68,7 @@ def test_rows_of_runs_that_ended(study, tmp_path):
     choice.keep(ended(study, tmp_path / "out"))
     kept = rows(study)
     assert [(row["speed"], row["member"]) for row in kept] == [
-        ("1086 m/s", "0"), ("1086 m/s", "1"), ("1200 m/s", "0"), ("1200 m/s", "1")]  # fmt: skip
+        ("1086 m/s", "0"), ("1086 m/s", "1"), ("1200 m/s", "0"), ("1200 m/s", "1")]
     assert {row["cells_across"] for row in kept} == {"5.5"}
     assert {row["method"] for row in kept} == {keeping.METHOD}
     assert len({row["setup"] for row in kept}) == 4

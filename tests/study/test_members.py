@@ -16,7 +16,7 @@ ALL = ("mesh offset", "flank offset", "first step")
 
 def planned(deck=SHOT, axes=(), **ensemble):
     return cases.plan_of({"deck": deck, "ensemble": {"repeats": 4, **ensemble}, "axis": list(axes)} if axes else
-                         {"deck": deck, "ensemble": {"repeats": 4, **ensemble}}, "shot").cases  # fmt: skip
+                         {"deck": deck, "ensemble": {"repeats": 4, **ensemble}}, "shot").cases
 
 
 def refused(deck=SHOT, axes=(), **ensemble):
@@ -80,7 +80,7 @@ def test_members_are_named_after_their_case():
     plan = planned(axes=[axis], repeats=2)
     assert [(case.name, case.of, case.member) for case in plan] == [
         ("1086m-s", "1086m-s", 0), ("1086m-s_m1", "1086m-s", 1),
-        ("1200m-s", "1200m-s", 0), ("1200m-s_m1", "1200m-s", 1)]  # fmt: skip
+        ("1200m-s", "1200m-s", 0), ("1200m-s_m1", "1200m-s", 1)]
     assert plan[1].changed == plan[3].changed
 
 
@@ -88,7 +88,7 @@ def test_members_are_named_after_their_case():
     ({"repeats": 0}, "repeats"), ({"repeats": 1}, "repeats"), ({"repeats": 1e9}, "repeats"), ({"by": []}, "by"),
     ({"by": ["first step", "first step"]}, "twice"), ({"by": ["second step"]}, "second step"), ({"seed": -1}, "seed"),
     ({"repeat": 3}, 'did you mean "repeats"'),
-])  # fmt: skip
+])
 def test_a_wrong_ensemble_is_one_message(ensemble, said):
     if "repeat" in ensemble:
         with pytest.raises(StudyError, match=said):
@@ -129,7 +129,7 @@ SPEEDS = {"from": "900 m/s", "to": "1000 m/s"}
 @pytest.mark.parametrize(("search", "said"), [
     ({}, "give [transition] a `budget` of runs instead"),
     ({"of": "erosion", "budget": 8}, "every run is another draw already; leave it out. `seed` in [transition]"),
-])  # fmt: skip
+])
 def test_a_search_takes_no_ensemble_and_says_what_to_do_instead(search, said):
     with pytest.raises(StudyError) as caught:
         cases.plan_of({"deck": SHOT, "ensemble": {"repeats": 2}, "transition": {**SPEEDS, **search}}, "shot")

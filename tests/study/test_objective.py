@@ -177,7 +177,7 @@ def test_suggestions_find_the_least_value_without_repeats(tmp_path):
         points = function.suggest(4)
         seen |= {tuple(point.values()) for point in points}
         function.ingest([{**point, "depth_m": (point[NAME] - 1114.0) ** 2 / 4e4 + (point["numerics.courant"] - 0.3) ** 2 / 0.09}
-                         for point in points])  # fmt: skip
+                         for point in points])
     assert len(seen) == 40
     best = min(function.data, key=lambda point: point["depth_m"])
     assert best[NAME] == pytest.approx(1114.0, abs=0.2)
@@ -185,7 +185,7 @@ def test_suggestions_find_the_least_value_without_repeats(tmp_path):
     anew = hydro2d.Objective(fake.BASE, keys, "depth_m", directory=tmp_path)
     anew.ingest(function.data[:5])
     assert not {tuple(point.values()) for point in anew.suggest(4)} & {(each[NAME], each["numerics.courant"])
-                                                                        for each in function.data[:5]}  # fmt: skip
+                                                                        for each in function.data[:5]}
 
 
 @pytest.mark.parametrize("goal", ["minimize", "explore"])

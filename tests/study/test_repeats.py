@@ -79,7 +79,7 @@ def test_an_ensemble_can_be_enlarged(tube, tmp_path):
     (["--repeats", "3", "--member", "1"], "give one of them"), (["--seed", "1"], "needs --repeats or --member"),
     (["--workers", "1"], "needs --repeats"), (["--repeats", "3", "--by", "luck"], 'unknown value "luck"'),
     (["--repeats", "3", "--restart", "--overwrite"], "give one of them"),
-])  # fmt: skip
+])
 def test_wrong_options_are_one_message(tube, options, said, capsys, tmp_path):
     from hydro2d.cli.main import call
 

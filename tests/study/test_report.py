@@ -69,7 +69,7 @@ def test_one_well_formed_file(made):
     assert "6 cases: 6 done." in page.text
     assert len(page.all("img")) == len(list((made[0] / "report").glob("*.png"))) == 1
     assert charts(page) == ["penetration_depth_m-W_alloy-into-Al5083-hemispherical-nose",
-                            "histories-W_alloy-into-Al5083-hemispherical-nose"]  # fmt: skip
+                            "histories-W_alloy-into-Al5083-hemispherical-nose"]
     assert len(page.all("table")) == len(page.all("caption")) == 4
 
 
@@ -86,7 +86,7 @@ def test_the_experience_with_such_runs(made):
     for regime in set(rows.values()):
         number = list(rows.values()).count(regime)
         (known,) = [row for row in experience.table() if (row.of, row.kind, row.chosen) == (
-            "hydro2d", f"depth of {regime} tungsten rods in aluminium", False)]  # fmt: skip
+            "hydro2d", f"depth of {regime} tungsten rods in aluminium", False)]
         many = "" if number == len(rows) else f": {number} of {len(rows)} runs"
         assert f"experience: {known.words}{many}" in text
 
@@ -126,7 +126,7 @@ def test_a_run_is_compared_with_the_experiment_of_its_velocity(made):
     """All cases come from the deck of the shot at 1086 m/s; there is a shot at 1200, and one at 1296 within 0.5 % of 1290."""
     rows = table(made[0] / "report")
     assert [float(rows[name]["experiment_depth_m"]) for name in ("1086m-s_ke", "1200m-s_ke", "1290m-s_ke")] == pytest.approx(
-        [0.448, 0.2, 0.216])  # fmt: skip
+        [0.448, 0.2, 0.216])
     assert "shot 4345" in rows["1200m-s_ke"]["experiment_source"]
     assert float(rows["1086m-s_ke"]["depth_error_m"]) == pytest.approx(0.35 - 0.448)
     assert float(rows["1086m-s_ke"]["depth_error_percent"]) == pytest.approx(100 * (0.35 / 0.448 - 1))
@@ -158,7 +158,7 @@ def test_cases_that_are_not_done_are_shown(study):
     assert float(rows["1290m-s_ke"]["depth_m"]) == pytest.approx(0.346)  # of the history
     assert "3 of 5 runs have ended; open marks: 2 unfinished" in page.text
     assert [rows[name]["unfinished"] for name in ("1086m-s_ke", "1290m-s_ke", "1290m-s_momentum")] == [
-        "unphysical", "interrupted", ""]  # fmt: skip
+        "unphysical", "interrupted", ""]
 
 
 def test_a_study_that_has_not_begun(study):
@@ -176,7 +176,7 @@ def test_a_study_that_has_not_begun(study):
         ("history.h5", "is damaged, or not a history file"), ("deck.toml", "deck.toml cannot be read"),
         ("interfaces.pvd", "is not a series of VTK files"), ("vtk/interfaces_000001.vtp", "is not a VTK file of a run"),
     ],
-)  # fmt: skip
+)
 @pytest.mark.filterwarnings("ignore")
 def test_unreadable_runs_are_reported_and_the_rest_is_made(study, file, said):
     (study / "cases" / "1086m-s_ke" / file).write_bytes(b"\x89HDF half a file")
@@ -200,7 +200,7 @@ def test_a_perforated_plate_is_a_bound(tmp_path):
     rows = table(tmp_path / "runs" / "report")
     depths = {name: (row["depth_m"], row["depth_is"], row["depth_error_is"]) for name, row in rows.items()}
     assert depths == {"through": ("0.5334", "at least", "none"), "stopped": ("0.4", "computed", "at most"),
-                      "slow": ("0.5334", "at least", "at least")}  # fmt: skip
+                      "slow": ("0.5334", "at least", "at least")}
     assert "1227 40.0 ≥ 53.3 ≤ −13.3 ≤ −25" in page.text
     assert "923 ≥ 53.3 41.7 ≥ +11.6 ≥ +28" in page.text
     assert "≥ 53.3 ≥ 53.3 reached reached" in page.text
@@ -243,7 +243,7 @@ def test_a_run_of_a_version_with_other_names_is_read(tmp_path):
     fake.write_run(tmp_path / "old" / "v1086", text=text, conservation={
         **audit, "sinks": {"traces": audit["sinks"].pop("cutoff"), **audit["sinks"]},
         "exchanges": {"light vertices": {"momentum_N_s": 0.0, "energy_J": 1.0}},
-    })  # fmt: skip
+    })
     (_, lines), (page, of_old) = page_of(tmp_path / "runs"), page_of(tmp_path / "old")
     assert page.faults == []
     assert len(of_old) == len(lines)
@@ -266,7 +266,7 @@ def test_spheres_and_runs_without_a_projectile_have_a_page(tmp_path):
     for velocity, left in ((600, 500.0), (900, 820.0), (1200, 1130.0)):
         text = fake.resolved("problems/shapes/sphere.toml", f"body.sphere.velocity={velocity} m/s", "body.plate.thickness=4 mm")
         fake.write_run(tmp_path / "spheres" / f"{velocity}", velocity, 0.003, text=text, exit_time_s=1e-5,
-                       rod_residual_velocity_m_s=left, stop_reason="perforation of plate")  # fmt: skip
+                       rod_residual_velocity_m_s=left, stop_reason="perforation of plate")
     page, lines = page_of(tmp_path / "spheres")
     assert page.faults == []
     assert [name.split("-")[0] for name in charts(page)] == ["penetration_depth_m", "rod_residual_velocity_m_s", "histories"]
@@ -275,7 +275,7 @@ def test_spheres_and_runs_without_a_projectile_have_a_page(tmp_path):
     assert lines[0].startswith("wrote")
     assert [row["projectile"] for row in table(tmp_path / "spheres" / "report").values()] == ["sphere"] * 3
     fake.write_run(tmp_path / "sod" / "a", text=fake.resolved("problems/verification/sod_z.toml"),
-                   bodies={"gas": {"velocity_m_s": 12.0, "z_max_m": 0.4}})  # fmt: skip
+                   bodies={"gas": {"velocity_m_s": 12.0, "z_max_m": 0.4}})
     page, _ = page_of(tmp_path / "sod")
     assert page.faults == []
     assert "Bodies gas velocity [m/s]" in page.text
@@ -308,7 +308,7 @@ def test_a_run_that_was_cut_has_no_error(study):
     ("number of cycles", -90.6, "reached its number of cycles, still moving at 91 m/s"),
     ("speed of rod below 5 m/s", 1250.4, ""),
     ("end time", 0.9, ""),  # less than a hundredth of the impact velocity
-])  # fmt: skip
+])
 def test_why_a_run_is_not_at_its_end(study, reason, speed, said):
     case = study / "cases" / "1086m-s_ke"
     fake.edit_json(case / "summary.json", stop_reason=reason, rod_core_velocity_m_s=speed)
@@ -389,7 +389,7 @@ def test_pictures_of_an_earlier_report_are_removed(study, tmp_path):
 @pytest.mark.thorough
 def test_a_hundred_cases_weigh_little(tmp_path):
     axes = {"velocity": fake.velocities(*range(900, 1150, 10)), "courant": {
-        str(number): (f"numerics.courant={number}",) for number in (0.3, 0.4, 0.5, 0.6)}}  # fmt: skip
+        str(number): (f"numerics.courant={number}",) for number in (0.3, 0.4, 0.5, 0.6)}}
     study = fake.write_study(tmp_path / "study", axes)
     page, _ = page_of(study)
     assert (study / "report" / "report.html").stat().st_size < 10e6

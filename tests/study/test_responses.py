@@ -295,7 +295,7 @@ def test_a_model_is_drawn_where_it_can_be_had(tmp_path, shots, titles, said):
 
 def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
     axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm",),
-                                                               "80 mm": ("body.rod.length=80 mm",)}}  # fmt: skip
+                                                               "80 mm": ("body.rod.length=80 mm",)}}
     contents = study(tmp_path, axes)
     drawn = panels.panels(contents, chosen(contents))
     assert [[each.label for each in panel.series] for panel in drawn] == [["length 60 mm", "length 80 mm"]]

@@ -147,7 +147,7 @@ def test_rows_of_an_earlier_version_have_what_their_shots_came_to(tmp_path):
     lines = [",".join(["velocity", "cells_across", "member", *old])]
     for velocity, (reason, depth, left, regime) in shots.items():
         row = dict.fromkeys(old, "") | {"status": "done", "stop_reason": reason, "depth_m": depth,
-                                        "residual_velocity_m_s": left, "regime": regime}  # fmt: skip
+                                        "residual_velocity_m_s": left, "regime": regime}
         lines.append(",".join([velocity, "5", "0", *row.values()]))
     file.write_text("\n".join(lines) + "\n")
     table = hydro2d.runs(file).reset_index(level="member")

@@ -108,7 +108,7 @@ values = ["1086 m/s", "1.2 km/s"]
     ("body.rod.strength_factor", "the deck gives no value of body.rod.strength_factor, to which"),
     ("body.rod.material", '"W_alloy" is not a number with its unit'),
     ("mesh.r", "mesh.r of the deck is ["),
-])  # fmt: skip
+])
 def test_a_deck_without_a_value_to_relate_to_is_refused(tmp_path, key, said):
     text = f'{BASE}[sample]\nmethod = "sobol"\nn = 2\n[sample.input."{key}"]\nuniform = [0.9, 1.1]\nrelative = "factor"\n'
     lines = refused(tmp_path, text)
@@ -119,9 +119,9 @@ def test_a_deck_without_a_value_to_relate_to_is_refused(tmp_path, key, said):
 def test_inputs_relative_to_the_material_on_which_one_of_the_deck_is_based(tmp_path):
     """Its constants and its fracture pressure, which the deck does not write down, and one that it does."""
     keys = {"eos.sound_speed": ("[0.98, 1.02]", "factor"), "strength.shear_modulus": ('["0 GPa", "1 GPa"]', "difference"),
-            "fracture_pressure": ("[1, 2]", "factor"), "eos.hugoniot_slope": ("[0.9, 1.1]", "factor")}  # fmt: skip
+            "fracture_pressure": ("[1, 2]", "factor"), "eos.hugoniot_slope": ("[0.9, 1.1]", "factor")}
     inputs = "".join(f'[sample.input."materials.mine.{key}"]\nuniform = {numbers}\nrelative = "{relative}"\n'
-                     for key, (numbers, relative) in keys.items())  # fmt: skip
+                     for key, (numbers, relative) in keys.items())
     own = '[set]\n"materials.mine" = { based_on = "W_alloy", eos.hugoniot_slope = 1.5 }\n"body.rod.material" = "mine"\n'
     made = plan(tmp_path, f'{BASE}{own}[sample]\nmethod = "sobol"\nn = 2\n{inputs}')
     library = load("W_alloy")
@@ -129,7 +129,7 @@ def test_inputs_relative_to_the_material_on_which_one_of_the_deck_is_based(tmp_p
         mine = tomllib.loads(case.text)["materials"]["mine"]
         assert mine["eos"]["sound_speed"] == pytest.approx(library.number("eos", "sound_speed").value * row[0], rel=1e-11)
         assert mine["strength"]["shear_modulus"] == pytest.approx(
-            library.number("strength", "shear_modulus").value + 1e9 * row[1], rel=1e-11)  # fmt: skip
+            library.number("strength", "shear_modulus").value + 1e9 * row[1], rel=1e-11)
         assert mine["fracture_pressure"] == pytest.approx(library.number("fracture_pressure").value * row[2], rel=1e-11)
         assert mine["eos"]["hugoniot_slope"] == pytest.approx(1.5 * row[3], rel=1e-11)
     for key in ("mine.strength.A", "mine.melting", "mine.eos", "other.eos.sound_speed", "mine.eos.sound_speed.x", "mine"):
@@ -163,7 +163,7 @@ def test_rows_with_changes_that_should_not_matter(tmp_path):
 
 def test_changes_do_not_go_along_with_the_inputs():
     sample = Sample.model_validate({"method": "sobol", "n": 64, "by": ["mesh offset", "first step"], "input": {
-        "a": {"uniform": [0, 1]}, "b": {"uniform": [0, 1]}, "c": {"uniform": [0, 1]}}})  # fmt: skip
+        "a": {"uniform": [0, 1]}, "b": {"uniform": [0, 1]}, "c": {"uniform": [0, 1]}}})
     rows = sampling.points(sample, [Distribution.of_input(key, each) for key, each in sample.input.items()], None).rows
     changes = [list(members.amounts_of_row(sample, row).values()) for row in range(1, 65)]
     between = np.corrcoef(np.array(rows).T, np.array(changes).T)[:3, 3:]
@@ -176,7 +176,7 @@ def test_every_case_of_the_axes_has_the_same_points(tmp_path):
     assert len(made.cases) == 2 * 4 * 2
     assert [case.name for case in made.cases][:3] == ["ke_row1", "ke_row1_m1", "ke_row2"]
     by_axis = {label: [case.overrides[1:4] for case in made.cases if case.values["advection"] == label and not case.member]
-               for label in ("ke", "both")}  # fmt: skip
+               for label in ("ke", "both")}
     assert by_axis["ke"] == by_axis["both"]
 
 
@@ -185,7 +185,7 @@ def test_every_case_of_the_axes_has_the_same_points(tmp_path):
     ({"normal": ("3 m/s", "0.2 cm/ms"), "within": ("2 m/s", "400 cm/s")}, stats.truncnorm(-0.5, 0.5, 3.0, 2.0)),
     ({"lognormal": ("2 GPa", 1.1)}, stats.lognorm(np.log(1.1), scale=2.0)),
     ({"uniform": (1, 3)}, stats.uniform(1.0, 2.0)),
-])  # fmt: skip
+])
 def test_quantiles_and_probabilities(table, law):
     from hydro2d.study.plan.sample_section import Input
 
@@ -212,7 +212,7 @@ def test_a_table(tmp_path):
                     "1.086,1,W_alloy\n1.1,0.95,Al5083\n\n", AXIS)
     assert [case.name for case in made.cases] == ["ke_row1", "ke_row2", "both_row1", "both_row2"]
     assert made.cases[1].overrides == ['numerics.advection="ke"', 'body.rod.velocity="1.1 km/s"',
-                                       "body.rod.strength_factor=0.95", 'body.rod.material="Al5083"']  # fmt: skip
+                                       "body.rod.strength_factor=0.95", 'body.rod.material="Al5083"']
     assert made.sample.rows == ((1.086, 1.0, "W_alloy"), (1.1, 0.95, "Al5083"))
     assert [each.head for each in made.sample.inputs] == ["body.rod.velocity [km/s]", "body.rod.strength_factor",
                                                           "body.rod.material"]
@@ -250,7 +250,7 @@ def test_a_table(tmp_path):
     ("body.rod.velocity [m/s]\nnan\n", 'x.csv: row 1, column "body.rod.velocity [m/s]": "nan" is not a number; '),
     ('body.rod.velocity [m/s]\n"1,086"\n', 'x.csv: row 1, column "body.rod.velocity [m/s]": "1,086" is not a number; '),
     ("body.rod.velocity\n1086\n", 'x.csv: row 1, column "body.rod.velocity": body[0].velocity: 1086 has no unit'),
-])  # fmt: skip
+])
 def test_a_wrong_table_is_refused_before_the_first_run(tmp_path, table, said):
     lines = refused(tmp_path, f'{BASE}[sample]\ntable = "x.csv"\n', table)
     assert lines[0].startswith(said), lines
@@ -300,7 +300,7 @@ def test_a_missing_table(tmp_path):
     (("n = 4", 'n = 4\nby = ["mesh ofset"]'), 'did you mean "mesh offset"'),
     (("[sample]", '[ensemble]\nrepeats = 2\n[sample]\nby = ["first step"]'), "sample.by: [ensemble] makes changes already"),
     (("[sample]", '[[axis]]\nname = "row"\nkey = "numerics.courant"\nvalues = [0.4]\n[sample]'), '"row" is the name of the'),
-])  # fmt: skip
+])
 def test_a_wrong_section_is_refused(tmp_path, change, said):
     assert change[0] in SOBOL
     lines = refused(tmp_path, SOBOL.replace(*change))

@@ -129,7 +129,7 @@ def test_results_by_name(whole):
         "dept_m": 'unknown result "dept_m"; did you mean "depth_m"', "regime": "regime is a word; name an outcome",
         "regime = molten": 'unknown outcome "molten"', "regime > 1": "regime is a word; compare it by =",
         "depth_m = 1": "depth_m is a number", "depth_m > x": "x is not a number",
-    }.items():  # fmt: skip
+    }.items():
         with pytest.raises(StudyError, match=said):
             samples.values(name)
     with pytest.raises(StudyError, match="depth_m is a number; give a condition"):
@@ -138,10 +138,10 @@ def test_results_by_name(whole):
 
 def test_axes_and_members(tmp_path):
     text = STUDY.replace("n = 14", "n = 3") + ('[[axis]]\nname = "friction"\nkey = "sliding.friction"\nvalues = [0.0, 0.1]\n'
-                                               '[ensemble]\nrepeats = 2\nby = ["first step"]\n')  # fmt: skip
+                                               '[ensemble]\nrepeats = 2\nby = ["first step"]\n')
     directory, _ = swept(tmp_path, text=text)
     assert [(row["friction"], row["row"], row["member"]) for row in rows(directory)][:3] == [
-        ("0.0", "1", "0"), ("0.0", "1", "1"), ("0.0", "2", "0")]  # fmt: skip
+        ("0.0", "1", "0"), ("0.0", "1", "1"), ("0.0", "2", "0")]
     study = hydro2d.open_study(directory)
     with pytest.raises(StudyError, match="name a label on each, such as at="):
         study.samples()
@@ -193,7 +193,7 @@ def test_rows_without_a_new_column_are_made_again(tmp_path):
     swept(tmp_path, text=text)
     more = text.replace('["rod_core_mass_kg"]', '["rod_core_mass_kg", "time_s", "cycles"]')
     assert "14 runs up to date" in keeping.Keeper(cases.plan(made_up.study_file(tmp_path, text), quiet=True)).in_words(
-        [f"row{n}" for n in range(1, 15)])  # fmt: skip
+        [f"row{n}" for n in range(1, 15)])
     keeper = keeping.Keeper(cases.plan(made_up.study_file(tmp_path, more), quiet=True))
     assert len(keeper.fresh(f"row{n}" for n in range(1, 15))) == 14, "the columns are there under other names"
     keeper = keeping.Keeper(cases.plan(made_up.study_file(tmp_path, more.replace('"time_s"', '"wall_s", "x"')), quiet=True))
@@ -282,7 +282,7 @@ def test_asked_results_are_shown_or_missed(rough, tmp_path):
     assert samples.usual == ["depth_m", "residual_velocity_m_s", "bodies.rod.mass_kg", "cycles"], "more than three"
     lines = list(text_of.report(samples))
     assert any('no run has such a number: unknown result "bodies.rod.mas_kg"; did you mean "bodies.rod.mass_kg"' in line
-               for line in lines)  # fmt: skip
+               for line in lines)
     assert "bodies.rod.mass_kg: the result is the same in every row: no input decides it" in lines
 
 
@@ -293,7 +293,7 @@ def test_the_page(rough, whole, tmp_path):
     for word in ("Sobol indices of", "uniform from 1000 to 1200 m/s", "Effects on depth", "Depth against each input"):
         assert word in page.text, word
     assert {file.name for file in (tmp_path / "report").glob("sample_*.png")} >= {"sample_01_depth_m_inputs.png",
-                                                                                  "sample_01_depth_m_tornado.png"}  # fmt: skip
+                                                                                  "sample_01_depth_m_tornado.png"}
 
 
 def test_the_page_of_a_sample_at_one_velocity_draws_the_runs_against_an_input(rough, tmp_path):
@@ -320,7 +320,7 @@ def test_a_damaged_table(whole, tmp_path):
         results.of_study(study_directory.read(tmp_path / "out"))
     text = (whole / sample_table.FILE).read_text()
     for spoiled, wrong in ((text.rsplit("\n", 2)[0] + "\n", "has 13 rows, and there are 14 runs"),
-                           ("row\n1,2\n", r'csv:1: has no column "body\.rod\.velocity \[m/s\]"; remove the file')):  # fmt: skip
+                           ("row\n1,2\n", r'csv:1: has no column "body\.rod\.velocity \[m/s\]"; remove the file')):
         (tmp_path / "out" / sample_table.FILE).write_text(spoiled)
         with pytest.raises(StudyError, match=wrong):
             results.of_study(study_directory.read(tmp_path / "out"))

@@ -28,7 +28,7 @@ def test_a_study(study):
     read = study_directory.load(study)
     assert read.title == "A study"
     assert [(axis.name, axis.key, axis.values) for axis in read.axes] == [
-        ("velocity", "body.rod.velocity", ("1086 m/s", "1200 m/s")), ("advection", None, ("ke",))]  # fmt: skip
+        ("velocity", "body.rod.velocity", ("1086 m/s", "1200 m/s")), ("advection", None, ("ke",))]
     first = read.cases[0]
     assert (first.name, first.values) == ("1086m-s_ke", {"velocity": "1086 m/s", "advection": "ke"})
     assert (first.status, first.message, first.summary["cycles"]) == ("done", "", 1000)

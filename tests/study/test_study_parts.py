@@ -40,7 +40,7 @@ def test_parts_run_in_turn_and_once(tmp_path):
     assert status == 0, said
     assert said.index("part 1 of 2: first") < said.index("ke_0.1: done") < said.index("part 2 of 2: tubes")
     assert {case.name: case.status for case in study_directory.read(out / "first").cases} == {
-        "ke_0.1": "done", "ke_0.2": "done", "momentum_0.1": "waiting", "momentum_0.2": "waiting"}  # fmt: skip
+        "ke_0.1": "done", "ke_0.2": "done", "momentum_0.1": "waiting", "momentum_0.2": "waiting"}
     with open(tmp_path / "rows.csv", encoding="utf-8", newline="") as rows:
         assert [row["advection"] for row in csv.DictReader(rows)] == ["ke", "ke", "momentum", "momentum"]
     status, said = tubes.sweep(file, "--out", tmp_path / "elsewhere")
@@ -58,7 +58,7 @@ def test_the_cost_of_a_study(tmp_path, capsys):
     assert study_parts.show(plans, 2) == 0
     said = capsys.readouterr().out
     assert [line.split()[:5] for line in said.splitlines()[1:4]] == [
-        ["first", "2", "0", "0", "2"], ["tubes", "2", "0", "0", "2"], ["all", "4", "0", "0", "4"]]  # fmt: skip
+        ["first", "2", "0", "0", "2"], ["tubes", "2", "0", "0", "2"], ["all", "4", "0", "0", "4"]]
     assert "first: one scheme" in said
     assert "4 runs, about" in said
 
@@ -66,7 +66,7 @@ def test_the_cost_of_a_study(tmp_path, capsys):
 def test_members_of_all_parts(tmp_path):
     file = write(tmp_path, '[ensemble]\nrepeats = 2\nby = ["first step"]\n')
     numbers = {size: [each.states[0] for each in study_parts.plans(file, (), Size(members=size), quiet=True)]
-               for size in (None, 1, 3)}  # fmt: skip
+               for size in (None, 1, 3)}
     assert numbers == {None: [4, 4], 1: [2, 2], 3: [6, 6]}
 
 
@@ -87,7 +87,7 @@ def test_overrides_reach_all_parts(tmp_path):
     ('[[part]]\nstudy = "tubes.toml"\ncell = 3\n', 'unknown key "cell"'),
     ('[[part]]\nstudy = "none.toml"\n', "none.toml"),
     ('[[part]]\nstudy = "tubes.toml"\nonly = ["x*"]\n', r"only x\*: matches no case"),
-])  # fmt: skip
+])
 def test_mistakes(tmp_path, text, message):
     tubes.write(tmp_path)
     file = tmp_path / "both.toml"

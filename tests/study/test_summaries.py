@@ -36,11 +36,11 @@ def paths(value, path=()):
 SUMMARY = json.loads(json.dumps(fake._summary(0.31, 0.02, fake.deck_text()))) | {
     "trustworthy": True, "faults": [], "experiment": {"penetration_m": 0.4, "qualifier": "measured", "source": "x"},
     "crater": {"depth_m": 0.3, "volume_m3": 1e-5}, "title": "a", "deck": "shot",
-    "targets": {"plate": {"exit_time_s": 1e-4, "crater": {"depth_m": 0.3}}}}  # fmt: skip
+    "targets": {"plate": {"exit_time_s": 1e-4, "crater": {"depth_m": 0.3}}}}
 
 
 @pytest.mark.parametrize("path", [pytest.param(path, id=".".join(path), marks=[pytest.mark.thorough] * (number % 8 > 0))
-                                  for number, path in enumerate(paths(SUMMARY))])  # fmt: skip
+                                  for number, path in enumerate(paths(SUMMARY))])
 def test_a_report_of_any_summary(place, path):
     text = (place / "summary.json").read_text()
     try:

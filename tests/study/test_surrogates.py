@@ -210,7 +210,7 @@ def test_a_known_probability_is_in_its_interval():
         generator = np.random.default_rng(seed)
         strength = generator.random(200)
         columns = {"row": np.arange(1.0, 201), "x": strength, "status": np.full(200, "done"),
-                   "perforated": np.where(strength < 0.1, "yes", "no")}  # fmt: skip
+                   "perforated": np.where(strength < 0.1, "yes", "no")}
         share = Samples("", (), columns).fractions("perforated")["yes"].share
         hits += share.low <= 0.1 <= share.high
         columns["status"] = np.where(generator.random(200) < 0.1, "failed", "done")

@@ -178,7 +178,7 @@ def test_what_fails_does_not_sink_the_rest(tmp_path):
     expected = {
         "ke_0.1": "failed", "ke_0.2": "failed", "ke_0.3": "done", "ke_2mm": "invalid",
         "momentum_0.1": "failed", "momentum_0.2": "failed", "momentum_0.3": "unphysical", "momentum_2mm": "invalid",
-    }  # fmt: skip
+    }
     assert {name: case.status for name, case in found.items()} == expected
     assert "its worker died 4 times" in found["ke_0.1"].message
     assert found["ke_0.2"].message == "ZeroDivisionError: a fault that nobody foresaw"

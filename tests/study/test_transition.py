@@ -100,7 +100,7 @@ WRONG = [
     ('["ke", "momentum"]', '["ke"]\n[[exclude]]\nvelocity = "900 m/s"', 'exclude[0]: unknown axis "velocity"'),
     ('"problems/', '"problem/', "no such file"),
     (BASE, "problems/verification/sod_z.toml", "search.toml:4: transition: sod_z.toml has no projectile and target"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("old", "new", "said"), WRONG, ids=[new or f"no {old}" for old, new, _ in WRONG])
@@ -126,7 +126,7 @@ def test_check_prints_the_ends_and_the_number_of_runs(tmp_path, capsys):
     shown = capsys.readouterr().out
     assert [line.split()[0] for line in shown.splitlines() if line.startswith(("ke", "mom"))] == [
         "ke_900m-s", "ke_1500m-s", "momentum_900m-s", "momentum_1500m-s",
-    ]  # fmt: skip
+    ]
     assert "2 combinations of the axes, 13 velocities 50 m/s apart by body.rod.velocity" in shown
     assert "at most about 10 runs each" in shown
 
@@ -399,7 +399,7 @@ def test_a_real_search_is_interrupted_and_goes_on(tmp_path):
     assert process.returncode == 130, said
     assert not json.loads((out / "transition.json").read_text())["complete"]
     before = {case.name: case.directory.joinpath("summary.json").stat().st_mtime_ns
-              for case in hydro2d.open_study(out).cases if case.status == "done"}  # fmt: skip
+              for case in hydro2d.open_study(out).cases if case.status == "done"}
     process = tubes.start(file, "--workers", 1, "--out", out, "--resume", command="transition")
     said, _ = process.communicate(timeout=300)
     assert process.returncode == 0, said
@@ -429,7 +429,7 @@ def plate(velocity, deck):
         return {"regime": "rigid", "depth": 0.3}
     left = (velocity**2 - 1185.0**2) ** 0.5
     return {"regime": "eroding", "depth": 0.54, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": left,
-            "rod_residual_mass_kg": 0.05, "stop_reason": "perforation of plate"}  # fmt: skip
+            "rod_residual_mass_kg": 0.05, "stop_reason": "perforation of plate"}
 
 
 def test_a_ballistic_limit_is_searched(tmp_path, capsys):
@@ -451,7 +451,7 @@ def test_a_ballistic_limit_is_searched(tmp_path, capsys):
 def test_a_rod_that_stops_in_a_bulge_has_not_perforated(tmp_path):
     """Its nose was beyond the rear, and it turned back."""
     stuck = {"regime": "rigid", "depth": 0.6, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 2.0,
-             "stop_reason": "rebound of rod"}  # fmt: skip
+             "stop_reason": "rebound of rod"}
     client = made_up.Client(lambda velocity, deck: stuck if velocity < 1185.0 else plate(velocity, deck))
     _, result = search(tmp_path, client, LIMIT)
     assert brackets(result) == [{"ballistic limit": (1150, 1200)}]

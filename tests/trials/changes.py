@@ -23,12 +23,12 @@ NUMERICS = {
     "viscosity_quadratic": (0.0, 0.7, 2.0, 4.0), "hourglass": (0.0, 0.02, 0.2, 1.0), "ke_bound": (1.0, 1.5, 10.0),
     "cutoff": (1e-12, 1e-5, 1e-3), "mass_floor": (1e-9, 1e-4, 1e-2), "active_region": (True, False),
     "clip_limit": (0.001, 0.2), "steepness": (1.0, 1.5),
-}  # fmt: skip
+}
 FAILURE = {
     "tensile": ("material", "none"), "damage": ("material", "none"), "tension": ("mean", "min"),
     "max_opening": (0.01, 0.5, 1.0), "strength_cutoff": (0.0, 0.5, 0.99),
     "record": (True, False),
-}  # fmt: skip
+}
 
 
 def _si(value, unit: str) -> float:
@@ -84,13 +84,13 @@ def own_material(tables, chance):
     eos = {"gas": {"model": "ideal-gas", "adiabatic_index": chance.choice((1.2, 1.4, 1.667)), "reference_density": density,
                    "reference_energy": chance.choice((0.0, 2e5))},
            "liquid": {"model": "stiffened-gas", "reference_density": 1000.0, "sound_speed": 1480.0, "adiabatic_index": 2.4,
-                      "specific_heat": 4180.0}}  # fmt: skip
+                      "specific_heat": 4180.0}}
     if kind in eos:
         table = {"eos": eos[kind]}
     else:
         base = chance.choice([each for each in library.names() if not each.startswith("gas")])
         table = {"based_on": base, "strength": {"model": "elastic-plastic", "shear_modulus": 3e10,
-                                                "yield_stress": 1e7 if kind == "soft" else 3e9}}  # fmt: skip
+                                                "yield_stress": 1e7 if kind == "soft" else 3e9}}
     tables.setdefault("materials", {})[name] = table
     body["material"] = name
     return f"{body['name']} of {kind} {table}"
@@ -183,7 +183,7 @@ def block(tables, chance):
     width, low, high = _extent(tables)
     r, z = sorted(chance.uniform(0.0, 0.6 * width) for _ in range(2)), sorted(chance.uniform(low, high) for _ in range(2))
     body = {"name": "block", "shape": "box", "material": chance.choice(library.names()), "r": r, "z": z,
-            "velocity": chance.choice((0.0, 0.0, *SPEEDS))}  # fmt: skip
+            "velocity": chance.choice((0.0, 0.0, *SPEEDS))}
     tables["body"].insert(chance.choice((0, len(tables["body"]))), body)
     return f"{body['material']} r {r} z {z} at {body['velocity']}"
 
@@ -192,11 +192,11 @@ def air(tables, chance):
     """Adds a gas wherever there is nothing else."""
     _, low, high = _extent(tables)
     gas = {"eos": {"model": "ideal-gas", "adiabatic_index": chance.choice((1.2, 1.4, 1.667)),
-                   "reference_density": chance.choice((0.1, 1.2, 10.0))}}  # fmt: skip
+                   "reference_density": chance.choice((0.1, 1.2, 10.0))}}
     tables.setdefault("materials", {})["air_around"] = gas
     pressure = chance.choice((1e4, 1e5, 1e6, 1e8))
     tables["body"].append({"name": "air_around", "shape": "box", "material": "air_around", "z": [low, high],
-                           "pressure": pressure})  # fmt: skip
+                           "pressure": pressure})
     return f"{gas['eos']['reference_density']} kg/m^3, {pressure:g} Pa"
 
 
@@ -340,10 +340,10 @@ def stop(tables, chance):
     section = tables["stop"]
     key = chance.choice(("speed_below", "rebound", "perforation", "body", "cycles"))
     section[key] = {"speed_below": chance.choice((1.0, 500.0)), "rebound": True, "perforation": chance.choice((True, "tail")),
-                    "body": chance.choice(_names(tables)), "cycles": chance.choice((1, 7, 100))}[key]  # fmt: skip
+                    "body": chance.choice(_names(tables)), "cycles": chance.choice((1, 7, 100))}[key]
     return f"{key} {section[key]}"
 
 
 CHANGES = (speed, speed, faster, faster, material, material, own_material, size, size, move, move, remove, another, another,
            block, block, air, air, order, interfaces, cells, cells, start, geometry, boundary, boundary, follow, sliding,
-           sliding, numerics, numerics, numerics, failure, thermal, thermal, flow, nose, stations, stop)  # fmt: skip
+           sliding, numerics, numerics, numerics, failure, thermal, thermal, flow, nose, stations, stop)

@@ -39,10 +39,10 @@ ROOM = 6
 #: powers of length, time and mass in units
 POWERS = {"1": (0, 0, 0), "K": (0, 0, 0), "1/K": (0, 0, 0), "m": (1, 0, 0), "s": (0, 1, 0), "1/s": (0, -1, 0),
           "m/s": (1, -1, 0), "m/s^2": (1, -2, 0), "kg/m^3": (-3, 0, 1), "Pa": (-1, -2, 1), "1/Pa": (1, 2, -1),
-          "J/kg": (2, -2, 0), "J/(kg*K)": (2, -2, 0), "W/kg": (2, -3, 0)}  # fmt: skip
+          "J/kg": (2, -2, 0), "J/(kg*K)": (2, -2, 0), "W/kg": (2, -3, 0)}
 #: units of the keys of a deck, of its bodies and sources, and of what an edge has after its name
 UNITS = {"to": "m", "r": "m", "z": "m", "velocity": "m/s", "density": "kg/m^3", "pressure": "Pa", "axial": "m/s^2",
-         "power": "s, W/kg"}  # fmt: skip
+         "power": "s, W/kg"}
 EDGE_UNITS = {"velocity": "m/s", "axial": "m/s", "radial": "m/s", "piston": "s, m/s", "pressure": "s, Pa"}
 #: arrays of a state that a restart gives back to the bit
 ARRAYS = ("q", "vof", "u", "v", "centroid")

@@ -65,7 +65,7 @@ COMMANDS = {
     "export": ["export", "run"],
     "compile": ["compile", "shot.toml"],
     "status": ["sweep", "study", "--status"],
-}  # fmt: skip
+}
 
 
 def write(folder: Path) -> None:

@@ -110,7 +110,7 @@ class Reach:
             least_e=float(min(np.min(starts, axis=0)[1], 0.0) - LEAST * (most_e - e) - rest),
             most_e=float(max(e, 0.0) + heat + rest), speed=max(row.released(*one) + NOISE * row.sound(*one) for one in ends),
             shear=YIELDS * float(table.strength_par[m, SHEAR]) / float(rho) if table.strength_model[m] else 0.0,
-            warm=all(row.temperature(*one) > 0.0 for one in starts))  # fmt: skip
+            warm=all(row.temperature(*one) > 0.0 for one in starts))
 
 
 def _speeds(simulation) -> np.ndarray:

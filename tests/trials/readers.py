@@ -101,7 +101,7 @@ READERS = {
     "outlines": Reader("run/vtk/interfaces_000000.vtp", vtk.read_lines, sealed=True, kept=True),
     "record of a study": Reader("study/study.json", lambda file: study_directory.read(file.parent).entries, sealed=True,
                                 kept=True),
-}  # fmt: skip
+}
 
 #: largest sizes that are read, and one byte more, by the ending of a file; a hole takes no room on the disk
 HUGE = {".h5": (1 << 36) + 1, ".vtr": (1 << 36) + 1, ".vtp": (1 << 36) + 1}

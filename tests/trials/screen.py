@@ -50,7 +50,7 @@ class Screen:
         self._found[bound] = {
             "times": worst, "value": float(values[j, i]), "limit": float(limit), "places": int((times > 1.0).sum()),
             "body": None if m is None else sim.table.names[m], "cell": cell, "cycle": sim.cycle,
-            "fractions": self._inside(sim.state.vof)[(slice(None), *cell)].tolist()}  # fmt: skip
+            "fractions": self._inside(sim.state.vof)[(slice(None), *cell)].tolist()}
 
     def _inside(self, array: np.ndarray) -> np.ndarray:
         return self.simulation.grid.interior(array)

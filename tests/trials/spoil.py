@@ -17,7 +17,7 @@ ABSURD = (
     '"-3 km/s"', '"1e308 us"', '"1e-3 furlong"', '"../x"', '"a/b"', '"/"', '"\\u0000"', '"\\u202e"', '"é"', "[]", "{}",
     "[1, 2, 3]", "[[]]", "[{}]", "{ a = 1 }", '["x"]', '"' + 5000 * "x" + '"', "1979-05-27", "0x10", 30 * "9", "'''\n'''",
     '"none"', '"rod"', '"hydro2d"',
-)  # fmt: skip
+)
 #: characters that have a meaning in TOML, or none anywhere
 CHARACTERS = "[]{}=\"'#,.\\\n\t -_0e\x00\x07\x7f\ufeffé\u202e𝛼"
 #: JSON values in place of those in a summary or a study's record

@@ -16,7 +16,7 @@ LONG = "1" + 4400 * "0"
 UNITS = ("1 ((m))**9**9**9**9/s", "1 m*9**9**9", "1 m/9**9**9**9", "1 (9**9**9)*m", "9**9**9 m", "1e400 m", "1 m**1000000",
          "0 m**-1 * 9**99999999", "1 m*10**100000000", "1 ((((9*m)**9*m)**9*m)**9*m)**9", "1 " + 100_000 * "m",
          "1 " + 5000 * "(" + "m" + 5000 * ")", 10_000 * "1" + " m", "1 " + 3000 * "-" + "m",
-         "1" + 100_000 * " " + "m")  # fmt: skip
+         "1" + 100_000 * " " + "m")
 
 
 def tip(value):
@@ -54,9 +54,9 @@ BOMBS = {
     **{unit[:40]: tip(f'"{unit}"') for unit in UNITS},
     **{f"{key} {value}": DECK.replace(f"{key} = ", f"{key} = {value} #", 1) for value in ("1e999", "-1e999", "nan", "inf")
        for key in ("tip", "radius", "length", "velocity", "z_front", "thickness", "time", "penetration", "z_start")},
-}  # fmt: skip
+}
 SETTINGS = (f"stop.time={LONG}", f"x={5000 * '['}1{5000 * ']'}", f"{'.'.join(5000 * ['a'])}=1", f"{100_000 * 'k'}=1",
-            *(f"body.rod.tip={unit}" for unit in UNITS))  # fmt: skip
+            *(f"body.rod.tip={unit}" for unit in UNITS))
 
 
 def refused(arguments):
@@ -119,7 +119,7 @@ STUDIES = {
     "nested": STUDY.replace('"5 us"', 5000 * "[" + 5000 * "]"), "unit": STUDY.replace("5 us", UNITS[0]),
     "speeds": SEARCH.replace("100 m/s", "1e-300 m/s"), "tolerance": SEARCH.replace("100 m/s", UNITS[1]),
     "dotted": STUDY + f"\n[set.{'.'.join(5000 * ['a'])}]\nx = 1\n",
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", STUDIES)

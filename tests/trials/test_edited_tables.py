@@ -189,7 +189,7 @@ OF_ANOTHER = {
 CORRECTED = ("a head with another unit", "no input column", "a material that the study does not have")
 OF_THE_SAMPLE = (*CORRECTED, "no row column", "thousands", "thousands with a space", "a word for a number", "a unit in a cell",
                  "a word for the row", "a fraction for the row", "a row below zero", "an emptied row number",
-                 "a head without its unit")  # fmt: skip
+                 "a head without its unit")
 
 
 @pytest.fixture(scope="module")
@@ -226,7 +226,7 @@ def of_samples(folder):
 def of_kept(folder):
     rows = hydro2d.kept_rows(folder / "kept.csv")
     by_run = sorted((row["friction"], row["row"], row[VELOCITY], row[MATERIAL], row["status"], row["regime"],
-                     row["trustworthy"], f"{float(row['depth_m'] or -1):.6g}") for row in rows)  # fmt: skip
+                     row["trustworthy"], f"{float(row['depth_m'] or -1):.6g}") for row in rows)
     return [by_run, *sorted((plain(each) for each in hydro2d.kept_samples(folder / "search.toml")), key=str)]
 
 
@@ -246,7 +246,7 @@ def commands(folder, *names):
     every = {
         "status": ["sweep", out, "--status"], "report": ["report", out], "check": ["sweep", f"{folder}/search.toml", "--check"],
         "sweep": ["sweep", f"{folder}/search.toml", "--resume", "--out", out],
-    }  # fmt: skip
+    }
     for name in names:
         status, said = spoil.judge(every[name], (0, 2))
         assert said.count("\n") == (status != 0), said
@@ -323,7 +323,7 @@ def test_a_row_of_another_run_is_refused_or_corrected_from_its_set_up(name, made
     write(folder / "out" / "samples.csv", OF_ANOTHER[name])
     study = hydro2d.open_study(folder / "out")
     refused(folder, folder / "out" / "samples.csv", f"samples.csv:{LINE}: ", ("status", "report"),
-            [lambda: study.samples({"friction": "0.1"})])  # fmt: skip
+            [lambda: study.samples({"friction": "0.1"})])
     shutil.rmtree(folder / "out")
     write(folder / "kept.csv", OF_ANOTHER[name])
     assert call(["sweep", f"{folder}/search.toml", "--out", f"{folder}/out"]) == 0
@@ -345,9 +345,9 @@ def test_a_line_twice_is_read_once(made, folder):
 
 def test_two_depths_of_one_set_up_are_refused(folder):
     write(folder / "kept.csv", lambda text: text + entry("friction", "0.3")(at(LINE, lambda line: [deeper(text)])(text))
-          .splitlines()[LINE - 1])  # fmt: skip
+          .splitlines()[LINE - 1])
     refused(folder, folder / "kept.csv", "for the same set-up; remove the line that is wrong", ("check", "sweep"),
-            [lambda: hydro2d.kept_rows(folder / "kept.csv")])  # fmt: skip
+            [lambda: hydro2d.kept_rows(folder / "kept.csv")])
 
 
 def places(value, place=()):

@@ -171,7 +171,7 @@ def trials(server, undisturbed, folder, name, seed=0, most=12):
     cases = [(at, what) for at in sampled(writes, seed, most) for what in FAULTS]
     wrong = [tried(server, undisturbed, folder / f"{at}{what}", name, at, what) for at, what in cases]
     fell = [f"{name}, {what} at {at} of {len(writes)} ({writes[at - 1]}): {each}"
-            for (at, what), each in zip(cases, wrong, strict=True) if each]  # fmt: skip
+            for (at, what), each in zip(cases, wrong, strict=True) if each]
     assert not fell, f"{len(fell)} of {len(cases)}:\n" + "\n".join(fell)
     return len(cases)
 
@@ -180,7 +180,7 @@ def trials(server, undisturbed, folder, name, seed=0, most=12):
     ("sweep", "open study/.study.json", KILLED), ("sweep", "fsync rows/.kept.csv", FULL), ("run", "write run/run.lock", FULL),
     ("view", "fsync run/.view.html", ONCE), ("export", "rename run/export/history.csv", KILLED),
     ("compile", "fsync code/.test_store.add", KILLED),
-])  # fmt: skip
+])
 def test_a_fault_at_some_writes(server, undisturbed, tmp_path, name, written, what):
     at = next(n for n, text in enumerate(undisturbed(name)[1], 1) if text.startswith(written))
     assert tried(server, undisturbed, tmp_path / "place", name, at, what) == ""
@@ -198,12 +198,12 @@ CROWD = {
     "status of a run": ["status", "run"], "search in its place": [*COMMANDS["search"][:3], *COMMANDS["sweep"][3:]],
     "sweep of one case": ["sweep", "study.toml", "--out", "one", "--only", "900m-s", "--workers", "1"],
     "sweep of the other": ["sweep", "study.toml", "--out", "other", "--only", "1100m-s", "--workers", "1"],
-}  # fmt: skip
+}
 PAIRS = [("run", "run"), ("run", "view"), ("run", "export"), ("run", "report of a run"), ("run", "status of a run"),
          ("run", "plot"), ("view", "view"), ("export", "export"), ("compile", "compile"), ("report", "report"),
          ("sweep", "sweep"), ("sweep", "report"), ("sweep", "status"), ("sweep", "search in its place"), ("search", "search"),
          ("search", "sweep"), ("sample", "sample"), ("sample", "report of a sample"),
-         ("sweep of one case", "sweep of the other")]  # fmt: skip
+         ("sweep of one case", "sweep of the other")]
 #: how often each pair is tried, with another seed each time
 TIMES = 10
 #: options with which a command that writes begins again in the directory of the other one

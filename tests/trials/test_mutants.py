@@ -35,7 +35,7 @@ def test_a_mutant_follows_from_its_number():
 @pytest.mark.parametrize("name", ["cth_nose_shape/hemi_5083_1086_layer.toml", "verification/sod_z.toml"])
 def test_unchanged_decks_reach_nothing_impossible(name):
     assert campaign.judged(mutants.unchanged(name)) | {"message": "", "warnings": []} == {
-        "ended": "trusted", "message": "", "beyond": {}, "warnings": []}  # fmt: skip
+        "ended": "trusted", "message": "", "beyond": {}, "warnings": []}
 
 
 def test_all_decks_are_accepted_when_cut_down():
@@ -67,7 +67,7 @@ def test_shocks_are_those_of_the_textbook():
     ("fractions", lambda s, j, i: np.multiply.at(s.vof[0], (j, i), 0.0) or np.add.at(s.vof[0], (j, i), 0.1)),
     ("speed", lambda s, j, i: np.multiply(s.v, 20.0, out=s.v)),
     ("mass", lambda s, j, i: np.multiply(s.q[RHO, 1], 1 + 1e-7, out=s.q[RHO, 1])),
-])  # fmt: skip
+])
 def test_states_out_of_reach_are_found(bound, spoil):
     simulation = Simulation(decks.loads(mutants.unchanged(FLAT)))
     screen = Screen(simulation)

@@ -116,7 +116,7 @@ def others(finished, folder):
         "info": ["info"],
         "model": ["model", "tate", "--velocity", "500m/s:2km/s:50", "--csv", f"{folder}/t.csv", "--figure", f"{folder}/t.pdf"],
         "sweep": ["sweep", str(folder / "study.toml"), *FEW, "--out", str(folder / "study"), "--workers", "1", "--overwrite"],
-    }  # fmt: skip
+    }
 
 
 def stopped_commands(seeds, finished, folder):
@@ -207,6 +207,6 @@ def test_an_output_that_is_full(finished, tmp_path):
     for arguments in ([*shot_arguments(tmp_path), "--out", str(tmp_path / "out")], ["status", str(finished / "run")]):
         with open("/dev/full", "w") as full:
             done = subprocess.run([sys.executable, "-m", "hydro2d", *arguments], cwd=ROOT, stdout=full, stderr=subprocess.PIPE,
-                                  text=True, check=False)  # fmt: skip
+                                  text=True, check=False)
         assert done.returncode == 4
         assert done.stderr == "hydro2d: No space left on device: the standard output\n"

@@ -23,7 +23,7 @@ def commands(run, study, folder, chance):
         (["sweep", study, "--status"], (0, 2, 4)),
         (["model", "transition", "--rod", "W_alloy", "--target", "Al5083", "--runs", run], (0, 2, 4)),
         (["run", str(folder / "shot.toml"), *FEW, *FURTHER, "--restart", "--quiet", "--out", run], (0, 2, 3, 4)),
-    ))  # fmt: skip
+    ))
 
 
 def spoiled_directories(seeds, finished, folder):

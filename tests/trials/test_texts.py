@@ -116,7 +116,7 @@ KEYS = (
     "numerics.advection", "sliding.method", "sliding.hard", "failure.tensile", "output.fields", "output.directory",
     "output.vtk_interval", "experiment.penetration", "materials.x", "materials.x.eos.model", "penetration.rod", "include",
     "title", "name", "x", "", ".", "..", "a b",
-)  # fmt: skip
+)
 
 
 def settings(seeds, folder):

@@ -115,7 +115,7 @@ WISHES = [
 
 @pytest.mark.thorough
 @pytest.mark.parametrize(("name", "cells", "quantity", "limit"), [
-    pytest.param(*wish, marks=pytest.mark.xfail(strict=True, reason=reason)) for *wish, reason in WISHES], ids=str)  # fmt: skip
+    pytest.param(*wish, marks=pytest.mark.xfail(strict=True, reason=reason)) for *wish, reason in WISHES], ids=str)
 def test_wishes(errors, name, cells, quantity, limit):
     assert abs(errors(name, cells)[quantity]) < limit
 
@@ -142,7 +142,7 @@ def test_the_first_order_of_smooth_problems(errors):
                                           ("detonation", (100, 200), "L1 error of pressure", 0.6),
                                           ("escape", (50, 100), "L1 error of pressure", 0.8),
                                           ("noh_metal", (50, 100), "L1 error of density", 0.8),
-                                          ("rayleigh_taylor", (32, 64), "rate of growth n", 0.9)):  # fmt: skip
+                                          ("rayleigh_taylor", (32, 64), "rate of growth n", 0.9)):
         coarse, fine = (abs(errors(name, cells)[quantity]) for cells in meshes)
         assert fine < coarse * 2.0**-least
 

@@ -50,5 +50,5 @@ def test_a_whole_shot_is_trusted_and_gives_the_number_of_the_table(name, tmp_pat
     run = hydro2d.run(shot(name), tmp_path / name, quiet=True)
     assert run.summary["trustworthy"]
     kept = next(result for result in table.read(decks.find(f"{FOLDER}/{name}.toml").parent / "results" / "methods.csv")
-                if (result.shot, result.sliding, result.advection) == (name, "none", Numerics().advection))  # fmt: skip
+                if (result.shot, result.sliding, result.advection) == (name, "none", Numerics().advection))
     assert table.MEASURES[name].of(run) == pytest.approx(kept.value, rel=0.02)

@@ -33,7 +33,7 @@ def foam(number):
 
     values = library.load("Al_porous").eos.values
     solid = {name: values[name] for name in ("sound_speed", "hugoniot_slope", "hugoniot_slope_2", "hugoniot_slope_3",
-                                                  "grueneisen", "specific_heat")}  # fmt: skip
+                                                  "grueneisen", "specific_heat")}
     own = {name: value for name, value in values.items() if name not in solid and name != "reference_temperature"}
     table = tabulate.table_of("aluminium", mie_grueneisen, {**solid, "reference_density": POROUS.rho_s},
                               tabulate.points(0.9 * POROUS.rho_s, POROUS.rho_s, 1.6 * POROUS.rho_s, number),

@@ -92,6 +92,6 @@ def test_friction_at_the_anvil_narrows_the_foot():
     """By 11 % at a coefficient of 0.2 with 16 cells across the radius, and leaves the bar 2 % longer; here with 8 cells."""
     free, rubbed = (
         finish(decks.load(f"{FOLDER}/copper_bar_friction.toml", ["mesh.cells_across=8", f"sliding.friction={friction}"]))
-        .of_bodies()["bar"] for friction in (0.0, 0.2))  # fmt: skip
+        .of_bodies()["bar"] for friction in (0.0, 0.2))
     assert rubbed["radius_at_z_min_m"] / free["radius_at_z_min_m"] == pytest.approx(0.89, abs=0.02)
     assert rubbed["length_m"] / free["length_m"] == pytest.approx(1.02, abs=0.01)

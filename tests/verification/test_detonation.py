@@ -17,7 +17,7 @@ LENGTH = 50e-3
 GAMMA_LAW = ["materials.charge.eos.model=jwl", "materials.charge.eos.reference_density=1875", "materials.charge.eos.A=1 Pa",
              "materials.charge.eos.B=1 Pa", "materials.charge.eos.R1=1", "materials.charge.eos.R2=1",
              "materials.charge.eos.omega=2", 'materials.charge.eos.detonation_energy="7.5 GPa"',
-             "materials.charge.eos.detonation_velocity=8000", 'materials.charge.eos.cj_pressure="30 GPa"']  # fmt: skip
+             "materials.charge.eos.detonation_velocity=8000", 'materials.charge.eos.cj_pressure="30 GPa"']
 EXPLOSIVES = {"TNT": [], "gamma law": GAMMA_LAW}
 
 
@@ -81,7 +81,7 @@ def misses(line, flow: Taylor, front: float, rest: float) -> list[float]:
     the tenth of the way behind the front that is 6 cells from it."""
     time, means = line.simulation.time, []
     for values, x, which, ahead in ((line.body("rho"), line.x, 0, rest), (line.velocity, line.xv, 1, 0.0),
-                                    (line.pressure, line.x, 2, 0.0)):  # fmt: skip
+                                    (line.pressure, line.x, 2, 0.0)):
         exact = flow.at(x, time)[which]
         means.append(np.abs(values - np.where(x < front * time, exact, ahead)).mean() / exact.max())
     near = front * time - 6 * line.dx[0] - line.x
@@ -127,7 +127,7 @@ def lit(form: str, cells: int):
     size = LENGTH / cells
     across = {"plane": (4, cells), "cylinder": (cells, 4), "sphere": (cells, cells)}[form]
     points = {"plane": [[(k + 0.5) * size, 0.0, 0.0] for k in range(4)],
-              "cylinder": [[0.0, (k + 0.5) * size, 0.0] for k in range(4)], "sphere": [[0.0, 0.0, 0.0]]}[form]  # fmt: skip
+              "cylinder": [[0.0, (k + 0.5) * size, 0.0] for k in range(4)], "sphere": [[0.0, 0.0, 0.0]]}[form]
     mesh = [f"mesh.{axis}=[{{to={n * size}, cells={n}}}]" for axis, n in zip("rz", across, strict=True)]
     return decks.load(f"{FOLDER}/plane_charge.toml", ["numbers=SI",
         *mesh, "mesh.geometry=cylindrical", "materials.charge.based_on=LX14", f"source.fuse.points={points}",
@@ -146,7 +146,7 @@ def test_the_front_is_where_the_light_times_say(form, cells):
     rows, columns = grid.inside
     ways = {"plane": [((slice(None), 2), grid.zc[rows])], "cylinder": [((2, slice(None)), grid.rc[columns])]}
     ways["sphere"] = [((slice(None), 0), np.hypot(grid.zc[rows], grid.rc[columns][0])),
-                      ((0, slice(None)), np.hypot(grid.rc[columns], grid.zc[rows][0]))]  # fmt: skip
+                      ((0, slice(None)), np.hypot(grid.rc[columns], grid.zc[rows][0]))]
     for line, x in ways[form]:
         for values in (burnt[line], p[line] / p[line].max()):
             assert abs(crossing(x, values, 0.5) - 8800.0 * simulation.time) < 0.5 * LENGTH / cells

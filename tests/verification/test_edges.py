@@ -178,7 +178,7 @@ def worst_change(simulation: Simulation, velocity: tuple[float, float] = (0.0, 0
         simulation.step()
         here = np.where(g.interior(s.vof) > 0.0, np.abs(g.interior(s.pm) - first), 0.0)
         moves = [np.abs(g.interior_vertices(field) - own)[s.mass[(..., *g.inside_vertices)] > 0.0].max()
-                 for field, own in zip((s.u, s.v), velocity, strict=True)]  # fmt: skip
+                 for field, own in zip((s.u, s.v), velocity, strict=True)]
         change = np.maximum(change, [here.max(), max(moves)])
     balance = simulation.conservation()
     assert max(map(abs, (*balance["mass"].values(), balance["axial_momentum"], balance["total_energy"]))) < 1e-11
@@ -192,7 +192,7 @@ def test_a_static_pressure_stays_on_a_transmitting_edge(geometry, edges):
     """Earlier, the edge let 100 kPa go: half behind a wave, all of it once a wall had reflected that."""
     text = (mesh(("4 mm", 4), ("10 mm", 20), geometry=geometry, r_start="1 mm")
             + table("boundaries", **{edge: "transmit" if edge in edges else "wall" for edge in SIDES})
-            + WATER + box("water", "w", r=["0 mm", "4 mm"], z=["0 mm", "10 mm"], pressure="100 kPa") + UNTIL)  # fmt: skip
+            + WATER + box("water", "w", r=["0 mm", "4 mm"], z=["0 mm", "10 mm"], pressure="100 kPa") + UNTIL)
     pressure, speed = worst_change(Simulation(decks.loads(text)))
     assert pressure < 1e-3
     assert speed < 1e-9
@@ -203,7 +203,7 @@ def hydrostatic(surface: str) -> str:
     layers = [("water", 7)] + [(f"layer_{k}", k) for k in range(7)]
     boxes = "".join(
         box(name, "w", r=["0 mm", "4 mm"], z=[f"{k} mm", f"{k + 1} mm"], pressure=f"{200 + 100 * (7 - k) + 50} kPa",
-            **({} if name == "water" else {"join": "water"})) for name, k in layers)  # fmt: skip
+            **({} if name == "water" else {"join": "water"})) for name, k in layers)
     return (mesh(("4 mm", 4), ("8 mm", 8), geometry="planar") + WATER + boxes + UNTIL + surface
             + '[[source]]\nname = "g"\nkind = "acceleration"\nbody = "water"\naxial = "-1e5 m/s^2"\n')
 
@@ -253,7 +253,7 @@ BUBBLE = (
     + table("materials.gas", eos={"model": "ideal-gas", "reference_density": 9.57e-4, "adiabatic_index": 1.4})
     + table("materials.w", eos={"model": "stiffened-gas", "reference_density": 1000.0, "sound_speed": 1499.8,
                                 "adiabatic_index": 1.1, "specific_heat": 4180.0})
-    + table("failure", tensile="none") + stop("60 us"))  # fmt: skip
+    + table("failure", tensile="none") + stop("60 us"))
 
 
 @pytest.mark.thorough
@@ -270,7 +270,7 @@ def test_a_bubble_collapses_under_the_pressure_of_water_that_edges_cut():
 HELD_UNDER_PRESSURE = (
     mesh(("8 mm", 8), ("-6 mm", "10 mm", 16))
     + table("boundaries", r_max="held", z_min="pressure", z_min_pressure=[["0 us", 0.0], ["1 us", "2 GPa"]], z_max="transmit")
-    + box("plate", "Al5083", r=["0 mm", "8 mm"], z=["-1 m", "1 m"]) + stop("10 us"))  # fmt: skip
+    + box("plate", "Al5083", r=["0 mm", "8 mm"], z=["-1 m", "1 m"]) + stop("10 us"))
 
 
 @pytest.mark.parametrize("outer", ["held", "transmit"])
@@ -292,7 +292,7 @@ def test_a_run_continues_with_the_same_bits_at_such_edges(outer):
 
 SHEAR_SPEED = np.sqrt(26e9 / 2660.0)
 ELASTIC = material("Al_elastic", "Al5083", fracture_pressure="10 GPa",
-                   strength={"model": "elastic-plastic", "shear_modulus": "26 GPa", "yield_stress": "10 GPa"})  # fmt: skip
+                   strength={"model": "elastic-plastic", "shear_modulus": "26 GPa", "yield_stress": "10 GPa"})
 
 
 @pytest.mark.parametrize("edge", ["z_min", "z_max", "r_min", "r_max"])
@@ -301,7 +301,7 @@ def test_a_held_edge_shears_what_lies_at_it(edge):
     axial, across = edge[0] == "z", "r" if edge[0] == "z" else "z"
     size = {edge[0]: [{"to": "30 mm", "cells": 60}], across: [{"to": "60 mm", "cells": 20}]}
     text = (table("mesh", geometry="planar", **size) + ELASTIC + table("boundaries", **{"r_min": "outflow"} | {edge: "held"})
-            + box("slab", "Al_elastic", r=["-1 m", "1 m"], z=["-1 m", "1 m"]) + stop("1 s"))  # fmt: skip
+            + box("slab", "Al_elastic", r=["-1 m", "1 m"], z=["-1 m", "1 m"]) + stop("1 s"))
     key = f"boundaries.{edge}_{'radial' if axial else 'axial'}"
     simulation = ended(text, 5e-6, f"{key}=10 m/s")
     s, g = simulation.state, simulation.grid
@@ -397,7 +397,7 @@ BAR = (
                fracture_pressure="4 GPa")
     + body("bar", "bar", "box", r=[0.0, "4.25 mm"], z=[0.0, "50 mm"], velocity="-20 m/s")
     + stop("30 us")
-)  # fmt: skip
+)
 
 
 def ended(text: str, time: float, *options: str) -> Simulation:
@@ -443,7 +443,7 @@ def test_a_ball_goes_about_between_four_anvils(sliding):
         + body("ball", "steel_4340", "sphere", centre=["14 mm", "13 mm"], radius="4 mm", velocity=["400 m/s", "260 m/s"])
         + (box("block", "Al5083", r=["1 mm", "5 mm"], z=["13 mm", "18 mm"]) + contact("ball") if sliding else "")
         + stop("200 us")
-    )  # fmt: skip
+    )
     simulation = ended(text, 60e-6)
     assert simulation.state.u[0].min() >= -400.0
     assert simulation.audit.sinks["walls"].momentum > 1.0

@@ -136,7 +136,7 @@ RING = (
     + body("ring", "ring", "box", r=["38.2 mm", "41.9 mm"], z=["-2 mm", "2.1 mm"],
            flow={"pattern": "cylindrical", "speed": "150 m/s", "radius": "40 mm", "exponent": 0})
     + stop("40 us")
-)  # fmt: skip
+)
 
 
 def share_failed(simulation: Simulation) -> float:
@@ -258,7 +258,7 @@ RECORD = "failure.record=true"
     (['materials.ring.fracture_stress="0.2 GPa"'], 1),
     ([*BY_STRAIN, "materials.ring.damage.D1=0.02"], 2),
     ([*BY_STRAIN, "materials.ring.damage.D1=0.01", "materials.ring.damage.D2=0.02", "materials.ring.damage.D3=-1.0"], 3),
-], ids=["stress", "strain", "johnson-cook"])  # fmt: skip
+], ids=["stress", "strain", "johnson-cook"])
 def test_each_failed_cell_knows_its_criterion(overrides, cause):
     """And is otherwise the same, to the last bit, as without the record."""
     ring, plain = (Simulation(deck.loads(RING, [*overrides, *more])) for more in ([RECORD], []))

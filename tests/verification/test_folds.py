@@ -38,7 +38,7 @@ def slotted_rod(thick: float, at: float, faster: float, around: float | None) ->
         + tube
         + contact("rod")
         + stop("1 s")
-    ))  # fmt: skip
+    ))
 
 
 @pytest.mark.parametrize("thick", [0.01, 0.03, 0.1, 0.3])

@@ -28,7 +28,7 @@ def impact(velocity: float, shift: float, *options: str) -> Simulation:
         + table("failure", damage="none")
         + contact("rod")
         + stop("25 us")
-    )  # fmt: skip
+    )
     return Simulation(decks.loads(text, list(options)))
 
 

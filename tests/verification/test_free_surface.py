@@ -19,7 +19,7 @@ WATER = (
     + table("materials.water", strength={"model": "hydrodynamic"},
             eos={"model": "stiffened-gas", "reference_density": 1000.0, "sound_speed": 1000.0, "adiabatic_index": 7.0,
                  "specific_heat": 4180.0}) + stop("1 s")
-)  # fmt: skip
+)
 
 
 def tank(depth: float, cell: float, wide: tuple[float, int], rows: int) -> Simulation:
@@ -29,7 +29,7 @@ def tank(depth: float, cell: float, wide: tuple[float, int], rows: int) -> Simul
         low, high = k * cell, min((k + 1) * cell, depth)
         keys = {} if k == 0 else {"join": "water"}
         text += box("water" if k == 0 else f"part{k}", "water", r=[0.0, wide[0]], z=[low, high],
-                    pressure=1e3 * GRAVITY * (depth - 0.5 * (low + high)), **keys)  # fmt: skip
+                    pressure=1e3 * GRAVITY * (depth - 0.5 * (low + high)), **keys)
     return Simulation(decks.loads(text + WATER))
 
 
@@ -57,7 +57,7 @@ def test_water_at_rest_under_gravity_along_r(share, monkeypatch):
         low, high = k * cell, min((k + 1) * cell, depth)
         keys = {} if k == 0 else {"join": "water"}
         text += box("water" if k == 0 else f"part{k}", "water", r=[low, high], z=[0.0, 0.025],
-                    pressure=1e3 * GRAVITY * (depth - 0.5 * (low + high)), **keys)  # fmt: skip
+                    pressure=1e3 * GRAVITY * (depth - 0.5 * (low + high)), **keys)
     simulation = Simulation(decks.loads(text + WATER))
     state, grid = simulation.state, simulation.grid
     while simulation.time < 10e-3:
@@ -108,7 +108,7 @@ def test_a_tube_with_both_surfaces_in_mid_cell(cells, shift):
         mesh([{"to": shift * cell, "cells": 1}] * (shift > 0.0) + columns, (3 * cell, 3)) + walls("z_min", "z_max")
         + box("gas", "gas", r=[0.0, 0.1], z=[0.0, 3 * cell], pressure="1 MPa")
         + box("rock", "rock", r=[0.1, 0.11], z=[0.0, 3 * cell]) + rock_and_gas() + stop("1 s")
-    ))  # fmt: skip
+    ))
     grid, largest = simulation.grid, 0.0
     area = np.diff(grid.r[grid.g:grid.g + grid.nr + 1] ** 2)
     while simulation.time < 70e-6:

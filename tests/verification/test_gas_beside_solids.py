@@ -28,7 +28,7 @@ def rock_and_gas() -> str:
         + table("materials.gas", eos={"model": "ideal-gas", "reference_density": 1000.0, "adiabatic_index": 1.4,
                                "specific_heat": 700.0})
         + table("failure", tensile="none", strength_cutoff=0.0)
-    )  # fmt: skip
+    )
 
 
 def cylinder(outer: float, cell: float, cells: int) -> Simulation:
@@ -38,7 +38,7 @@ def cylinder(outer: float, cell: float, cells: int) -> Simulation:
         mesh((cell * cells, cells), (high, 3)) + walls("z_min", "z_max")
         + box("gas", "gas", r=[0.0, 0.1], z=[0.0, high], pressure="1 MPa") + box("rock", "rock", r=[0.1, outer], z=[0.0, high])
         + rock_and_gas() + stop("1 s")
-    ))  # fmt: skip
+    ))
 
 
 def moved(simulation: Simulation, until: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -85,7 +85,7 @@ def blake(place: float, cells: int) -> np.ndarray:
         mesh((cell * number, number), (cell * number, number)) + walls("z_min")
         + entry("body", name="gas", material="gas", shape="sphere", centre=0.0, radius=0.1, pressure="1 MPa")
         + box("rock", "rock", r=[0.0, cell * number], z=[0.0, cell * number]) + rock_and_gas() + stop("1 s")
-    ))  # fmt: skip
+    ))
     r, z, along_r, along_z = moved(simulation, 160e-6)
     radii, angle = np.array([[0.15], [0.2], [0.3]]), np.radians(np.arange(0, 91, 15))
     at = np.stack(np.broadcast_arrays(radii * np.cos(angle), radii * np.sin(angle)), axis=-1)

@@ -156,7 +156,7 @@ def test_a_problem_in_units_of_one_is_as_accurate_as_at_a_kilometre_a_second(spe
         simulation = Simulation(decks.loads(
             mesh((0.9, 30), (2 * size, 2), geometry="planar") + walls("z_min", "z_max")
             + box("gas", "gas_5_3", r=[0.0, 0.9], z=[0.0, 2 * size], density=1.0, energy=0.0, velocity=[-each, 0.0])
-            + stop(0.5 / each)))  # fmt: skip
+            + stop(0.5 / each)))
         while simulation.stop_reason() is None:
             simulation.step()
         densities.append(simulation.array("density")[0].max())

@@ -39,7 +39,7 @@ def off(text: str, speed: float, *velocities: float) -> tuple[float, float]:
 
 
 def bars(rim: float, face: float, below: float, above: float, *, wider: float | None = None, gap: float = 0.0,
-         hard: str = "steel", geometry: str = "cylindrical") -> str:  # fmt: skip
+         hard: str = "steel", geometry: str = "cylindrical") -> str:
     """Two bars that meet at z = 20 + face, with radii of 3 + rim or, the upper one, `wider`, in mm; velocities in m/s."""
     radius = (3.0 + rim) * MM
     return (
@@ -49,7 +49,7 @@ def bars(rim: float, face: float, below: float, above: float, *, wider: float | 
               velocity=above)
         + contact(hard)
         + stop("16 us")
-    )  # fmt: skip
+    )
 
 
 def everywhere(case, speed: float, *velocities: float) -> None:
@@ -75,7 +75,7 @@ def test_bars_that_touch_fly_apart(speed):
     pytest.param({"wider": 4.25}, id="wider"),
     pytest.param({"wider": 2.4}, id="narrower"),
     pytest.param({"gap": 0.3}, id="a gap"),
-])  # fmt: skip
+])
 def test_bars_of_every_kind_fly_apart(change):
     everywhere(lambda rim, face: bars(rim, face, -10.0, 10.0, **change), 10.0, -10.0, 10.0)
 
@@ -134,7 +134,7 @@ def side_by_side(flank: float, tail: float, geometry: str) -> str:
         + box("aluminium", "Al5083", r=[(5 + flank) * MM, 9.3 * MM], z=[15.2 * MM, 40.7 * MM])
         + contact("steel")
         + stop("16 us")
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.thorough
@@ -175,7 +175,7 @@ MISSED = pytest.mark.xfail(strict=True, reason="steel keeps -9.956, 9.978 of -10
 
 @pytest.mark.thorough
 @pytest.mark.parametrize(("cell", "shift"), [(1.0, 0.0), (1.0, 0.5), (0.5, 0.0), (0.5, 0.3), (0.5, 0.5),
-                                             pytest.param(1.0, 0.3, marks=MISSED)])  # fmt: skip
+                                             pytest.param(1.0, 0.3, marks=MISSED)])
 def test_triangles_that_touch_part(cell, shift):
     simulation = end(triangles(cell, shift, (-10.0, 10.0)))
     assert kept(simulation, 0) == pytest.approx([-10.0, 10.0], abs=1e-6)

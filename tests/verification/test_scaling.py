@@ -10,7 +10,7 @@ from tests.decks import body, box, contact, mesh, stop, table
 METALS = "".join(
     table(f"materials.{name}", based_on=base,
           strength={"model": "elastic-plastic", "yield_stress": strength, "shear_modulus": shear})
-    for name, base, strength, shear in (("hard", "W_alloy", 1.5e9, 136e9), ("soft", "Al5083", 0.3e9, 26e9)))  # fmt: skip
+    for name, base, strength, shear in (("hard", "W_alloy", 1.5e9, 136e9), ("soft", "Al5083", 0.3e9, 26e9)))
 KINDS = {
     "bonded": table("numerics", advection="momentum"),
     "both": table("numerics", advection="both", mixed_strength="solid"),

@@ -27,7 +27,7 @@ SLOW_BARS = {"elastic": (5e-4, 12e-6), "plastic": (6e-3, 30e-6)}  # strain and t
 
 
 def simulation(shape: dict, wide: float, high: float, around: str = "void", *, strong: float = 100.0,
-               geometry: str = "cylindrical", **edges: str) -> Simulation:  # fmt: skip
+               geometry: str = "cylindrical", **edges: str) -> Simulation:
     """A body of the metal, elastic by default.
 
     around : "void"; "tube", a fluid in which it slides without friction; "glue", the fluid, but bonded to it; or "gas"
@@ -39,13 +39,13 @@ def simulation(shape: dict, wide: float, high: float, around: str = "void", *, s
                    strength={"model": "elastic-plastic", "shear_modulus": "145 GPa", "yield_stress": f"{strong} GPa"})
         + entry("body", name="bar", material="metal", **shape)
         + stop("1 s")
-    )  # fmt: skip
+    )
     if around == "gas":
         air = {"model": "ideal-gas", "reference_density": 1.2, "adiabatic_index": 1.4, "specific_heat": 700.0}
         text += table("materials.fluid", eos=air)
     elif around != "void":
         text += material("fluid", "Al5083",
-                         strength={"model": "elastic-plastic", "shear_modulus": "1 MPa", "yield_stress": "1 Pa"})  # fmt: skip
+                         strength={"model": "elastic-plastic", "shear_modulus": "1 MPa", "yield_stress": "1 Pa"})
     if around != "void":
         text += box("tube", "fluid", r=[0.0, f"{wide} mm"], z=[0.0, f"{high} mm"])
     if around == "tube":

@@ -30,7 +30,7 @@ def impact(order=("rod", "plate", "cover"), sign=1, geometry="cylindrical", opti
         + table("failure", damage="material")
         + table("numerics", advection="ke", **numerics)
         + stop("1 s", cycles=40)
-    )  # fmt: skip
+    )
     return Simulation(deck.loads(text, options))
 
 
@@ -94,17 +94,17 @@ EDGES = {
     "pressure behind": ("transmit", "pressure", {"{far}_pressure": PULSE}),
     "pressure around": ("pressure", "transmit", {"r_max_pressure": "500 MPa"}),
     "held at a pressure": ("held", "pressure", {"{far}_pressure": "-50 MPa"}),
-}  # fmt: skip
+}
 
 
 def at_edges(case: str, sign: int) -> list[str]:
     """Options for edges, with a cover that goes on beyond the mesh."""
     (rim, behind, keys), far = EDGES[case], "z_max" if sign > 0 else "z_min"
     named = {key.format(far=far): value if value == PULSE else value.format(sign="" if sign > 0 else "-")
-             for key, value in keys.items()}  # fmt: skip
+             for key, value in keys.items()}
     ends = '["5 mm", "1 m"]' if sign > 0 else '["-1 m", "-5 mm"]'
     return [f'boundaries.r_max="{rim}"', f'boundaries.{far}="{behind}"', f"body.cover.z={ends}",
-            *(f"boundaries.{key}={value}" for key, value in named.items())]  # fmt: skip
+            *(f"boundaries.{key}={value}" for key, value in named.items())]
 
 
 @pytest.mark.parametrize("geometry", ["cylindrical", "planar"])
@@ -133,7 +133,7 @@ def test_contact_of_mirror_images():
     mass = up.grid.interior_vertices(up.state.mass)
     apart = max(np.abs(np.where(mass > 1e-6 * mass.max(), x - sign * y[:, ::-1], 0.0)).max()
                 for sign, x, y in ((1.0, *(up.grid.interior_vertices(one.state.u) for one in (up, down))),
-                                   (-1.0, *(up.grid.interior_vertices(one.state.v) for one in (up, down)))))  # fmt: skip
+                                   (-1.0, *(up.grid.interior_vertices(one.state.v) for one in (up, down)))))
     assert 0.0 < apart < 1e-7
 
 

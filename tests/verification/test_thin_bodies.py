@@ -21,7 +21,7 @@ def disc(name: str, low: float, high: float, speed: float = 1000.0, material: st
 def tube(*bodies: str, columns: int = 4, numerics=None, options: str = "") -> Simulation:
     """Bodies in columns and rows of 0.1 mm, 4 mm high."""
     text = (mesh((f"{0.1 * columns} mm", columns), [{"to": "4 mm", "size": "0.1 mm"}]) + walls("r_max") + "".join(bodies)
-            + NO_FRACTURE + table("numerics", **(numerics or {})) + options + stop("10 us"))  # fmt: skip
+            + NO_FRACTURE + table("numerics", **(numerics or {})) + options + stop("10 us"))
     return Simulation(deck.loads(text))
 
 
@@ -150,7 +150,7 @@ def test_a_slit_in_a_body_stays_in_its_place():
 
 def test_a_plate_flies_into_cells_of_four_times_its_thickness():
     text = (mesh(("2 mm", 4), [{"to": "5 mm", "size": "0.5 mm"}, {"to": "80 mm", "ratio": 1.1}]) + walls("r_max")
-            + box("plug", "Al5083", z=["1.25 mm", "2.75 mm"], velocity="1000 m/s") + stop("60 us"))  # fmt: skip
+            + box("plug", "Al5083", z=["1.25 mm", "2.75 mm"], velocity="1000 m/s") + stop("60 us"))
     simulation = Simulation(deck.loads(text))
     while simulation.time < 40e-6:
         simulation.step()
@@ -186,7 +186,7 @@ def test_an_oblique_foil_flies_along_its_normal(width, angle):
             + table("boundaries", r_min="outflow")
             + body("foil", "Al5083", "polygon", points=[[f"{x:.12f} mm", f"{z:.12f} mm"] for x, z in corners],
                    velocity=[float(1000 * across[0]), float(1000 * across[1])])
-            + NO_FRACTURE + stop("10 us"))  # fmt: skip
+            + NO_FRACTURE + stop("10 us"))
     simulation = Simulation(deck.loads(text))
 
     def spread():
@@ -211,7 +211,7 @@ def scab(frame: float) -> tuple[float, float]:
     material = ("[materials.al]\nfracture_pressure = 1e9\n"
                 'eos = { model = "mie-grueneisen", reference_density = 2703, sound_speed = 5240, hugoniot_slope = 1.4, '
                 "grueneisen = 1.97, specific_heat = 885 }\n"
-                'strength = { model = "elastic-plastic", shear_modulus = 27e9, yield_stress = 0.3e9 }\n')  # fmt: skip
+                'strength = { model = "elastic-plastic", shear_modulus = 27e9, yield_stress = 0.3e9 }\n')
     start = min(-2.0, 3e-3 * frame - 2.0)
     text = (mesh(("0.4 mm", 4), [{"to": f"{max(3.6, 3e-3 * frame + 4.0):.1f} mm", "size": "0.1 mm"}], z_start=f"{start:.1f} mm")
             + walls("r_max") + disc("flyer", -1, 0, 250.0 + frame, "al") + disc("target", 0, 3, frame, "al") + material

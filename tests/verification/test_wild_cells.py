@@ -40,7 +40,7 @@ def test_a_hot_slab_expands_and_never_cools_below_zero():
 #: how a ball and a block of one metal meet: metal, velocity, and more
 MET = [("Al", "10 km/s"), ("Fe", "10 km/s"), ("Al", "20 km/s"), ("Fe", "20 km/s"),
        ("Al", "10 km/s", 'body.block.thickness="2 mm"'), ("Al", "20 km/s", 'body.block.thickness="2 mm"'),
-       ("Al", "10 km/s", "numerics.courant=0.35"), ("Al", "15 km/s")]  # fmt: skip
+       ("Al", "10 km/s", "numerics.courant=0.35"), ("Al", "15 km/s")]
 
 
 def met(metal: str, velocity: str, *options: str) -> Simulation:

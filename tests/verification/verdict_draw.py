@@ -73,7 +73,7 @@ def ideal(name: str, gamma: float) -> str:
 
 
 def collide(flyer: Solid, target: Solid, speed: float, choice: str = "both", what: str = "pressure", cells: int = 100,
-            hard: bool = False, **keys) -> Row:  # fmt: skip
+            hard: bool = False, **keys) -> Row:
     """Two bodies without strength meet: pressure within 2 %, greatest pressure or energy of the target within 10 %."""
     exact, length = impact.impact(flyer, target, speed), 5e-3
     time = 0.5 * length / max(exact.target.speed, exact.flyer.speed - speed, speed)
@@ -279,7 +279,7 @@ def collapse(j: int, choice: str) -> Row:
     text = (mesh((1.0, n), (high, 2 if j == 2 else n)) + walls("z_min", *(("z_max",) if j == 2 else ()))
             + box("gas", "gas_5_3", r=[0.0, 1.0], z=[0.0, high], density=1.0, energy=0.05,
                   flow={"pattern": pattern, "speed": -1.0, "radius": 1.0, "exponent": -1.0})
-            + numerics(choice) + stop(0.5))  # fmt: skip
+            + numerics(choice) + stop(0.5))
 
     def error(simulation: Simulation) -> float:
         line = Line(simulation, "r")
@@ -331,7 +331,7 @@ def corner(mach: float = 2.0, cells: int = 40) -> Row:
             + body("corner", "air", "polygon", points=[[0.0, 1.52], [0.76, 0.2 + 0.76 * math.sqrt(3.0)], [0.76, 1.52]],
                    join="ahead", density=1.2, pressure=1e5)
             + box("behind", "air", z=[0.0, 1.52], join="ahead", density=rho, pressure=p, velocity=[across, along])
-            + ideal("air", 1.4) + stop(0.8 / foot))  # fmt: skip
+            + ideal("air", 1.4) + stop(0.8 / foot))
 
     def error(simulation: Simulation) -> float:
         grid = simulation.grid
@@ -351,7 +351,7 @@ def wedge(degrees: float, mach: float = 3.0) -> Row:
             + walls("r_max", z_min="velocity", z_min_velocity=mach * c)
             + body("wedge", "steel_4340", "polygon", points=[[0.0, 0.1], [0.5 * rise, 0.6], [0.0, 0.6]])
             + box("gas", "air", z=[0.0, 0.6], density=1.2, pressure=1e5, velocity=mach * c) + ideal("air", 1.4)
-            + stop(0.9 / (mach * c)))  # fmt: skip
+            + stop(0.9 / (mach * c)))
 
     def error(simulation: Simulation) -> float:
         grid = simulation.grid

@@ -14,7 +14,7 @@ class Piston(Velocity):
     in_words = "a piston"
     meaning = "the normal velocity is a table over time; material crosses the edge as at a constant velocity"
     keys = (Parameter("piston", "s, m/s", REQUIRED, "normal velocity over time", sign=ANY, table=OVER_TIME,
-                      example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]]),)  # fmt: skip
+                      example=[["0 us", "0 m/s"], ["1 us", "100 m/s"]]),)
     sink = "piston"
     sink_meaning = "momentum that pistons take, and the work that they do (negative)"
 

@@ -15,7 +15,7 @@ class Pressure(Edge):
     meaning = ("a pressure from beyond, constant or a table over time, acts on the bodies at the edge; they may leave, and "
                "where they go inward more of them comes in")
     keys = (Parameter("pressure", "s, Pa", REQUIRED, "pressure from beyond, a number or a table over time", sign=ANY,
-                      table=CONSTANT_OR_OVER_TIME, example="100 kPa"),)  # fmt: skip
+                      table=CONSTANT_OR_OVER_TIME, example="100 kPa"),)
     sink = "pressure"
     sink_meaning = "momentum that edges with a pressure take (negative: give), and the work that they do (negative)"
 

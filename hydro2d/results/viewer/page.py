@@ -21,7 +21,7 @@ PAGE = "view.html"
 #: the parts of the program, in order
 SCRIPTS = (
     "data.js", "colours.js", "axes.js", "outlines.js", "section.js", "gestures.js", "panels.js", "controls.js", "main.js",
-)  # fmt: skip
+)
 #: colour maps that the page offers, by their names in matplotlib; the last is for fields with negative values
 MAPS = ("viridis", "cividis", "inferno", "gray", "RdBu_r")
 COLOURS = 256

@@ -94,7 +94,7 @@ class _Frames:
             "z_edges": self.first.z_edges.tolist(), "bits": self.bits,
             "stored": [shown(each.word) for each in self.stored], "pieces": self.pieces, "thin": self.thin, "boxes": self.boxes,
             "fields": [_described(each, self.ranges[each.word]) for each in _shown(self.stored)],
-        }  # fmt: skip
+        }
 
 
 def _same(edges: np.ndarray, others: np.ndarray) -> bool:
@@ -167,14 +167,14 @@ def _history(run, store: packing.Store) -> dict:
     step = -(-len(columns["time"]) // ROWS)
     rows = np.unique(np.append(np.arange(0, len(columns["time"]), step), len(columns["time"]) - 1))
     stations = [{"kind": kind, "name": shown(name), "r": f"{kind}_{name}_r_m", "z": f"{kind}_{name}_z_m"}
-                for kind in station_arrays.KINDS for name in station_arrays.stations(columns, kind)]  # fmt: skip
+                for kind in station_arrays.KINDS for name in station_arrays.stations(columns, kind)]
     kept = [_column(name, column[rows], store) for name, column in columns.items() if name != "time"]
     table = {"rows": len(rows), "step": step, "time": store.add(packing.packed_column(columns["time"][rows], "<f8")),
-             "columns": kept, "regimes": list(REGIMES)}  # fmt: skip
+             "columns": kept, "regimes": list(REGIMES)}
     return {"history": table, "stations": stations}
 
 
 def _column(name: str, values: np.ndarray, store: packing.Store) -> dict:
     unit, scale = reader_unit(history.unit(name))
     return {"name": name, "label": shown(history.spoken(name)), "unit": "" if unit == "1" else unit,
-            "piece": store.add(packing.packed_column(values * scale, "<f4"))}  # fmt: skip
+            "piece": store.add(packing.packed_column(values * scale, "<f4"))}

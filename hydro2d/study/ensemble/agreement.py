@@ -66,4 +66,4 @@ def score(shares: Sequence[Share]) -> Score | None:
         return None
     logs = [math.log(probability(each.successes, each.trials)) for each in shares]
     return Score(len(shares), sum(each.successes for each in shares), sum(each.trials for each in shares),
-                 sum(2 * each.successes > each.trials for each in shares), math.exp(sum(logs) / len(logs)))  # fmt: skip
+                 sum(2 * each.successes > each.trials for each in shares), math.exp(sum(logs) / len(logs)))

@@ -47,7 +47,7 @@ class Meshes:
         changes = ["", *(f"{fine - coarse:+.3g}" for coarse, fine in itertools.pairwise(means))][: len(means)]
         rows = [(f"{each.cells:g}", str(each.count), f"{each.mean:.4g}", f"{each.scatter:.2g}", f"{each.error:.2g}", change,
                  regime)
-                for each, change, regime in zip(self.levels, changes, self.regimes, strict=True)]  # fmt: skip
+                for each, change, regime in zip(self.levels, changes, self.regimes, strict=True)]
         return [self.response.title, *lines(rows, HEADS), *self._conclusion()]
 
     def _conclusion(self) -> list[str]:
@@ -61,7 +61,7 @@ class Meshes:
             return [*words, f"it does not extrapolate: {limit.words}"]
         unit = f" {self.response.unit}" if self.response.unit else ""
         return [*words, f"extrapolated: {limit.value:.4g}{unit}, {limit.low:.4g} to {limit.high:.4g} (90 %), order "
-                       f"{limit.order:.2g}; {limit.words}"]  # fmt: skip
+                       f"{limit.order:.2g}; {limit.words}"]
 
     def data(self) -> dict:
         """For programs; values in SI."""
@@ -75,7 +75,7 @@ class Meshes:
                 "value": self.limit.value / factor, "low": self.limit.low / factor, "high": self.limit.high / factor,
                 "order": self.limit.order},
             "in_words": self.limit.words,
-        }  # fmt: skip
+        }
 
 
 def plan(deck: Path, cells: Sequence[float], ensemble: dict, overrides: Overrides) -> Plan:
@@ -89,7 +89,7 @@ def plan(deck: Path, cells: Sequence[float], ensemble: dict, overrides: Override
     tables = {
         "title": f"{file.stem} on {len(cells)} meshes", "deck": str(file.resolve()),
         "axis": [{"name": AXIS, "variants": variants}], "ensemble": ensemble,
-    }  # fmt: skip
+    }
     return plan_of(tables, file.stem, overrides)
 
 
@@ -109,7 +109,7 @@ def _cells(each: Ensemble) -> float:
 
 def _sequence(ensembles: Sequence[Ensemble], y: Response) -> Meshes:
     samples = [(_cells(each), [value * y.factor for record in each.ended if (value := raw(record, y.name)) is not None])
-               for each in ensembles]  # fmt: skip
+               for each in ensembles]
     known = [(cells, values) for cells, values in samples if len(values) > 1]
     levels = [extrapolation.level(cells, values) for cells, values in known]
     regimes = [each.regimes for each, (_, values) in zip(ensembles, samples, strict=True) if len(values) > 1]
@@ -120,7 +120,7 @@ def _sequence(ensembles: Sequence[Ensemble], y: Response) -> Meshes:
         limit = Limit(None, None, None, None, f"fewer than two members have ended on {few} cells")
     elif len(kinds) > 1:
         limit = Limit(None, None, None, None, f"runs end in {len(kinds)} ways ({', '.join(sorted(kinds))}), and a mean "
-                                              "describes none of them")  # fmt: skip
+                                              "describes none of them")
     elif y.name == DEPTH and any(each.bound is not None for each in ensembles):
         limit = Limit(None, None, None, None, "some depths are lower bounds, since the projectile perforated or left the mesh")
     else:

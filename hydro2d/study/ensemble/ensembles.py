@@ -20,7 +20,7 @@ FILE = "ensembles.csv"
 #: columns of a run that are not those of its ensemble
 OF_RUNS = ("ensemble", "member", "seed", "time_s", "cycles", "wall_s", "directory", "depth_error_m", "depth_error_percent",
            "depth_error_is", "residual_error_m_s", "unfinished", "mass_change_worst", "momentum_change", "energy_change",
-           "ns_per_cell_cycle")  # fmt: skip
+           "ns_per_cell_cycle")
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def _row(each: Ensemble, shared: Row, names: Sequence[str], regimes: Sequence[st
         "case": each.name, "status": ", ".join([done, *(f"{number} {status}" for status, number in statuses.items())]),
         "message": "; ".join(dict.fromkeys(record.case.message for record in each.members if record.case.message)),
         "members": len(each.members), "ended": len(each.ended), "cut": each.cut, "regime": next(iter(each.regimes), None),
-    }  # fmt: skip
+    }
     for name in names:
         column, values = ("depth_m" if name == DEPTH else name), each.spread(name)
         stem, unit = _stem(column)
@@ -120,7 +120,7 @@ def _stem(column: str) -> tuple[str, str]:
 
 def _share(name: str, share: Share | None) -> Row:
     return {f"{name}_fraction": share and share.fraction, f"{name}_fraction_low": share and share.low,
-            f"{name}_fraction_high": share and share.high}  # fmt: skip
+            f"{name}_fraction_high": share and share.high}
 
 
 def table(ensembles: Sequence[Ensemble], drawn: Sequence[Response] = ()) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:

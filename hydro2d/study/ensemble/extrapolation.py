@@ -122,5 +122,5 @@ def _refused(levels: Sequence[Level], orders: np.ndarray, share: float) -> str:
         return f"the means go up and down from mesh to mesh; {few}"
     if np.mean(orders >= ORDERS[-1]) > 0.5:
         return (f"the change falls faster than with the order {ORDERS[-1]:g}, so that the coarsest mesh does not belong to the "
-                f"sequence; {few}. A finer mesh in its place may")  # fmt: skip
+                f"sequence; {few}. A finer mesh in its place may")
     return f"the change does not fall as fast as with the order {ORDERS[0]:g}, or scatter hides it; {few}"

@@ -55,5 +55,5 @@ def lost(record: Any) -> Verdict | None:
     first, mass = record.first.get("rod_mass_kg"), record.value("rod_mass_kg")
     if record.perforated and (record.left or (first and mass < (1.0 - ERODED_MASS) * first)):
         return Verdict(None, "the projectile went through the target and left the mesh; stop.perforation = true ends a run "
-                             "before that")  # fmt: skip
+                             "before that")
     return Verdict(None, "the projectile left the mesh before it came to rest") if record.left else None

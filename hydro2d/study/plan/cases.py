@@ -26,7 +26,7 @@ from hydro2d.study.plan.study_file import StudyFile, keys_of, place_of, share
 
 
 def plan(path: Path, overrides: Overrides | None = None, *, search: bool | None = None, quiet: bool = False,
-         size: Size = AS_IT_IS) -> Plan:  # fmt: skip
+         size: Size = AS_IT_IS) -> Plan:
     """Reads a study file and resolves all decks.
 
     search : whether the study must be a search; None: it may be either
@@ -67,7 +67,7 @@ class _Planner:
         self._known_keys(files)
         study.refuse()
         described = [{"name": axis.name, "key": axis.key, "values": [choice.label for choice in choices]}
-                     for axis, choices in zip(self.definition.axis, axes, strict=True)]  # fmt: skip
+                     for axis, choices in zip(self.definition.axis, axes, strict=True)]
         interval = self._velocities(speeds, bare, files) if speeds else None
         if interval is not None:
             combinations = self._at_velocities(combinations, interval)
@@ -88,7 +88,7 @@ class _Planner:
             name=study.path.stem, title=self.definition.title, text=study.text,
             out=Path(self.definition.out or f"runs/{study.path.stem}"), axes=described, cases=cases, search=interval,
             ensemble=study.ensemble, keep=study.folder / keep if (keep := self.definition.keep) else None, sample=sample,
-        )  # fmt: skip
+        )
 
     def _of_the_kind(self, search: bool | None) -> None:
         """Raises StudyError for a search instead of a sweep, a sweep instead of a search, or a study of parts."""
@@ -273,7 +273,7 @@ class _Planner:
         if ensemble is None:
             return [self._by_chance(case, deck, files[base])]
         group = [replace(case, name=members.name(name, number), of=name or self.study.path.stem, member=number,
-                         changed=members.amounts(ensemble, number)) for number in range(ensemble.repeats)]  # fmt: skip
+                         changed=members.amounts(ensemble, number)) for number in range(ensemble.repeats)]
         if deck is None:
             return group[:1]
         try:

@@ -153,7 +153,7 @@ class Transition(Section):
             return self
         if len(BY_NAME[self.of].order) > 2:
             raise ValueError(f'with a budget the outcome must be one of two, and of = "{self.of}" has more; '
-                             'give of = "erosion"')  # fmt: skip
+                             'give of = "erosion"')
         if self.tolerance is not None:
             raise ValueError("tolerance belongs to a bisection, which ends there; with a budget, the budget ends the search")
         size = self.round or ROUND
@@ -218,7 +218,7 @@ class Definition(Section):
 _TABLES: dict[tuple, type[Section]] = {
     (): Definition, ("axis",): Axis, ("axis", "range"): Range, ("transition",): Transition,
     ("sample",): Sample, ("sample", "input"): Input, ("ensemble",): Ensemble, ("part",): Part,
-}  # fmt: skip
+}
 
 
 def read(path: Path, overrides: Overrides) -> tuple[Definition, str, dict, Sources]:

@@ -100,7 +100,7 @@ KNOBS = {knob.name: knob for knob in (
     Knob("mesh offset", "mesh.z_start", "mesh.z", lambda x: SHIFT * (2.0 * x - 1.0), _shifted),
     Knob("flank offset", "mesh.r_start", "mesh.r", lambda x: FLANK * (2.0 * x - 1.0), _stretched),
     Knob("first step", "numerics.initial_dt_factor", "", lambda x: 1.0 - STEP * x, _first_step),
-)}  # fmt: skip
+)}
 
 
 def amounts(ensemble: Ensemble, number: int) -> dict[str, float]:

@@ -30,7 +30,7 @@ def settings(deck: decks.Deck, cells: float) -> dict[str, Any]:
     first = {"cells": max(round(end * cells / radius), 1), **across}
     return {**decks.written_segments(deck),
             "mesh.r": [as_text(each) for each in (first, *(_scaled(*each, factor) for each in rest))],
-            "mesh.z": [as_text(_scaled(*each, factor)) for each in _laid(deck, "z")]}  # fmt: skip
+            "mesh.z": [as_text(_scaled(*each, factor)) for each in _laid(deck, "z")]}
 
 
 def _laid(deck: decks.Deck, axis: str) -> Iterator[tuple[Segment, int, float]]:

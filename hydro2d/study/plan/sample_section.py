@@ -209,5 +209,5 @@ class Sample(Section):
                 raise ValueError(f"{' and '.join(extra)}: belongs to method; a table has its own points")
         elif self.n is None or not self.input:
             raise ValueError(f'method = "{self.method}" needs n, and a table of its distribution for each input, such as '
-                             '[sample.input."body.rod.velocity"]')  # fmt: skip
+                             '[sample.input."body.rod.velocity"]')
         return self

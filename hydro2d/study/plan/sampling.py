@@ -68,7 +68,7 @@ class Points:
     def data(self) -> dict[str, Any]:
         """The contents as plain data, for JSON."""
         return {"method": self.method, "seed": self.seed, "table": self.table, "results": list(self.results),
-                "inputs": [each.data() for each in self.inputs], "rows": [list(row) for row in self.rows]}  # fmt: skip
+                "inputs": [each.data() for each in self.inputs], "rows": [list(row) for row in self.rows]}
 
 
 def points(sample: Sample, inputs: Sequence[Distribution], folder: Path) -> Points:
@@ -78,11 +78,11 @@ def points(sample: Sample, inputs: Sequence[Distribution], folder: Path) -> Poin
     cube, notes = _cube(sample, len(inputs))
     columns = [each.values(cube[:, number]) for number, each in enumerate(inputs)]
     chosen = [dict(zip(each.levels, sample.input[each.key].choice, strict=True)) if each.kind == CHOICE else None
-              for each in inputs]  # fmt: skip
+              for each in inputs]
     texts = [[levels[value] if levels else _written(value, each.unit) for value in column]
-             for each, column, levels in zip(inputs, columns, chosen, strict=True)]  # fmt: skip
+             for each, column, levels in zip(inputs, columns, chosen, strict=True)]
     return Points(tuple(inputs), tuple(zip(*columns, strict=True)), tuple(zip(*texts, strict=True)), sample.method,
-                  sample.seed or 0, results=sample.results, notes=notes)  # fmt: skip
+                  sample.seed or 0, results=sample.results, notes=notes)
 
 
 def _cube(sample: Sample, dimensions: int):
@@ -98,7 +98,7 @@ def _cube(sample: Sample, dimensions: int):
     cube = engine.random_base2(power)[: sample.n]  # the first n of them: more points with the same seed keep the earlier ones
     if sample.n != 2**power:
         notes = (f"sample.n = {sample.n} is not a power of two, so that the points of Sobol's sequence do not fill the space "
-                 f"evenly; {2 ** (power - 1)} or {2**power} would",)  # fmt: skip
+                 f"evenly; {2 ** (power - 1)} or {2**power} would",)
     return cube, notes
 
 
@@ -121,17 +121,17 @@ def read(file: Path, results: tuple[str, ...] = ()) -> Points:
             problems.append(f"{file}: row {row} has {len(cells)} cells, and the head {len(heads)}")
             continue
         problems += [f'{place(file, row, head)}: {wrong}' for head, (_, unit), cell in zip(heads, keys, cells, strict=True)
-                     if (wrong := _bad_cell(cell, unit))]  # fmt: skip
+                     if (wrong := _bad_cell(cell, unit))]
     if problems:
         raise StudyError("\n".join(problems))
     columns = [[_value(row[number]) for row in rows] for number in range(len(heads))]
     inputs = tuple(Distribution.of_column(key, unit, column) for (key, unit), column in zip(keys, columns, strict=True))
     values = [[label(value) for value in column] if each.kind == CHOICE else list(map(float, column))
-              for each, column in zip(inputs, columns, strict=True)]  # fmt: skip
+              for each, column in zip(inputs, columns, strict=True)]
     texts = [[f"{cell} {unit}" if unit else _value(cell) for cell in column]
-             for (_, unit), column in zip(keys, zip(*rows, strict=True), strict=True)]  # fmt: skip
+             for (_, unit), column in zip(keys, zip(*rows, strict=True), strict=True)]
     return Points(inputs, tuple(zip(*values, strict=True)), tuple(zip(*texts, strict=True)), "table", table=file.name,
-                  results=results)  # fmt: skip
+                  results=results)
 
 
 def place(file: Path, row: int, head: str) -> str:

@@ -46,7 +46,7 @@ DIGITS = 6
 CELLS, MEMBER, SETUP, OF_METHOD = "cells_across", "member", "setup", "method"
 #: columns after the labels of a case
 RESULTS = ("status", "stop_reason", "trustworthy", *Outcome.model_fields, "tail_velocity_m_s", "regime", "hole_m3", "time_s",
-           "cycles", "wall_s")  # fmt: skip
+           "cycles", "wall_s")
 #: those that rows of earlier versions lack
 LATER = ("perforated", "final", "depth_is", "depth_error_m", "depth_error_percent", "depth_error_is", "residual_error_m_s")
 ORIGIN = (SETUP, OF_METHOD, "commit", "date")
@@ -59,14 +59,14 @@ _WORDS = {"status": Column("status", one_of(*ENDED), empty=False), "stop_reason"
           "trustworthy": Column("trustworthy", flag), "regime": Column("regime", one_of(*REGIMES, UNDECIDED)),
           "perforated": Column("perforated", flag), "final": Column("final", flag),
           "depth_is": Column("depth_is", one_of(COMPUTED, AT_LEAST)),
-          "depth_error_is": Column("depth_error_is", one_of(EXACT, AT_LEAST, AT_MOST, NONE))}  # fmt: skip
+          "depth_error_is": Column("depth_error_is", one_of(EXACT, AT_LEAST, AT_MOST, NONE))}
 OF_RESULTS = tuple(replace(_WORDS.get(name) or Column(name, number), required=name not in LATER) for name in RESULTS)
 COLUMNS = (
     Column(CELLS, number), Column(MEMBER, whole, empty=False), *OF_RESULTS,
     Column(SETUP, like(rf"[0-9a-f]{{{LETTERS}}}", f"a hash of {LETTERS} digits from 0 to f")),
     Column(OF_METHOD, like(r"\d{4}-\d\d-\d\d(\.\d+)?", "a version, such as 2026-01-31")),
     Column("commit"), Column("date", like(r"\d{4}-\d\d-\d\d", "a date as 2026-01-31")),
-)  # fmt: skip
+)
 #: the check of a velocity of a search
 OF_SPEED = like(r"-?\d+(\.\d+)?(e[+-]?\d+)? m/s", "a velocity in m/s")
 #: what to do about a file that is not as a sweep wrote it
@@ -136,7 +136,7 @@ def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
         return {}
     values = sample.rows[int(case.values[sampling.AXIS]) - 1]
     return {each.head: value if isinstance(value, str) else repr(value)
-            for each, value in zip(sample.inputs, values, strict=True)}  # fmt: skip
+            for each, value in zip(sample.inputs, values, strict=True)}
 
 
 def results(summary: Mapping) -> dict[str, object]:
@@ -145,7 +145,7 @@ def results(summary: Mapping) -> dict[str, object]:
     values = {name: summary.get(name) for name in RESULTS}
     values |= {name: outcome.get(name) for name in Outcome.model_fields}
     values |= {"tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
-               "hole_m3": (summary.get("crater") or {}).get("volume_m3")}  # fmt: skip
+               "hole_m3": (summary.get("crater") or {}).get("volume_m3")}
     return {name: values[name] for name in RESULTS}
 
 
@@ -154,7 +154,7 @@ def origin(summary: Mapping) -> dict[str, str | None]:
     about = summary.get("provenance") or {}
     commit = (about.get("git_commit") or "")[:LETTERS] + ("+" if about.get("git_dirty") else "")
     return {SETUP: summary.get(SETUP), OF_METHOD: summary.get(OF_METHOD), "commit": commit,
-            "date": (about.get("written") or "")[:10]}  # fmt: skip
+            "date": (about.get("written") or "")[:10]}
 
 
 def _text(value) -> str:
@@ -202,7 +202,7 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
         for same, what in ((run, "run"), (of_setup, "set-up")):
             other = kept.setdefault((what, *same), row)
             if name := next((name for name in (SETUP, OF_METHOD, *RESULTS)
-                             if row[name] != other[name] and name not in OF_MACHINE), ""):  # fmt: skip
+                             if row[name] != other[name] and name not in OF_MACHINE), ""):
                 here, there = row[name], f'line {other.line} has "{other[name]}" for the same {what}'
                 raise StudyError(f'{path}:{row.line}: column "{name}": "{here}", and {there}; remove the line that is wrong')
     return [row for (what, *_), row in kept.items() if what == "run"]
@@ -286,11 +286,11 @@ class Keeper:
         self.heads = tuple(each.head for each in inputs)
         self.more = plan.sample.results if plan.sample else ()
         self.wanted = {case.name: Wanted(case, self.axes, _inputs(plan.sample, case), self.more)
-                       for case in plan.cases if case.text}  # fmt: skip
+                       for case in plan.cases if case.text}
         checks = {velocities.AXIS: OF_SPEED} if plan.search else {sampling.AXIS: whole} if plan.sample else {}
         labels = (Column(axis, checks.get(axis, str), empty=axis not in checks) for axis in self.axes)
         self.columns = (*labels, *(input_column(each, stale=True) for each in inputs),
-                        *(Column(name, number, required=False) for name in self.more))  # fmt: skip
+                        *(Column(name, number, required=False) for name in self.more))
         self.made: dict[tuple[str, ...], Row] = {}
         self._read()
 
@@ -320,7 +320,7 @@ class Keeper:
         """The number of cases that have a row, but none that is up to date."""
         fresh, known = self.fresh(names), {self._identity(row) for row in self.rows}
         return sum(self._identity(self.wanted[name].about) in known for name in names
-                   if name in self.wanted and name not in fresh)  # fmt: skip
+                   if name in self.wanted and name not in fresh)
 
     def in_words(self, names: Sequence[str]) -> str:
         """The numbers of cases that are up to date, stale, or without a row, in words."""
@@ -339,7 +339,7 @@ class Keeper:
         """
         self.wanted |= {case.name: Wanted(case, self.axes) for case in planned if case.text and case.name not in self.wanted}
         rows = {case.name: self.wanted[case.name].row(case) for case in cases
-                if case.status in ENDED and case.name in self.wanted}  # fmt: skip
+                if case.status in ENDED and case.name in self.wanted}
         self.made |= {self._identity(row): row for row in rows.values() if row[OF_METHOD] == METHOD}
         if not self.wrong and not self._unwritten():
             return []
@@ -359,7 +359,7 @@ class Keeper:
             other = known.get(identity)
             if other is None or any(other.get(name, "") != text for name, text in row.items()):
                 found.append("" if other is None or other[SETUP] != row[SETUP] or other[OF_METHOD] != METHOD
-                             else self._corrected(other, row, "its run"))  # fmt: skip
+                             else self._corrected(other, row, "its run"))
         return found
 
     def _corrected(self, row: KeptRow, right: Row, source: str) -> str:

@@ -151,7 +151,7 @@ class Record:
         measured = {**self.last, **{name: value for name, value in summary.items() if value is not None}}
         return outcome.of(Projectile(**{name: measured.get(name) for name in Projectile.model_fields}), status=self.case.status,
                           stop_reason=summary.get("stop_reason") or "", impact_velocity=self.velocity,
-                          thickness=self.setup.thickness, dropped=None)  # fmt: skip
+                          thickness=self.setup.thickness, dropped=None)
 
     @property
     def unfinished(self) -> str:
@@ -302,7 +302,7 @@ def _setup(deck: decks.Deck, body, shot: model_deck.Shot | None) -> Setup:
         rod=deck.materials[body.material].name, target=" + ".join(names), nose=shot.nose if shot else getattr(body, "nose", ""),
         diameter=diameter, length=length,
         thickness=targets.thickness(deck), shape=body.shape,
-    )  # fmt: skip
+    )
 
 
 def _read_history(record: Record) -> None:

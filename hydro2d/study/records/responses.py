@@ -28,7 +28,7 @@ TITLES = {
     DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity",
     "rod_length_m": "projectile length",
     "rod_length_ratio": "final / initial length", "rod_radius_ratio": "largest / initial radius",
-}  # fmt: skip
+}
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s].*?)?\s*$")
 _ENDING = re.compile(r"_(kg_m3|J_kg|m_s|N_s|kg|Pa|K|J|s|m2|m3|m)$")
 
@@ -76,7 +76,7 @@ class Choice:
 
 
 def choose(study: Study, records: Sequence[Record], x: str | None = None, y: Sequence[str] = (),
-           by: Sequence[str] = ()) -> Choice:  # fmt: skip
+           by: Sequence[str] = ()) -> Choice:
     """Resolves the names, with sensible defaults. Raises StudyError for an unknown name."""
     names = y or _usual_responses(records)
     known = numbers(records)
@@ -199,11 +199,11 @@ def _cases(records: Sequence[Record]) -> Variable:
 def combinations(study: Study, records: Sequence[Record]) -> Variable | None:
     """The combinations of the axes of a study in words, in the order of its cases; None if no axis varies among the runs."""
     axes = [axis for axis in study.axes if not axis.is_of_points
-            and len({record.case.values.get(axis.name) for record in records}) > 1]  # fmt: skip
+            and len({record.case.values.get(axis.name) for record in records}) > 1]
     if not axes:
         return None
     words = {record.case.name: ", ".join(axis.said(record.case.values.get(axis.name, "")) for axis in axes)
-             for record in records}  # fmt: skip
+             for record in records}
     return Variable(CASE, ", ".join(axis.name for axis in axes), words, tuple(dict.fromkeys(words.values())))
 
 

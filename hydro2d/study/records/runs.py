@@ -70,7 +70,7 @@ def _case(labels: Mapping[str, str]) -> str:
 def _typed(row: Mapping[str, str], checks: Mapping[str, object]) -> Row:
     """The entries of a kept row as values; None for an empty one. Columns of the study's own are numbers if they can be."""
     return {name: None if not text else VALUES[checks[name]](text) if checks.get(name) in VALUES else
-            text if name in checks else _number(text) for name, text in row.items()}  # fmt: skip
+            text if name in checks else _number(text) for name, text in row.items()}
 
 
 def _number(text: str) -> float | str:

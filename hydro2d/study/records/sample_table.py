@@ -53,10 +53,10 @@ def rows(sample: Points, axes: Sequence[str], cases: Sequence[Case], kept: Mappi
     """
     results = [_results(case, kept.get(case.name), sample.results) for case in cases]
     names = [name for name in dict.fromkeys(name for each in results for name in each)
-             if any(each.get(name) not in (None, "") for each in results) or name in sample.results]  # fmt: skip
+             if any(each.get(name) not in (None, "") for each in results) or name in sample.results]
     members = any(case.ensemble for case in cases)
     return [_run(case, axes, members) | _inputs(case, sample) | {name: each.get(name) for name in names}
-            for case, each in zip(cases, results, strict=True)]  # fmt: skip
+            for case, each in zip(cases, results, strict=True)]
 
 
 def _run(case: Case, axes: Sequence[str], members: bool) -> Row:
@@ -118,14 +118,14 @@ def read(study: Study) -> Table:
         for head, value in _inputs(case, sample).items():
             if keeping.differ(line[head], str(value)):
                 raise StudyError(f'{file}:{line.line}: column "{head}": is {line[head]}, and the run of this line has {value}; '
-                                 f"{REMEDY}")  # fmt: skip
+                                 f"{REMEDY}")
         lines[case.name] = line
     if len(lines) != len(study.cases):
         raise StudyError(f"{file} is not of this study: it has {len(lines)} rows, and there are {len(study.cases)} runs; "
                          f"{REMEDY}")
     others = (*heads, *(each.head for each in sample.inputs))
     ended = {name: {head: text for head, text in line.items() if head not in others}
-             for name, line in lines.items() if line[STATUS] in keeping.ENDED}  # fmt: skip
+             for name, line in lines.items() if line[STATUS] in keeping.ENDED}
     made = rows(sample, axes, study.cases, ended)
     columns = dict(zip(made[0], map(list, zip(*map(_texts, made), strict=True)), strict=True))
     wrong = {}
@@ -144,14 +144,14 @@ def _texts(row: Row) -> tuple[str, ...]:
 def _columns(sample: Points, heads: Sequence[str]) -> list[Column]:
     """The columns of the table; ``heads`` : those of number of the row, labels of the axes, and member."""
     results = [replace(column, required=False) for column in keeping.OF_RESULTS if column.name in RESULTS
-               and column.name != PERFORATED]  # fmt: skip
+               and column.name != PERFORATED]
     return [
         *(Column(head, whole if head in (sampling.AXIS, MEMBER) else str, empty=head not in (sampling.AXIS, MEMBER))
           for head in heads),
         *map(keeping.input_column, sample.inputs), Column(STATUS, one_of(*STATUSES), empty=False),
         *results, Column(PERFORATED, one_of(YES, NO), required=False),
         *(Column(name, number, required=False) for name in sample.results if name not in (*RESULTS, STATUS)),
-    ]  # fmt: skip
+    ]
 
 
 def _other(head: str) -> Column | None:

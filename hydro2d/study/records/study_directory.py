@@ -196,7 +196,7 @@ def _data(plan) -> dict:
         "key": interval.key, "speeds_m_s": [velocities.speed(label) for label in interval.labels],
         "tolerance_m_s": interval.tolerance, "of": interval.of, "depth_m": interval.depth,
         "budget": interval.budget and asdict(interval.budget),
-    }  # fmt: skip
+    }
     return {
         "title": plan.title,
         "name": plan.name,
@@ -280,7 +280,7 @@ def _interval(stored: dict) -> Interval:
     """The search in study.json; one of an earlier version has neither depth nor budget. Raises ValueError."""
     budget = stored.get("budget") or {}
     search = Interval(stored["key"], tuple(stored["speeds_m_s"]), stored["tolerance_m_s"], stored.get("of", "regime"),
-                      stored.get("depth_m"), velocities.Budget(**budget) if budget else None)  # fmt: skip
+                      stored.get("depth_m"), velocities.Budget(**budget) if budget else None)
     numbers = (*search.speeds, search.tolerance, search.depth or 0.0, *budget.values())
     if not all(isinstance(number, (int, float)) and math.isfinite(number) for number in numbers) or search.tolerance <= 0.0:
         raise ValueError("the search has something else than numbers")
@@ -354,7 +354,7 @@ def _case(directory: Path, entry: dict, ensemble: Ensemble | None) -> Case:
         "overrides": tuple(entry.get("overrides", ())), "deck_sha256": sha256,
         "of": str(entry.get("of", entry["name"])), "member": int(entry.get("member", 0)),
         "changed": {name: float(amount) for name, amount in entry.get("changed", {}).items()}, "ensemble": ensemble,
-    }  # fmt: skip
+    }
     if entry.get("status0") == INVALID:
         return Case(**common, status=INVALID, message=entry.get("message") or "")
     return Case(**common, **state(place, sha256))

@@ -21,7 +21,7 @@ NAMED_SINKS, SMALLEST_SHARE = 3, 1e-6
 #: numbers of a run with a median and a spread in an ensemble; all but the ratios are names of summary.json
 LENGTH_RATIO, RADIUS_RATIO = "rod_length_ratio", "rod_radius_ratio"
 RESULTS = (DEPTH, "rod_length_m", LENGTH_RATIO, "rod_max_radius_m", RADIUS_RATIO, "rod_tail_velocity_m_s", "rod_mass_kg",
-           RESIDUAL)  # fmt: skip
+           RESIDUAL)
 
 Row = dict[str, object]
 
@@ -36,7 +36,7 @@ def rows(study: Study, records: Sequence[Record], measurements: dict[str, Measur
 def _row(study: Study, record: Record, measurement: Measurement | None) -> Row:
     case, setup = record.case, record.setup
     row: Row = {"status": case.status, "message": case.message, "unfinished": record.unfinished,
-                "velocity_m_s": record.velocity}  # fmt: skip
+                "velocity_m_s": record.velocity}
     what = (setup.shape, setup.rod, setup.target, setup.nose, setup.thickness) if setup else (None,) * 5
     row |= zip(("projectile", "rod", "target", "nose", "target_thickness_m"), what, strict=True)
     row |= _results(record) | _compared(record, measurement) | _audit(case.summary) | _cost(record)
@@ -80,7 +80,7 @@ def _results(record: Record) -> Row:
 def _compared(record: Record, measurement: Measurement | None) -> Row:
     """The experiment and the error; unfinished runs have no error."""
     names = ("experiment_depth_m", "experiment_is", "experiment_source", "depth_error_m", "depth_error_percent",
-             "depth_error_is")  # fmt: skip
+             "depth_error_is")
     left, measured = raw(record, RESIDUAL), record.measured_residual
     compared = not (record.unfinished or left is None or measured is None)
     residual = {"experiment_residual_m_s": measured, "residual_error_m_s": left - measured if compared else None}
@@ -179,7 +179,7 @@ def _qualified(name: str, qualifier: str, form: str, factor: float = 1.0) -> Cal
 def sinks(row: Row) -> list[tuple[str, float]]:
     """The largest sinks with their shares of the start energy, the largest first."""
     shares = [(name[5:-6], float(value)) for name, value in row.items()
-              if name.startswith("sink_") and name.endswith("_share") and value is not None]  # fmt: skip
+              if name.startswith("sink_") and name.endswith("_share") and value is not None]
     largest = sorted(shares, key=lambda entry: -abs(entry[1]))[:NAMED_SINKS]
     return [entry for entry in largest if abs(entry[1]) >= SMALLEST_SHARE]
 

@@ -37,7 +37,7 @@ MOST_LINES = 12
 MOST_ACROSS = 4
 #: markers of measurements: qualifier -> marker and word
 MEASURED = {"measured": ("diamond-tall", "experiment"), "estimated": ("diamond-tall-open", "experiment, estimated"),
-            AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}  # fmt: skip
+            AT_LEAST: ("star-triangle-up", "experiment, at least (plate perforated)")}
 #: columns of the history that a model of a rod also gives, and their names there
 OF_MOTION = {DEPTH: "depth", "rod_tail_velocity_m_s": "velocity", "rod_length_m": "length"}
 THEORY_DASHES = ("solid", "dash", "dashdot", "dot", "8px,2px,2px,2px,2px,2px")
@@ -55,7 +55,7 @@ def _figure(rows: int = 1):
         plot_bgcolor=PAPER, hovermode="closest", hoverlabel={"bgcolor": PAPER, "bordercolor": MUTED, "font": {"color": INK}},
         modebar={"color": MUTED, "activecolor": "#0072b2", "bgcolor": "rgba(0,0,0,0)"},
         separators=".",  # of decimals alone: 1499.5, not 1,499.5
-    )  # fmt: skip
+    )
     lines = {"gridcolor": GRID, "linecolor": MUTED, "tickcolor": MUTED, "zeroline": False, "showline": True, "ticks": "outside",
              "minexponent": 6}  # 12000, not 12k
     figure.update_xaxes(**lines, title_standoff=6)
@@ -79,15 +79,15 @@ def _finished(figure, rows: int = 1, labels: int = 0, panel: float = PANEL):
     lines = sum(trace.name.count("<br>") + 1 for trace in shown)
     panel, below = rows * panel * (0.72 if rows > 1 else 1.0), LINE * lines + BELOW + labels
     legend = {"x": 0.0, "y": -(BELOW + labels - 12) / panel, "xanchor": "left", "yanchor": "top", "maxheight": 4000,
-              "tracegroupgap": 0, "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}  # fmt: skip
+              "tracegroupgap": 0, "itemsizing": "constant", "groupclick": "togglegroup", "font": {"size": 12}}
     figure.update_layout(height=int(panel + below + 34), legend=legend, showlegend=bool(shown),
-                         margin={"l": 62, "r": 14, "t": 34, "b": below})  # fmt: skip
+                         margin={"l": 62, "r": 14, "t": 34, "b": below})
     return figure
 
 
 def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
              shots: Sequence[Measurement], curves: Sequence[theory.Curve],
-             left: Sequence[residual.Curve]):  # fmt: skip
+             left: Sequence[residual.Curve]):
     """A response against a varied quantity: ended runs have filled marks, unfinished runs open ones, bounds triangles.
 
     setup : of a panel of one projectile and target, whose rear a line shows in a panel of depths
@@ -122,7 +122,7 @@ def response(setup: Setup | None, series: Sequence[Series], x: Variable, y: Resp
 
 
 def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[str, Measurement],
-          curves: Sequence[theory.Curve]):  # fmt: skip
+          curves: Sequence[theory.Curve]):
     """Depths at one velocity across, a row of marks for each word of ``rows``; models and marks as in ``response``."""
     figure = _figure()
     drawn = [(f"{curve.title}: {curve.depth[0] * y.factor:.3g} {y.unit}", "", curve.velocity, curve.depth * y.factor)
@@ -146,7 +146,7 @@ def strip(series: Sequence[Series], rows: Variable, y: Response, measured: dict[
             trace.marker.symbol = "triangle-right-open"
     wrapped = [textwrap.wrap(word, LETTERS // 2) or [""] for word in order]
     figure.update_yaxes(range=[len(order) - 0.5, -0.5], tickmode="array", tickvals=list(range(len(order))),
-                        ticktext=["<br>".join(map(in_plotly, lines)) for lines in wrapped])  # fmt: skip
+                        ticktext=["<br>".join(map(in_plotly, lines)) for lines in wrapped])
     figure.update_xaxes(title={"text": in_plotly(y.title)}, range=[0.0, 1.1 * shown])
     return _finished(figure, panel=sum(LINE * len(lines) + GAP for lines in wrapped))
 
@@ -157,7 +157,7 @@ def _words_below(figure, order: Sequence[str]) -> int:
     wrapped = [textwrap.wrap(word, LETTERS // (2 if upright else len(order) + 1)) or [""] for word in order]
     figure.update_xaxes(type="category", categoryorder="array", categoryarray=order, tickmode="array", tickvals=order,
                         ticktext=["<br>".join(map(in_plotly, lines)) for lines in wrapped], tickangle=-90 if upright else 0,
-                        range=[-0.5, len(order) - 0.5])  # fmt: skip
+                        range=[-0.5, len(order) - 0.5])
     longest = max(len(line) for lines in wrapped for line in lines)
     return 8 * longest if upright else LINE * (max(map(len, wrapped)) - 1)
 
@@ -177,7 +177,7 @@ def _levels(figure, lines: Sequence[tuple[str, str, np.ndarray, np.ndarray]], x:
         shape = {"color": MUTED, "width": 1.5, "dash": THEORY_DASHES[number % len(THEORY_DASHES)]}
         said = f"{in_plotly(name)}<br>{velocity[0]:.0f} m/s: %{{y:.4g}} {y.unit}<extra></extra>"
         figure.add_scatter(x=list(x.order), y=[float(f"{value[0]:.5g}")] * len(x.order), mode="lines", name=name, line=shape,
-                           meta="model", hovertemplate=said)  # fmt: skip
+                           meta="model", hovertemplate=said)
 
 
 def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
@@ -197,13 +197,13 @@ def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
         colour, marker = each.style.colour, each.style.marker
         how = {"symbol": marker, "size": SIZE, "color": colour}
         points(figure, ended, x, y, how, each.label, mode=mode, legendgroup=each.label,
-                line={"color": colour, "width": 1.0, "dash": each.style.dash})  # fmt: skip
+                line={"color": colour, "width": 1.0, "dash": each.style.dash})
         unfinished = unfinished or bool(rest)
         points(figure, rest, x, y, how | {"symbol": f"{marker}-open", "line": {"width": 1.8, "color": colour}},
-                "" if ended else each.label, mode="markers", legendgroup=each.label, meta="unfinished")  # fmt: skip
+                "" if ended else each.label, mode="markers", legendgroup=each.label, meta="unfinished")
     if unfinished:
         figure.add_scatter(x=[None], y=[None], mode="markers", name="open: unfinished, as far as it went",
-                           marker={"symbol": "circle-open", "size": SIZE, "color": INK})  # fmt: skip
+                           marker={"symbol": "circle-open", "size": SIZE, "color": INK})
 
 
 def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
@@ -213,7 +213,7 @@ def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
 
 
 def _depths(figure, series: Sequence[Series], x: Variable, y: Response, measured: dict[str, Measurement],
-            shots: Sequence[Measurement]) -> None:  # fmt: skip
+            shots: Sequence[Measurement]) -> None:
     """Measured depths, at their velocities or at those of their runs."""
     if x.impact:
         places = [(entry.velocity, entry) for entry in shots]
@@ -231,7 +231,7 @@ def _residuals(figure, series: Sequence[Series], x: Variable, y: Response) -> No
     """Measured residual velocities, at the places of the runs with these shots in their decks."""
     records = [record for each in series for record in each.records]
     entries = [(x.value(each), each.velocity, each.measured_residual, each.deck["experiment"]["source"])
-               for each in records if each.measured_residual is not None]  # fmt: skip
+               for each in records if each.measured_residual is not None]
     _experiments(figure, "measured", y, [entry for entry in dict.fromkeys(entries) if entry[0] is not None])
 
 
@@ -241,17 +241,17 @@ def _experiments(figure, qualifier: str, y: Response, entries: Sequence[tuple[fl
         return
     marker, word = MEASURED[qualifier]
     labels = [f"<b>{word}</b><br>{in_plotly(source)}<br>" + (f"{speed:.0f} m/s: " if speed else "")
-              + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in entries]  # fmt: skip
+              + f"{value * y.factor:.4g} {y.unit}" for _, speed, value, source in entries]
     figure.add_scatter(x=[place for place, *_ in entries], y=[value * y.factor for _, _, value, _ in entries], mode="markers",
                        name=word, text=labels, hovertemplate="%{text}<extra></extra>", meta="experiment",
-                       marker={"symbol": marker, "size": SIZE + 4, "color": INK})  # fmt: skip
+                       marker={"symbol": marker, "size": SIZE + 4, "color": INK})
 
 
 def _rear(figure, setup: Setup, y: Response) -> None:
     """The rear of the target, across the whole panel."""
     ends = [place for trace in figure.data for place in trace.x if isinstance(place, (int, float))]
     figure.add_scatter(x=[min(ends, default=0.0), max(ends, default=1.0)], y=[setup.thickness * y.factor] * 2, mode="lines",
-                       name="rear of the target", line={"color": INK, "width": 2.5}, hoverinfo="skip")  # fmt: skip
+                       name="rear of the target", line={"color": INK, "width": 2.5}, hoverinfo="skip")
 
 
 def _highest(figure) -> float:
@@ -284,11 +284,11 @@ def _motions(figure, motions: Mapping[float, tuple[float, Mapping[str, Motion]]]
                     mode="lines", name=label, legendgroup=label, showlegend=name == DEPTH, row=row, col=1, meta="model",
                     opacity=strength, line={"color": MUTED, "width": 1.5, "dash": dashes[model]},
                     hovertemplate=f"{in_plotly(label)}<br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}<extra></extra>",
-                )  # fmt: skip
+                )
 
 
 def histories(series: Sequence[Series],
-              motions: Mapping[float, tuple[float, Mapping[str, Motion]]] = MappingProxyType({})):  # fmt: skip
+              motions: Mapping[float, tuple[float, Mapping[str, Motion]]] = MappingProxyType({})):
     """Columns of the history against time, one panel each. Few runs have a line style each; many have that of their series.
 
     Members of ensembles have that of their series too; all but the first are thin. motions : of models, by impact velocity in
@@ -313,7 +313,7 @@ def histories(series: Sequence[Series],
                 showlegend=label not in in_legend, row=row, col=1,
                 hovertemplate=f"<b>{in_plotly(record.case.name)}</b><br>%{{x:.5g}} µs: %{{y:.5g}} {readers(name)[0]}"
                               "<extra></extra>",
-            )  # fmt: skip
+            )
             in_legend.add(label)
     _motions(figure, motions, names)
     for row, name in enumerate(names, 1):
@@ -328,5 +328,5 @@ def markup(figure, name: str) -> str:
         "responsive": True, "displaylogo": False, "plotlyServerURL": "",
         "toImageButtonOptions": {"filename": name, "scale": 2},
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "sendChartToCloud"],
-    }  # fmt: skip
+    }
     return figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, config=config)

@@ -120,7 +120,7 @@ class Divergence:
         text = [f"{one} and {other}", ""]
         text += [f"  {key}: {values[0]} and {values[1]}" for key, values in self.keys.items()] or ["  their decks are the same"]
         rows = [("quantity", "difference at the end", f"beyond {size:g} of its largest", "growth time"),
-                *(self._row(curve, size) for curve in self.curves)]  # fmt: skip
+                *(self._row(curve, size) for curve in self.curves)]
         text += ["", *columns(rows)]
         first = self.first(size)
         text += ["", f"  {first}" if first else f"  no field differs by more than {size:g} of its largest value"]
@@ -154,7 +154,7 @@ class Divergence:
             {"quantity": curve.name, "kind": curve.kind, "time_s": float(time), "relative_difference": float(value),
              **{f"cell_{name}": part for name, part in zip(Place._fields, _place(curve, n), strict=True)}}
             for curve in self.curves for n, (time, value) in enumerate(zip(curve.time, curve.difference, strict=True))
-        ]  # fmt: skip
+        ]
 
 
 def _place(curve: Curve, number: int) -> tuple:
@@ -327,7 +327,7 @@ def _draw(axes, curve: Curve, size: float, colour: str, label: str) -> None:
     said = label if grown is None else f"{label}: e times in {grown.time * 1e6:.3g} us"
     kept = curve.difference > 0.0
     axes.plot(curve.time[kept] * 1e6, curve.difference[kept], color=colour, linewidth=1.1, label=said,
-              marker="." if curve.kind == "field" else "", markersize=4)  # fmt: skip
+              marker="." if curve.kind == "field" else "", markersize=4)
     if grown is not None:
         time = np.array([grown.begin, grown.end])
         axes.plot(time * 1e6, np.exp(grown.offset + time / grown.time), color=colour, linestyle="--", linewidth=0.9)

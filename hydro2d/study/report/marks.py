@@ -19,7 +19,7 @@ def _hover(record: Record, x: Variable, y: Response) -> str:
     there, value = x.value(record), y.value(record)
     lines = [f"<b>{in_plotly(record.case.name)}</b>",
              f"{in_plotly(x.title)}: {in_plotly(there) if isinstance(there, str) else f'{there:.5g}'}",
-             f"{in_plotly(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]  # fmt: skip
+             f"{in_plotly(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]
     if record.value("regime"):
         lines.append(in_plotly(record.value("regime")))
     if record.unfinished:
@@ -37,7 +37,7 @@ def points(figure, records: Sequence[Record], x: Variable, y: Response, how, nam
             x=[x.value(record) for record in known], y=[y.value(record) for record in known], name=name, marker=how,
             text=[_hover(record, x, y) for record in known], hovertemplate="%{text}<extra></extra>",
             showlegend=bool(name), **options,
-        )  # fmt: skip
+        )
 
 
 def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
@@ -53,7 +53,7 @@ def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
     points(figure, ended, x, y, dot, meta="member", **options)
     points(figure, rest, x, y, dot | {"symbol": "circle-open", "opacity": 1.0}, meta="unfinished", **options)
     drawn = [(place, each, values) for each in grouped(series.records)
-             if (place := _place(each, x)) is not None and (values := each.spread(y.name)) is not None]  # fmt: skip
+             if (place := _place(each, x)) is not None and (values := each.spread(y.name)) is not None]
     if x.order is None:
         drawn.sort(key=lambda entry: entry[0])
     if drawn:
@@ -67,7 +67,7 @@ def ensembles(figure, series: Series, x: Variable, y: Response) -> bool:
             error_y={"type": "data", "symmetric": False, "array": above, "arrayminus": below, "color": colour, "thickness": 1.2,
                      "width": 5},
             text=[_hover_of_ensemble(place, each, x, y) for place, each, _ in drawn], hovertemplate="%{text}<extra></extra>",
-        )  # fmt: skip
+        )
     return bool(rest)
 
 
@@ -86,5 +86,5 @@ def _hover_of_ensemble(place: float | str, each: Ensemble, x: Variable, y: Respo
     at_least = "≥ " * (y.name == DEPTH and each.bound is not None and values.median >= each.bound)
     lines = [f"<b>{in_plotly(each.name)}</b>: {values.count} of {len(each.members)} members",
              f"{in_plotly(x.title)}: {in_plotly(place) if isinstance(place, str) else f'{place:.5g}'}",
-             f"{in_plotly(y.title)}: {at_least}{median:.5g}, 10 to 90 %: {low:.5g} to {high:.5g}"]  # fmt: skip
+             f"{in_plotly(y.title)}: {at_least}{median:.5g}, 10 to 90 %: {low:.5g} to {high:.5g}"]
     return "<br>".join([*lines, *(f"{in_plotly(regime)}: {share.words}" for regime, share in each.regimes.items())])

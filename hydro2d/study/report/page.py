@@ -31,7 +31,7 @@ BREAKS = re.compile(r"(?<=_)(?=[^\s._])|(?<=\.)(?=[^\s._\d])")
 
 def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: Sequence[Picture],
          films: Sequence[Picture] = (), fitted: Sequence[Picture] = (),
-         views: Mapping[str, str] | None = None, uncertain: Sequence[Part] = ()) -> str:  # fmt: skip
+         views: Mapping[str, str] | None = None, uncertain: Sequence[Part] = ()) -> str:
     """The whole file.
 
     fitted : curves of a search with a budget;  views : links to the pages of runs, by case;  uncertain : parts on a sample
@@ -39,7 +39,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     env = Environment(loader=PackageLoader(__package__), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-                      lstrip_blocks=True)  # fmt: skip
+                      lstrip_blocks=True)
     env.finalize = lambda value: shown(value) if type(value) is str else value
     env.filters |= {"breakable": breakable, "whole_words": whole_words, "download": download}
     states = Counter(each.case.status for each in contents.records)
@@ -53,7 +53,7 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
         results=columns_of_results(contents.study, contents.rows, choice), experience=_experience(contents),
         audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
-    )  # fmt: skip
+    )
 
 
 def charts_script() -> str:
@@ -118,7 +118,7 @@ def _ensembles(contents: Contents, choice: Choice) -> dict:
         "heads": [head[0].upper() + head[1:] for head in heads], "rows": rows, "score": scored and scored.words,
         "made": _made(groups),
         "file": ensembles.FILE, "csv": to_csv(contents.rows_of_ensembles(choice)),
-    }  # fmt: skip
+    }
 
 
 def _made(groups: Sequence[ensembles.Ensemble]) -> str:
@@ -136,7 +136,7 @@ def _of_combination(each: regimes.Transitions, names: Sequence[str]) -> list[str
     known = [f"{bracket.name}: {model_transition.extent(bracket)}" for bracket in each.known]
     models = [f"{entry.model.name}: {entry.in_words}" for entry in each.predictions]
     return [each.title, *(brackets.get(name, "–") for name in names), "; ".join(known) or "–", "; ".join(models) or "–",
-            str(len(each.runs))]  # fmt: skip
+            str(len(each.runs))]
 
 
 def _decks(contents: Contents) -> dict:

@@ -90,7 +90,7 @@ def panels(contents: Contents, choice: Choice) -> list[Panel]:
         shots = contents.measurements[common] if common else []
         members = contents.records
         return [Panel(members, run_series.grouped(members, axes, choice), common.short if common else title,
-                      common.words if common else title, common, shots)]  # fmt: skip
+                      common.words if common else title, common, shots)]
     alike: dict[tuple, list[Setup]] = {}
     for setup in groups:
         alike.setdefault((setup.target, setup.nose, setup.shape), []).append(setup)
@@ -118,7 +118,7 @@ def _panel(contents: Contents, choice: Choice, setups: Sequence[Setup]) -> Panel
     if len(setups) > 1:
         of = f"{rods} materials" if rods > 1 else first.rod
         words = (f"{first.kind}s of {of} ({first.size}) into {first.plate}" if sizes == 1 else
-                 f"{first.kind}s of {of} into {first.target}, {sizes} geometries")  # fmt: skip
+                 f"{first.kind}s of {of} into {first.target}, {sizes} geometries")
         heading = f"{first.kind}s of {of} into {first.target}"
     return Panel(members, grouped, heading, words, first if sizes == 1 else None, shots)
 
@@ -146,10 +146,10 @@ def _response(contents: Contents, choice: Choice, y: Response, panel: Panel, nam
     alt += f"{'; '.join(said[:MOST_WORDS])}{more}."
     if y.name == DEPTH:
         measured = [f"{shot.velocity:.0f} m/s {'at least ' * (shot.qualifier == experiments.AT_LEAST)}{shot.depth * 100:.1f} cm"
-                    for shot in panel.shots]  # fmt: skip
+                    for shot in panel.shots]
         alt += f" Experiments: {'; '.join(measured) or 'none known'}."
     if y.name == RESIDUAL and (residuals := {each.velocity: each.measured_residual for each in members
-                                             if each.velocity is not None and each.measured_residual is not None}):  # fmt: skip
+                                             if each.velocity is not None and each.measured_residual is not None}):
         alt += f" Experiments: {'; '.join(f'{speed:.0f} m/s {left:.0f} m/s' for speed, left in sorted(residuals.items()))}."
     return Chart(name, charts.markup(figure, name), f"{head}: {panel.heading}", caption, alt, tuple(notes))
 
@@ -193,7 +193,7 @@ def _ensembles(shown: Sequence[Record], y: Response) -> list[str]:
     """A response of ensembles in words."""
     spreads = [(each, values) for each in grouped(shown) if (values := each.spread(y.name))]
     return [f"{each.name} {values.median * y.factor:.4g} {y.unit} ({values.low * y.factor:.4g} to {values.high * y.factor:.4g})"
-            for each, values in spreads]  # fmt: skip
+            for each, values in spreads]
 
 
 def _value(each: Record, y: Response) -> str:

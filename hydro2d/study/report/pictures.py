@@ -103,7 +103,7 @@ def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:
             drawn += f"; line: fitted probability of \"{fast}\" with its 90 % band; bar at one half: 90 % interval of v50"
         said = "; ".join(estimate.notes)
         yield Picture(file, f"{each.title}: {estimate.name}", f"{drawn}. {said[0].upper()}{said[1:]}.",
-                      f"Outcome of {len(estimate.known)} shots against impact velocity. {said}.")  # fmt: skip
+                      f"Outcome of {len(estimate.known)} shots against impact velocity. {said}.")
 
 
 def check_field(field: str) -> None:

@@ -42,7 +42,7 @@ def _views(contents: Contents, folder: Path, make: bool, say: Callable[[str], No
 
 def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[str], None] = say, *, x: str | None = None,
            y: Sequence[str] = (), by: Sequence[str] = (), movie: str | None = None, view: bool = False,
-           trust: bool = False) -> Path:  # fmt: skip
+           trust: bool = False) -> Path:
     """Writes the report of a study directory, or of run directories and folders of them.
 
     out : folder to write to; default: `report` in the first directory

@@ -63,7 +63,7 @@ def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Cur
         drawn.append(Curve("Lambert-Jonas", velocity, np.array(left)))
         fixed = " (p = 2 taken, there are two perforations)" if _perforations(ended) == 2 else ""
         notes.append(f"Lambert-Jonas, fitted to these runs: a = {fit.a:.3f}, p = {fit.p:.3g}{fixed}, ballistic limit "
-                     f"{fit.limit_velocity:.0f} m/s, standard error {fit.standard_error:.1f} m/s")  # fmt: skip
+                     f"{fit.limit_velocity:.0f} m/s, standard error {fit.standard_error:.1f} m/s")
     if ended.limit:
         limit = 0.5 * sum(ended.limit)
         origin = f"midway between {ended.limit[0]:.0f} m/s, stopped, and {ended.limit[1]:.0f} m/s, through"

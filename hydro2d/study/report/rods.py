@@ -54,7 +54,7 @@ def pages(records: Sequence[Record]) -> list[Sequence[Record]]:
 
 
 def draw(records: Sequence[Record], measurements: Mapping[str, Measurement], scale: Sequence[Record],
-         others: Mapping[str, Sequence[Record]] = MappingProxyType({})):  # fmt: skip
+         others: Mapping[str, Sequence[Record]] = MappingProxyType({})):
     """One page of rods, each mirrored about its axis if its mesh has one; z points down, as the rods fly.
 
     measurements : by case; a dashed line at the depth, if rods are drawn at their depths

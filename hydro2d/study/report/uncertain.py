@@ -50,7 +50,7 @@ def parts(study: Study, folder: Path) -> list[Part]:
 def _part(number: int, samples: Samples, folder: Path) -> Part:
     heading = f"{samples.title}: {len(samples)} runs, {int(samples.ended.sum())} done"
     part = Part(heading, [Table("Inputs", ("Input", "Distribution"), [(each.head, each.words) for each in samples.inputs])],
-                [f"{message}." for message in (*samples.missed, *samples.doubts)])  # fmt: skip
+                [f"{message}." for message in (*samples.missed, *samples.doubts)])
     for caption, (heads, rows) in (("Results", text.spreads(samples)), ("Outcomes", text.fractions(samples))):
         if rows:
             part.tables.append(Table(caption, _capital(heads), rows))
@@ -70,7 +70,7 @@ def _pictures(samples: Samples, result: str, stem: Path, part: Part) -> Iterator
     file = stem.with_name(f"{stem.name}_inputs.png")
     figures.save_figure(samples.scatter(result), file)
     yield Picture(file, f"{word[0].upper()}{word[1:]} against each input", "Dots: rows of the sample. Lines: the surrogate, "
-                  "the other inputs at their medians.", f"{word} against {inputs}.")  # fmt: skip
+                  "the other inputs at their medians.", f"{word} against {inputs}.")
     try:
         (heads, rows), words = text.indices(samples, result)
     except StudyError as error:
@@ -81,7 +81,7 @@ def _pictures(samples: Samples, result: str, stem: Path, part: Part) -> Iterator
     figures.save_figure(samples.tornado(result), file)
     said = "; ".join(f"{each.input} {each.low:.4g} to {each.high:.4g}" for each in samples.effects(result))
     yield Picture(file, f"Effects on {word}", "Change from 10 to 90 % of the values of each input, the others at their "
-                  "medians, by the surrogate; the ends bear the values of the input.", f"In SI units: {said}.")  # fmt: skip
+                  "medians, by the surrogate; the ends bear the values of the input.", f"In SI units: {said}.")
 
 
 def _capital(heads: tuple[str, ...]) -> tuple[str, ...]:

@@ -29,7 +29,7 @@ from hydro2d.study.records.study_directory import DONE, FAILED, FAILED_STATUS, U
 
 #: exceptions that are reported in one line, without a traceback
 TOLD = (DeckError, FieldError, HistoryError, LockError, LostPlaceError, StrangeFile, VtkError, RunError,
-        snapshot.SnapshotError)  # fmt: skip
+        snapshot.SnapshotError)
 FULL = "No space left on device"
 #: seconds in which neither lock nor progress of a process on another machine change before it loses its lock; progress.json is
 #: written every 3
@@ -61,7 +61,7 @@ class Outcome:
 
 
 def run_case(directory: str | Path, deck_text: str, *, threads: int = 1, overwrite: bool = False,
-             interrupt: Interrupt | None = None) -> Outcome:  # fmt: skip
+             interrupt: Interrupt | None = None) -> Outcome:
     """Runs a resolved deck in a directory, continues it from its restart file, or detects that it is done.
 
     directory : its parent must exist, so that a machine without access to the study's disk says so

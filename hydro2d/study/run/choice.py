@@ -27,7 +27,7 @@ def _matching(plan: Plan, only: Sequence[str], skip: Sequence[str]) -> list[Plan
             if not any(fnmatchcase(name, pattern) for name in names):
                 raise StudyError(f"{option} {pattern}: matches no case; {unknown('case', pattern, names)}")
     return [case for case in plan.cases if (not only or any(fnmatchcase(case.name, pattern) for pattern in only))
-            and not any(fnmatchcase(case.name, pattern) for pattern in skip)]  # fmt: skip
+            and not any(fnmatchcase(case.name, pattern) for pattern in skip)]
 
 
 class Choice:

@@ -61,7 +61,7 @@ class Slurm(Section):
         return given | {
             "cores": workers, "processes": workers, "job_cpu": self.cores,
             "job_script_prologue": [*exports, *given.get("job_script_prologue", [])],
-        }  # fmt: skip
+        }
 
 
 def read_slurm(path: Path) -> Slurm:
@@ -133,7 +133,7 @@ def _begun(stack: ExitStack, workers: int, threads: int):
                     security=Security.temporary(), dashboard_address=None, worker_dashboard_address=None,
                     scheduler_kwargs={"dashboard_address": f"{HERE}:0"},  # another sweep may have the usual port
                     env=environment(threads),
-                ))  # fmt: skip
+                ))
                 cluster.loop.add_callback(cluster.scheduler.http_server.stop)
                 client = _with_checkpoints(attempt.enter_context(distributed.Client(cluster)), private=True)
             except (RuntimeError, OSError) as error:
@@ -196,6 +196,6 @@ def slurm(path: Path, workers: int, threads: int) -> Iterator:
     with (
         dask_jobqueue.SLURMCluster(**arguments) as cluster,
         distributed.Client(cluster) as client,
-    ):  # fmt: skip
+    ):
         cluster.scale(n=workers)
         yield _with_checkpoints(client, private=False)

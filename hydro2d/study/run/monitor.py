@@ -33,7 +33,7 @@ def row(case: Case) -> tuple[str, ...]:
     return (
         case.name, case.status, number(depth, 1e2, ".2f", "cm"), "-" if share is None else f"{100 * share:.0f} %",
         "-" if left is None else duration(left), f"{now.get('host', '?')}:{now.get('process', '?')}" if now else "-",
-    )  # fmt: skip
+    )
 
 
 def counts(cases: list[Case]) -> str:
@@ -49,7 +49,7 @@ def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
     rest = [now["left_s"] for now in running if now.get("left_s") is not None]
     whole = [case.summary["wall_s"] for case in cases if case.status == DONE and case.summary.get("wall_s") is not None]
     whole = whole or [now["wall_s"] + now["left_s"] for now in running
-                      if now.get("left_s") is not None and now.get("wall_s") is not None]  # fmt: skip
+                      if now.get("left_s") is not None and now.get("wall_s") is not None]
     if not whole or not workers:
         return None
     waiting = further + len([case for case in cases if case.status == WAITING]) + len(running) - len(rest)

@@ -90,7 +90,7 @@ def _changes(plan: Plan, before: Study, overwrite: bool) -> list[str]:
     changed = [name for name in begun if old[name].deck_sha256 != new[name].sha256]
     older = [name for name in begun if name not in changed and is_older(old[name].summary)]
     for names, why in ((changed, "had a different deck when the study was begun"),
-                       (older, f"ran with another version of the method than that of {METHOD}")):  # fmt: skip
+                       (older, f"ran with another version of the method than that of {METHOD}")):
         if names and not overwrite:
             raise StudyError(f"{before.directory}: {_names(names)} {why}; "
                              "--overwrite runs them again from the beginning, --out makes a separate study")
@@ -109,7 +109,7 @@ def _names(names: list[str]) -> str:
 
 
 def sweep(choice: Choice, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
-          overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
+          overwrite: bool = False, quiet: bool = False) -> int:
     """Runs the chosen cases of a study and returns the exit status.
 
     connect : gives a dask client, see cluster.local, joined and slurm
@@ -146,7 +146,7 @@ def _from_kept(choice: Choice, directory: Path) -> None:
 
 
 def _sweep(choice: Choice, study: Study, notices: list[str], connect: AbstractContextManager, interrupt: Interrupt,
-           threads: int, overwrite: bool, quiet: bool) -> int:  # fmt: skip
+           threads: int, overwrite: bool, quiet: bool) -> int:
     with monitor.board(study, quiet) as board, signals(interrupt), _dask_told(board):
         board.line(choice.heading(study))
         for text in (*choice.plan.notes, *notices, choice.kept()):
@@ -265,7 +265,7 @@ class _Sweep:
         future = self.client.submit(
             worker.work, self.name, str(case.directory.resolve()), self.texts[case.name], self.threads,
             self.overwrite, key=key, pure=False,
-        )  # fmt: skip
+        )
         future.add_done_callback(self.ended.put)
 
     def _stop(self, reason: str) -> None:
@@ -341,7 +341,7 @@ class _Sweep:
             write_json(case.directory / FAILED, {
                 "reason": outcome.message, "kind": outcome.kind, "host": outcome.host,
                 "time": datetime.now(UTC).isoformat(timespec="seconds"),
-            })  # fmt: skip
+            })
         except OSError as error:
             self.board.note(f"{case.name}: {FAILED} cannot be written: {error.strerror}")
 

@@ -67,7 +67,7 @@ def _levels(place, each, points: np.ndarray, values: np.ndarray) -> None:
     for number in range(len(each.levels)):
         own = values[level == number]
         place.plot(number + APART * np.linspace(-1.0, 1.0, max(own.size, 1))[: own.size], own, "o", markersize=3, alpha=0.6,
-                   color="C0")  # fmt: skip
+                   color="C0")
     place.set_xticks(range(len(each.levels)), [verbatim(level) for level in each.levels], rotation=20)
 
 
@@ -85,7 +85,7 @@ def tornado(samples, result: str):
         (low, at_low), (high, at_high) = sorted(zip(ends, (each.at_low, each.at_high), strict=True))
         sides = (at_low, min(low, middle), -GAP, "right"), (at_high, max(high, middle), GAP, "left")  # both may lie on one side
         labels += [place.annotate(verbatim(at), (end, number), (offset, 0), textcoords="offset points", ha=side, va="center",
-                                  fontsize=7) for at, end, offset, side in sides]  # fmt: skip
+                                  fontsize=7) for at, end, offset, side in sides]
     place.set_yticks(range(len(effects)), [verbatim(each.input) for each in effects], fontsize=8)
     place.invert_yaxis()
     place.axvline(middle, color="black", linewidth=0.8)

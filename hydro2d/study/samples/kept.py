@@ -33,14 +33,14 @@ def kept_samples(study: str | Path) -> list[Samples]:
     file = study.parent / definition.keep
     more = (Column(name, number, required=False) for name in definition.sample.results)
     columns = (*(Column(name, empty=False) for name in axes), Column(sampling.AXIS, whole, empty=False),
-               *map(keeping.input_column, inputs), *more)  # fmt: skip
+               *map(keeping.input_column, inputs), *more)
     groups: dict[tuple[str, ...], list[keeping.KeptRow]] = {}
     for row in keeping.read(file, columns, (*axes, sampling.AXIS)):
         groups.setdefault(tuple(row[name] for name in (*axes, CELLS)), []).append(row)
     if not groups:
         raise StudyError(f"{file}: has no rows yet")
     return [_samples(definition.title, inputs, dict(zip((*axes, CELLS), labels, strict=True)), rows, definition.sample.results)
-            for labels, rows in groups.items()]  # fmt: skip
+            for labels, rows in groups.items()]
 
 
 def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
@@ -53,10 +53,10 @@ def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
 
 
 def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str], rows: list[keeping.KeptRow],
-             wanted: tuple[str, ...]) -> Samples:  # fmt: skip
+             wanted: tuple[str, ...]) -> Samples:
     rows = sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER])))
     table = [{sampling.AXIS: row[sampling.AXIS], MEMBER: row[MEMBER], **{each.head: row[each.head] for each in inputs},
-              **sample_table.of_kept(row, wanted), keeping.OF_METHOD: row[keeping.OF_METHOD]} for row in rows]  # fmt: skip
+              **sample_table.of_kept(row, wanted), keeping.OF_METHOD: row[keeping.OF_METHOD]} for row in rows]
     names = dict.fromkeys(name for row in table for name in row)
     columns = of_columns({name: [str(row.get(name) or "") for row in table] for name in names}, inputs)
     words = [f"{name} {label}" for name, label in labels.items() if label]

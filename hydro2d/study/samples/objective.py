@@ -67,7 +67,7 @@ class Objective:
     """
 
     def __init__(self, deck: Deck | str | Path, keys: Mapping[str, Any], result: str, *, directory: str | Path,
-                 goal: Literal["minimize", "maximize", "explore"] = "minimize", threads: int = 1, seed: int = 0):  # fmt: skip
+                 goal: Literal["minimize", "maximize", "explore"] = "minimize", threads: int = 1, seed: int = 0):
         if goal not in GOALS:
             raise StudyError(unknown("goal", goal, GOALS))
         if not keys:
@@ -76,9 +76,9 @@ class Objective:
         self.result, self.directory, self.goal, self.threads, self.seed = result, Path(directory), goal, threads, seed
         self.inputs = tuple(_input(key, given) for key, given in keys.items())
         self._levels = {each.key: {level: value for level, value in zip(each.levels, _sorted(keys[each.key]), strict=True)}
-                        for each in self.inputs if each.kind == CHOICE}  # fmt: skip
+                        for each in self.inputs if each.kind == CHOICE}
         self.variables = {each.head: set(self._levels[each.key].values()) if each.kind == CHOICE else list(each.numbers)
-                          for each in self.inputs}  # fmt: skip
+                          for each in self.inputs}
         self.data: list[dict[str, Any]] = []
         self._suggested: list[tuple[Any, ...]] = []
         for point in self._points(np.repeat([[0.0], [1.0]], len(self.inputs), axis=1)):
@@ -173,7 +173,7 @@ class Objective:
         """The best points of functions that the results, float64[n], of known points allow, float64[number, d]."""
         seed, sign = self.seed + len(self._suggested) + number, 1.0 if self.goal == "minimize" else -1.0
         cube = np.column_stack([each.points([point[each.head] if each.kind != CHOICE else label(point[each.head])
-                                             for point in known]) for each in self.inputs])  # fmt: skip
+                                             for point in known]) for each in self.inputs])
         evenly = self._sobol(number)
         best = cube[np.argsort(sign * values, kind="stable")[:BEST]]
         candidates = self._fresh(np.vstack([evenly, _near(best, len(evenly), seed)]), number)
@@ -216,7 +216,7 @@ class Objective:
     def _taken(self, point: Mapping[str, Any]) -> dict[str, Any]:
         """An evaluated point as `data` has it: values by name, in the unit of the name. Raises StudyError."""
         values = {each.head: self._level(each, value) if each.kind == CHOICE else _number(each, value)
-                  for each, value in self._values(point)}  # fmt: skip
+                  for each, value in self._values(point)}
         missing = [*(name for name in self.variables if name not in values), *({self.result} - point.keys())]
         if missing:
             raise StudyError(f"a point has no {missing[0]}: {dict(point)}")
@@ -238,7 +238,7 @@ class Objective:
         """Points of the unit cube, float64[n, d], as values by name."""
         columns = [each.values(shares) for each, shares in zip(self.inputs, cube.T, strict=True)]
         own = [[self._levels[each.key][str(value)] for value in column] if each.kind == CHOICE else column
-               for each, column in zip(self.inputs, columns, strict=True)]  # fmt: skip
+               for each, column in zip(self.inputs, columns, strict=True)]
         return [dict(zip(self.variables, values, strict=True)) for values in zip(*own, strict=True)]
 
 

@@ -82,7 +82,7 @@ class Samples:
 
     def __init__(self, title: str, inputs: Sequence[Distribution], columns: Mapping[str, np.ndarray],
                  study: Study | None = None, names: Sequence[str] = (), wanted: Sequence[str] = (),
-                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = ()):  # fmt: skip
+                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = ()):
         self.title, self.inputs, self.columns, self.wanted = title, tuple(inputs), dict(columns), tuple(wanted)
         self._study, self._names, self.labels = study, tuple(names), dict(labels or {})
         self._wrong = wrong
@@ -115,7 +115,7 @@ class Samples:
         asked = [name for name in self.wanted if len(_finite(self.values(name)))]
         others = [name for name in self.results if name.startswith(("derived.", "bodies."))]
         varied = [name for name in dict.fromkeys((*USUAL, *others)) if name in self.columns and name not in asked
-                  and surrogates.vary(_finite(self.values(name)))]  # fmt: skip
+                  and surrogates.vary(_finite(self.values(name)))]
         return [*asked, *varied[: max(0, MOST_USUAL - len(asked))]]
 
     @property
@@ -138,7 +138,7 @@ class Samples:
             doubts.append(f"{poor} of {count} runs are not trustworthy; the summary of each says why")
         if FINAL in self.columns and (short := int(np.sum(self.ended & (self.columns[FINAL] == "False")))):
             doubts.append(f"{short} of {count} runs ended at their end time or number of cycles with the projectile still "
-                          "moving: their depths and outcomes are not final")  # fmt: skip
+                          "moving: their depths and outcomes are not final")
         return doubts
 
     # ------------------------------------------------------------------------------------------------ one number a run
@@ -202,7 +202,7 @@ class Samples:
         cases = {case.name: case for case in self._study.cases} if self._study else {}
         summaries = [cases[name].summary if name in cases else {} for name in self._names or [""] * len(self)]
         return [{key: value for key, value in flatten(each).items() if is_number(value) and not key.startswith("provenance.")}
-                for each in summaries]  # fmt: skip
+                for each in summaries]
 
     @property
     def _known(self) -> set[str]:
@@ -244,7 +244,7 @@ class Samples:
             raise StudyError(f"{outcome}: no run has it yet")
         rows = len(set(self.columns[sampling.AXIS][words != ""].tolist()))
         return {word: Fraction(word, _share(number, trials, rows), number / len(self), (number + missing) / len(self))
-                for word, number in counts.most_common()}  # fmt: skip
+                for word, number in counts.most_common()}
 
     # ------------------------------------------------------------------------------------------------ what decides a result
 
@@ -359,7 +359,7 @@ def of_study(study: Study) -> list[Samples]:
         names = [case.name for case, take in zip(study.cases, chosen, strict=True) if take]
         title = ", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))])
         samples.append(Samples(title, inputs, own, study, names, study.sample.results, dict(zip(axes, labels, strict=True)),
-                               [wrong[name] for name in names if name in wrong]))  # fmt: skip
+                               [wrong[name] for name in names if name in wrong]))
     return samples
 
 

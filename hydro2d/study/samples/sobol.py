@@ -79,5 +79,5 @@ def indices(result: str, surrogate: Surrogate, seed: int = 0) -> Indices:
     ends = 0.5 - 0.5 * LEVEL, 0.5 + 0.5 * LEVEL
     rows = [Index(each.head, float(first[:, n].mean()), *map(float, np.quantile(first[:, n], ends)),
                   float(total[:, n].mean()), *map(float, np.quantile(total[:, n], ends)))
-            for n, each in enumerate(surrogate.inputs)]  # fmt: skip
+            for n, each in enumerate(surrogate.inputs)]
     return Indices(result, tuple(rows), surrogate)

@@ -74,7 +74,7 @@ def coordinates(inputs: Sequence[Distribution], cube: np.ndarray) -> list[np.nda
     """The coordinates of each input at points of the unit cube, float64[n, d]: float64[n, 1], or a column for each level."""
     columns = np.asarray(cube, dtype=float).T
     return [np.eye(len(each.levels))[each.level_of(points)] if each.kind == CHOICE else points[:, None]
-            for each, points in zip(inputs, columns, strict=True)]  # fmt: skip
+            for each, points in zip(inputs, columns, strict=True)]
 
 
 def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) -> Surrogate:
@@ -98,7 +98,7 @@ def fit(inputs: Sequence[Distribution], cube: np.ndarray, values: np.ndarray) ->
     alone = y * len(y) / (len(y) - 1.0)  # each row minus the mean of the others
     return Surrogate(tuple(inputs), len(y), float(1.0 - missed @ missed / (alone @ alone)),
                      float(unit * np.sqrt(np.mean(missed**2))), float(unit * np.sqrt(process.numbers.c)), process, theta, root,
-                     shift, unit)  # fmt: skip
+                     shift, unit)
 
 
 def vary(values: np.ndarray) -> bool:

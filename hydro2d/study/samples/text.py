@@ -37,7 +37,7 @@ def fractions(samples: Samples) -> Table:
             share = each.share
             outcome = each.outcome if name == "regime" else f"{name}: {each.outcome}"
             cells = (outcome, f"{100 * share.fraction:.1f} %", f"{100 * share.low:.0f} to {100 * share.high:.0f} %",
-                     f"{share.successes} of {share.trials}")  # fmt: skip
+                     f"{share.successes} of {share.trials}")
             if len(samples) > share.trials:
                 heads = (*FRACTIONS, "bounds with the others")
                 cells += (f"{100 * each.low:.1f} to {100 * each.high:.1f} %",)
@@ -52,7 +52,7 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
     """
     shares = samples.indices(result)
     rows = [(each.input, f"{each.first:z.2f}", f"{each.first_low:z.2f} to {each.first_high:z.2f}", f"{each.total:z.2f}",
-             f"{each.total_low:z.2f} to {each.total_high:z.2f}") for each in shares.inputs]  # fmt: skip
+             f"{each.total_low:z.2f} to {each.total_high:z.2f}") for each in shares.inputs]
     words = f"{title(result)}: shares of its variance, by a surrogate: {shares.surrogate.words} (SI)"
     return (INDICES, rows), words + (f". Warning: {shares.doubt}" if shares.doubt else "")
 

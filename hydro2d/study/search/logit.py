@@ -133,7 +133,7 @@ def fit_transition(speeds: Sequence[float], outcomes: Sequence[bool]) -> Fit | N
         width_low=WIDTHS * math.exp(low) if overlap and low is not None else 0.0,
         width_high=None if high is None else WIDTHS * math.exp(high), overlap=overlap,
         region=np.column_stack([region[:, 0], np.exp(region[:, 1])]),
-    )  # fmt: skip
+    )
 
 
 def _highest(limits, v: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, float]:
@@ -148,7 +148,7 @@ def _climbed(v50: float, scale: float, limits, v: np.ndarray, y: np.ndarray) -> 
     """The maximum near v50 and s."""
     simplex = np.array([[v50, math.log(scale)], [v50 + scale, math.log(scale)], [v50, math.log(scale) + 1.0]])
     result = optimize.minimize(lambda x: -float(penalised(x[0], math.exp(x[1]), v, y)), simplex[0], method="Nelder-Mead",
-                               bounds=limits, options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": simplex})  # fmt: skip
+                               bounds=limits, options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": simplex})
     return result.x, -float(result.fun)
 
 

@@ -58,7 +58,7 @@ class Run:
             **{name: summary.get(name) for name in names},
             "residual_velocity_m_s": self.record.outcome.residual_velocity_m_s,
             "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
-        }  # fmt: skip
+        }
 
     def row(self) -> tuple[str, ...]:
         """Velocity, regime, depth; length, radius and core mass relative to their initial values; and how the run ended."""
@@ -69,7 +69,7 @@ class Run:
             _share(value("rod_length_m"), value("rod_initial_length_m")),
             _share(value("rod_max_radius_m"), value("rod_initial_radius_m")),
             _share(value("rod_core_mass_kg"), first), self.reason or self._end(),
-        )  # fmt: skip
+        )
 
     def _end(self) -> str:
         """How the run ended, and the residual velocity after a perforation."""
@@ -150,7 +150,7 @@ class Transitions:
             "notes": self.notes,
             "runs": [run.data() for run in self.runs],
             "comparison": self.comparison and self.comparison.data(),
-        }  # fmt: skip
+        }
 
 
 def label(values: Mapping[str, str]) -> str:
@@ -196,7 +196,7 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
 
 
 def _by_bisection(search: Interval, runs: Sequence[Run],
-                  known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:  # fmt: skip
+                  known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:
     """Brackets, which of them are settled, and notes."""
     kind = BY_NAME[search.of]
     outcomes = {run.velocity: run.regime for run in known}
@@ -229,7 +229,7 @@ def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple
     if low is None and high == slowest:
         return True, f"open, reached already at {slowest:g} m/s, the slow end of the interval"
     lost = [f"{run.velocity:g} m/s {run.reason}" for run in runs
-            if run.regime is None and (low or 0.0) < run.velocity < (high or 2.0 * fastest)]  # fmt: skip
+            if run.regime is None and (low or 0.0) < run.velocity < (high or 2.0 * fastest)]
     return False, f"not narrowed to {interval.tolerance:g} m/s: " + ("; ".join(lost) or "not all runs were made")
 
 
@@ -272,7 +272,7 @@ def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
 def _disordered(outcomes: Mapping[float, str], order: Sequence[str]) -> list[str]:
     """Notes on regimes out of order."""
     return [f"out of order: {outcomes[slow]} at {slow:g} m/s, {outcomes[fast]} at {fast:g} m/s; the slowest change is given"
-            for slow, fast in bisection.disordered(outcomes, order)]  # fmt: skip
+            for slow, fast in bisection.disordered(outcomes, order)]
 
 
 def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
@@ -302,7 +302,7 @@ def write(study: Study, combinations: Sequence[Transitions]) -> None:
         "depth_m": interval.depth, "budget": interval.budget and asdict(interval.budget), "criteria": criteria(study),
         "complete": all(all(each.settled.values()) for each in combinations),
         "combinations": [each.data() for each in combinations],
-    }  # fmt: skip
+    }
     write_json(study.directory / FILE, data)
 
 

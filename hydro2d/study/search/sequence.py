@@ -41,7 +41,7 @@ def begin_of_round(number: int, size: int) -> int:
 
 
 def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: tuple[float, float], size: int,
-               seed: int = 0) -> float:  # fmt: skip
+               seed: int = 0) -> float:
     """The velocity of the next shot, m/s.
 
     speeds, outcomes : of all shots so far, None for those without a known outcome; outcomes of the round under way are not used

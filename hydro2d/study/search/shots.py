@@ -103,7 +103,7 @@ class Shots(Searching):
         return Planned(
             name=f"{group.prefix}{number:03d}_{short(label)}", values={**end.values, velocities.AXIS: label}, deck=end.deck,
             overrides=[*end.overrides, *given], text=decks.loads(end.text, given).to_toml(), message="", member=number,
-        )  # fmt: skip
+        )
 
     @cached_property
     def complete(self) -> bool:
@@ -201,7 +201,7 @@ class Shots(Searching):
         group = next(group for group in self.groups if any(shot.name == name for shot in group.shots))
         names = {shot.name for shot in group.shots}
         shots = [v50.Shot(case.name, velocities.speed(case.values[velocities.AXIS]), self.outcome(case), case.status == DONE)
-                 for case in cases if case.name in names]  # fmt: skip
+                 for case in cases if case.name in names]
         words = regimes.label(group.ends[0].values)
         estimate = v50.estimate(self.search, BY_NAME[self.search.of], shots)
         return f"  {words + ': ' if words else ''}{estimate.name}: {estimate.in_short}"

@@ -104,7 +104,7 @@ class Bisection(Searching):
         group = next(group for group in self.groups if any(case.name == name for case in group))
         names = {case.name for case in group}
         outcomes = {velocities.speed(case.values[velocities.AXIS]): regime for case in cases
-                 if case.name in names and (regime := self.outcome(case))}  # fmt: skip
+                 if case.name in names and (regime := self.outcome(case))}
         label = regimes.label(group[0].values)
         return "  " + (f"{label}: " if label else "") + "; ".join(regimes.so_far(outcomes, self.plan.search.of))
 
@@ -115,7 +115,7 @@ def choice_of(plan: Plan, again: bool = False) -> Shots | Bisection:
 
 
 def find(plan: Plan, directory: Path, connect: AbstractContextManager, *, threads: int = 1, resume: bool = False,
-         overwrite: bool = False, quiet: bool = False) -> int:  # fmt: skip
+         overwrite: bool = False, quiet: bool = False) -> int:
     """Searches, writes transition.json and prints the transitions. Returns the exit status. Arguments as for sweep.sweep.
 
     A search with a budget also writes transition.csv and transition.png.

@@ -78,10 +78,10 @@ class Estimate:
         number = sum(shot.outcome == fast for shot in known)
         done = sum(shot.done for shot in self.shots)
         notes = [*self._in_words(), f"bought with {done} of {self.budget} runs: {number} {fast}, {len(known) - number} {slow}"
-                 + (f", {done - len(known)} without an outcome" if done > len(known) else "")]  # fmt: skip
+                 + (f", {done - len(known)} without an outcome" if done > len(known) else "")]
         if self.ballistic:
             notes.append("V50 of MIL-STD-662F: " + (f"{self.military[0]:.1f} m/s from {self.military[1]} shots" if self.military
-                         else "none, since no shots lie as close together as it requires"))  # fmt: skip
+                         else "none, since no shots lie as close together as it requires"))
         return notes if self.spent else [*notes, "the budget is not spent; --resume continues"]
 
     @property
@@ -115,7 +115,7 @@ class Estimate:
             "outcome": self.outcomes[1], "level": logit.LEVEL, **numbers, "overlap": self.fit and self.fit.overlap,
             "runs": sum(shot.done for shot in self.shots), "budget": self.budget,
             "mil_std_662f_m_s": self.military and self.military[0], "mil_std_662f_shots": self.military and self.military[1],
-        })  # fmt: skip
+        })
 
 
 def _range(low: float | None, high: float | None, form: str) -> str:
@@ -140,7 +140,7 @@ def estimate(search: Interval | Velocities, kind: type[Outcome], shots: Sequence
         spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
         fit=logit.fit_transition(speeds, successes) if known else None, ballistic=kind.is_ballistic,
         military=military(speeds, successes) if kind.is_ballistic else None,
-    )  # fmt: skip
+    )
 
 
 def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float, int] | None:
@@ -165,4 +165,4 @@ def rows(values: dict[str, str], estimate: Estimate, draws: Sequence[dict]) -> l
          "outcome": shot.outcome, **draw,
          "fitted_probability": float(estimate.fit.probability([shot.velocity])[0]) if estimate.fit else None}
         for number, (shot, draw) in enumerate(zip(estimate.shots, draws, strict=True), 1)
-    ]  # fmt: skip
+    ]

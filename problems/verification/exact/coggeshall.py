@@ -94,7 +94,7 @@ class Slowed:
         share = r / scale
         pressure = a * (1.0 - a) * self.rho0 * share ** (self.b + 2.0) / ((self.b + 2.0) * self.start**2)
         return (self.rho0 * share**self.b * scale ** -(self.k + 1), a * r / (self.start + time),
-                pressure * scale ** (-self.gamma * (self.k + 1)))  # fmt: skip
+                pressure * scale ** (-self.gamma * (self.k + 1)))
 
 
 def shell_mean(power: float, inner: float, outer: float, k: int) -> float:

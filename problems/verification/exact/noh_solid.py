@@ -50,7 +50,7 @@ class NohSolid:
         sonic.terminal = True
         first, last = np.log(np.multiply((FAR, NEAR), self.solid.c0 + self.speed))
         return solve_ivp(along, (first, last), [-self.speed, self.solid.rho0, 0.0], events=sonic, dense_output=True,
-                         rtol=1e-10, atol=1e-12)  # fmt: skip
+                         rtol=1e-10, atol=1e-12)
 
     def _behind(self, x: float) -> tuple[float, float, float, float]:
         """Density, pressure and energy at rest behind a shock at x by mass and momentum, and the excess of its pressure."""

@@ -50,7 +50,7 @@ def weak(mach: float, theta: float, gamma: float = 1.4) -> Oblique:
     """The weak shock that turns a flow by theta; ValueError where none does."""
     least = math.asin(1.0 / mach)
     steepest = minimize_scalar(lambda beta: -deflection(mach, beta, gamma), bounds=(least, 0.5 * math.pi), method="bounded",
-                               options={"xatol": 1e-12}).x  # fmt: skip
+                               options={"xatol": 1e-12}).x
     if deflection(mach, steepest, gamma) < theta:
         raise ValueError("no shock at the wall turns the flow so far")
     return behind(mach, float(brentq(lambda beta: deflection(mach, beta, gamma) - theta, least, steepest, xtol=1e-14)), gamma)

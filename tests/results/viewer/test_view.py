@@ -89,7 +89,7 @@ def field_of(dump, word):
     names = {"pressure": "Pressure [Pa]", "density": "Density [kg/m3]", "von_mises": "Von Mises Stress [Pa]",
              "temperature": "Temperature [K]", "plastic_strain": "Plastic Strain", "material": "Material",
              "body_temperature": f"Temperature of {part} [K]", "volume_fraction": f"Volume Fraction for {part}",
-             "velocity": "Velocity [m/s]"}  # fmt: skip
+             "velocity": "Velocity [m/s]"}
     values = dump.fields[names[key]].astype(float)
     unit = names[key].partition("[")[2].rstrip("]")
     return (values[..., "rz".index(part)] if key == "velocity" else values), unit
@@ -137,7 +137,7 @@ def test_a_long_history_is_thinned_and_says_so(shot, monkeypatch):
 def test_ten_thousand_cells_and_a_hundred_dumps_of_five_fields_are_below_ten_megabytes(tmp_path):
     """Each field has noise of a thousandth in all cells, which no compression removes; real shots have less."""
     run = made_run.write(tmp_path / "big", shape=(200, 50), dumps=100, noise=1e-3, names=list(made_run.SCALARS)[:5],
-                         everywhere=True)  # fmt: skip
+                         everywhere=True)
     shown = hydro2d.open_run(run).view()
     page = Page(shown.html)
     assert len(page.runs[0]["times"]) == 100

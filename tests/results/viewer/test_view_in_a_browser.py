@@ -209,7 +209,7 @@ def test_a_click_shows_the_numbers_of_the_cell(browser, page, shot):
             "volume_fraction:rod": read.fields["Volume Fraction for rod"][30, 3],
             "body_temperature:rod": read.fields["Temperature of rod [K]"][30, 3],
             "r": 1e3 * read.r_centres[3], "z": 1e3 * read.z_centres[30], "i": 3, "j": 30,
-        }  # fmt: skip
+        }
         assert set(answered) >= set(expected)
         for word, value in expected.items():
             off = answered[word]["error"] * 1.001 + 1e-4 * (word in "rz")
@@ -256,7 +256,7 @@ def test_a_tap_on_a_phone_shows_numbers_next_to_the_finger(browser, page, shot, 
         assert shown["z, r [mm]"].replace("−", "-") == f"{1e3 * read.z_centres[j]:.4g}, {1e3 * read.r_centres[3]:.4g}"
         assert shown["body"] == ("void", "rod", "plate")[read.fields["Material"][j, 3]]
         assert float(shown["Pressure [GPa]"].replace("−", "-")) == pytest.approx(
-            read.fields["Pressure [Pa]"][j, 3] * 1e-9, abs=2e-3)  # fmt: skip
+            read.fields["Pressure [Pa]"][j, 3] * 1e-9, abs=2e-3)
         assert "Velocity [m/s]" in shown
     assert answer["first"] != answer["later"]
     assert answer["hidden"], "with the mark"
@@ -597,7 +597,7 @@ def test_a_run_without_history_and_with_one_dump(browser, tmp_path):
     (run / "history.h5").unlink()
     page = hydro2d.open_run(run).view().save(tmp_path / "view.html")
     answer = ask(browser, page, "key(' '); await pause(100); return { cards: at('charts').children.length, faults, "
-                               "playing: state.playing, said: SECTIONS[0].when.textContent };")  # fmt: skip
+                               "playing: state.playing, said: SECTIONS[0].when.textContent };")
     assert answer == {"cards": 1, "faults": [], "playing": False, "said": "t = 0.00 µs"}
 
 
@@ -609,4 +609,4 @@ def test_a_browser_that_is_too_old_gets_a_message(browser, page, tmp_path):
       const seen = (selector) => getComputedStyle(document.querySelector(selector)).visibility;
       return { said: at("heading").textContent, header: seen("h1"), rest: seen("main"), faults };""", DESK)
     assert answer == {"said": "This browser is too old for this page: Chrome 80, Firefox 113 or Safari 16.4 can show it.",
-                      "header": "visible", "rest": "hidden", "faults": []}  # fmt: skip
+                      "header": "visible", "rest": "hidden", "faults": []}
