@@ -291,7 +291,11 @@ class _Sweep:
     def _ended(self):
         """The future of a case that has ended, or None after a beat without any."""
         try:
-            return self.ended.get(timeout=BEAT)
+            future = self.ended.get(timeout=BEAT)
+            if future.status != "lost":
+                return future
+            future.add_done_callback(self.ended.put)  # the worker that had its outcome has died: dask runs it once more
+            return None
         except queue.Empty:
             return None
 
