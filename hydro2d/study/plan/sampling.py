@@ -65,6 +65,10 @@ class Points:
                     raise ValueError(f"row {number} of the sample has {value!r} as {each.head}")
         return cls(inputs, rows, (), data["method"], data["seed"], data["table"], tuple(map(str, data["results"])))
 
+    def inputs_of(self, row: int | str) -> dict[str, float | str]:
+        """The values of the inputs in a row, counted from 1, by their heads."""
+        return {each.head: value for each, value in zip(self.inputs, self.rows[int(row) - 1], strict=True)}
+
     def data(self) -> dict[str, Any]:
         """The contents as plain data, for JSON."""
         return {"method": self.method, "seed": self.seed, "table": self.table, "results": list(self.results),

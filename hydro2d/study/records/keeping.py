@@ -134,9 +134,8 @@ def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
     """The inputs of a case of a sample by their heads, as text; empty without a sample."""
     if sample is None:
         return {}
-    values = sample.rows[int(case.values[sampling.AXIS]) - 1]
-    return {each.head: value if isinstance(value, str) else repr(value)
-            for each, value in zip(sample.inputs, values, strict=True)}
+    inputs = sample.inputs_of(case.values[sampling.AXIS])
+    return {head: value if isinstance(value, str) else repr(value) for head, value in inputs.items()}
 
 
 def results(summary: Mapping) -> dict[str, object]:

@@ -88,7 +88,8 @@ def _made(directory: Path, more: Sequence[str]) -> list[Row]:
 
 def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     labels = {axis.name: case.values.get(axis.name) for axis in study.axes}
-    row: Row = {"case": case.group, MEMBER: case.member, **labels, **_inputs(study, case), "status": case.status}
+    inputs = study.sample.inputs_of(case.values[sampling.AXIS]) if study.sample else {}
+    row: Row = {"case": case.group, MEMBER: case.member, **labels, **inputs, "status": case.status}
     if case.status not in keeping.ENDED:
         return row
     summary = case.summary
@@ -99,11 +100,3 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
             **{name: value for name, value in numbers.items() if name.startswith("derived.")},
             **{name: numbers.get(name) for name in more}, **keeping.origin(summary)}
-
-
-def _inputs(study: Study, case: Case) -> Row:
-    """The inputs of a case of a sample by their heads."""
-    if study.sample is None:
-        return {}
-    values = study.sample.rows[int(case.values[sampling.AXIS]) - 1]
-    return {each.head: value for each, value in zip(study.sample.inputs, values, strict=True)}

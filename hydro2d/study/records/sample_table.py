@@ -55,7 +55,7 @@ def rows(sample: Points, axes: Sequence[str], cases: Sequence[Case], kept: Mappi
     names = [name for name in dict.fromkeys(name for each in results for name in each)
              if any(each.get(name) not in (None, "") for each in results) or name in sample.results]
     members = any(case.ensemble for case in cases)
-    return [_run(case, axes, members) | _inputs(case, sample) | {name: each.get(name) for name in names}
+    return [_run(case, axes, members) | sample.inputs_of(case.values[sampling.AXIS]) | {name: each.get(name) for name in names}
             for case, each in zip(cases, results, strict=True)]
 
 
@@ -63,11 +63,6 @@ def _run(case: Case, axes: Sequence[str], members: bool) -> Row:
     """Number of the row, labels of the axes, member."""
     labels = {f"{name} (axis)" if name in (sampling.AXIS, STATUS, *RESULTS) else name: case.values[name] for name in axes}
     return {sampling.AXIS: int(case.values[sampling.AXIS]), **labels, **({MEMBER: case.member} if members else {})}
-
-
-def _inputs(case: Case, sample: Points) -> Row:
-    values = sample.rows[int(case.values[sampling.AXIS]) - 1]
-    return {each.head: value for each, value in zip(sample.inputs, values, strict=True)}
 
 
 def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
@@ -115,7 +110,7 @@ def read(study: Study) -> Table:
         if case is None or case.name in lines:
             of = "of no run of this study" if case is None else f"of the same run as line {lines[case.name].line}"
             raise StudyError(f"{file}:{line.line}: is {of}; {REMEDY}")
-        for head, value in _inputs(case, sample).items():
+        for head, value in sample.inputs_of(case.values[sampling.AXIS]).items():
             if keeping.differ(line[head], str(value)):
                 raise StudyError(f'{file}:{line.line}: column "{head}": is {line[head]}, and the run of this line has {value}; '
                                  f"{REMEDY}")
