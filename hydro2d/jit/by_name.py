@@ -10,6 +10,8 @@ The compiled function has a parameter for every name that it, or a function it c
 
 So no name is written only to pass it on, yet the names are arguments, and the compiler can assume that their memory does not
 overlap. From Python such a function is called with any object that has the names as attributes.
+
+A function that steers (`steering`) may also set numbers, ``w.dt = 1e-9``: it reads and writes them in the handle's table.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ import linecache
 from types import CodeType, FunctionType
 
 from hydro2d.base.parsing import parsed
-from hydro2d.jit.handle import declared
+from hydro2d.jit.handle import TABLE, declared, row_of
 
 #: the parameter that stands for all names, and the prefix of the parameters that replace it
 HANDLE, PREFIX = "w", "w__"
@@ -84,14 +86,25 @@ def in_rows(function, rows: str) -> FunctionType:
     return made
 
 
+def steering(function):
+    """Marks a function that may set numbers of the handle."""
+    function.steers = True
+    return function
+
+
+def steers(function) -> bool:
+    """Whether a function, compiled or not, may set numbers of the handle."""
+    return getattr(source(function), "steers", False)
+
+
 def flat(function) -> FunctionType:
     """The function that is compiled: with a parameter for every name that it uses if its last one is a handle, else unchanged.
 
     Its attribute ``named`` has these names; ``source`` is the given function.
 
-    Raises ValueError for names that are not declared or are assigned, for a handle used other than by its names or as the
-    last argument of a function that takes one, for such a function that is not defined yet, and for variables that begin
-    with PREFIX.
+    Raises ValueError for names that are not declared, for one that is assigned and is no number or not in a function that
+    steers, for a handle used other than by its names or as the last argument of a function that takes one, for such a function
+    that is not defined yet, and for variables that begin with PREFIX.
     """
     if [*inspect.signature(function).parameters][-1:] != [HANDLE]:
         return function
@@ -112,18 +125,32 @@ class _Rewriting(ast.NodeTransformer):
     def __init__(self, function):
         self._function, self._known, self.names = function, declared(), set()
 
-    def _parameter(self, name: str, node: ast.AST) -> ast.Name:
-        self.names.add(name)
-        return ast.copy_location(ast.Name(PREFIX + name, ast.Load()), node)
+    def _value(self, name: str, node: ast.expr, context: ast.expr_context | None = None) -> ast.expr:
+        """What stands for a name: its parameter, or for a number of a function that steers its place in the table."""
+        kind, axes = self._known[name]
+        if axes or not steers(self._function):
+            self.names.add(name)
+            return ast.copy_location(ast.Name(PREFIX + name, ast.Load()), node)
+        table = TABLE[float if kind is float else int]
+        self.names.add(table)
+        place = f"{PREFIX}{table}[{row_of(name)}, 0]"
+        value = parsed(place if kind is not bool or context else f"({place} != 0)", "eval").body
+        if context:
+            value.ctx = context
+        for each in ast.walk(value):
+            ast.copy_location(each, node)
+        return value
 
     def visit_Attribute(self, node: ast.Attribute):
         if not _is_handle(node.value):
             return self.generic_visit(node)
         if node.attr not in self._known:
             raise _mistake(self._function, node, f"uses {HANDLE}.{node.attr}, which is no name that handles have")
-        if not isinstance(node.ctx, ast.Load):
+        if isinstance(node.ctx, ast.Load):
+            return self._value(node.attr, node)
+        if self._known[node.attr][1] or not steers(self._function):
             raise _mistake(self._function, node, f"assigns {HANDLE}.{node.attr}")
-        return self._parameter(node.attr, node)
+        return self._value(node.attr, node, node.ctx)
 
     def visit_Call(self, node: ast.Call):
         if node.args and _is_handle(node.args[-1]):
@@ -131,7 +158,7 @@ class _Rewriting(ast.NodeTransformer):
             if not takes_handle(called):
                 raise _mistake(self._function, node, f"gives {HANDLE} to {ast.unparse(node.func)}, which is no compiled "
                                                      "function that takes one, or is not defined yet")
-            node.args[-1:] = [self._parameter(name, node.args[-1]) for name in called.named]
+            node.args[-1:] = [self._value(name, node.args[-1]) for name in called.named]
         return self.generic_visit(node)
 
     def visit_Name(self, node: ast.Name):

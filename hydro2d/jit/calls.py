@@ -181,6 +181,14 @@ def serial(function):
     return called(Inner(function))
 
 
+def control(function):
+    """`serial` for what stands between the phases of a step: it may set numbers of the handle, ``w.dt = 1e-9``.
+
+    Other functions take numbers as they were when their phase began. A phase with one that steers has no others.
+    """
+    return serial(by_name.steering(function))
+
+
 @point
 def wait(gate, parts):
     """Makes the threads of a phase, one for each part, wait for one another.

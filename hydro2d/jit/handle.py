@@ -2,12 +2,11 @@
 
 The word is the address of a table with eight words for each name: the address and the shape of an array, or a number. In
 compiled code the names are attributes of the handle, ``w.u[b, j, i]`` and ``w.dt``, with types that `declare` fixes; in
-Python a `Handle` keeps the values and fills the table.
+Python a `Handle` fills the table and reads it. The table is an array of the handle itself, in two views, by which a kernel
+marked `control` sets numbers.
 """
 
 from __future__ import annotations
-
-import functools
 
 import llvmlite.ir as ir
 import numba
@@ -24,8 +23,11 @@ WORDS = 8
 #: types accepted as a number of each kind
 NUMBERS: dict[type, tuple[type, ...]] = {float: (float, int, np.floating), int: (int, np.integer), bool: (bool, np.bool_)}
 
+#: names of the table itself, as whole numbers and as floats
+TABLE = {int: "words", float: "numbers"}
+
 #: row, kind and number of axes of every name
-_rows: dict[str, tuple[int, type, int]] = {}
+_rows: dict[str, tuple[int, type, int]] = {"words": (0, int, 2), "numbers": (1, float, 2)}
 
 
 def declare(names: dict[str, tuple[type, int]]) -> None:
@@ -47,62 +49,75 @@ def declared() -> dict[str, tuple[type, int]]:
     return {name: (kind, axes) for name, (_, kind, axes) in _rows.items()}
 
 
-@functools.cache
-def _places(names: tuple[str, ...], partners: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Rows of names and of their partners, and of the partners and the names."""
-    return tuple(np.array([_rows[name][0] for name in row]) for row in ((*names, *partners), (*partners, *names)))
+def row_of(name: str) -> int:
+    """The row of a name in the table."""
+    return _rows[name][0]
 
 
 class Handle:
-    """Values by their names, and the table of them that compiled code reads.
+    """Values by their names, as compiled code finds them in the table.
 
     Attributes
     ----------
     address : int, of the table
-    values : the arrays and numbers, by name
+    words : int64[rows, WORDS], the table
     """
 
     def __init__(self):
-        self._words = np.zeros((len(_rows), WORDS), dtype=np.int64)
-        self._floats = self._words.view(np.float64)
-        self.values: dict[str, object] = {}
-        self.address: int = self._words.ctypes.data
+        self.words = np.zeros((len(_rows), WORDS), dtype=np.int64)
+        self._floats = self.words.view(np.float64)
+        #: the arrays by kind, address and shape, and the names that have a value
+        self._arrays: dict[tuple, np.ndarray] = {}
+        self._known: set[str] = set()
+        self.address: int = self.words.ctypes.data
+        self.update(words=self.words, numbers=self._floats)
 
     def update(self, **values) -> None:
         """Sets the values of names.
 
         Raises KeyError for a name that is not declared, TypeError for a value of another type, axes or order in memory.
         """
-        kept = self.values
         for name, value in values.items():
-            if kept.get(name) is value:
-                continue
             row, kind, axes = _rows[name]
             if axes:
                 if not (isinstance(value, np.ndarray) and value.dtype == kind and value.ndim == axes
                         and value.flags.c_contiguous):
                     raise TypeError(f"{name} is an array of {np.dtype(kind)} with {axes} axes, in the order of C, "
                                     f"not {value!r:.80}")
-                self._words[row, 0] = value.__array_interface__["data"][0]
-                self._words[row, 1:1 + axes] = value.shape
+                place = value.__array_interface__["data"][0], *value.shape
+                before = self._place(name)
+                self.words[row, : 1 + axes] = place
+                self._arrays[kind, *place] = value
+                if before != self._place(name) and before[1] not in self.words[:, 0]:
+                    self._arrays.pop(before, None)
             elif not isinstance(value, NUMBERS[kind]):
                 raise TypeError(f"{name} is a number, {kind.__name__}, not {value!r:.80}")
             else:
-                (self._floats if kind is float else self._words)[row, 0] = value
-            kept[name] = value
+                (self._floats if kind is float else self.words)[row, 0] = value
+            self._known.add(name)
 
-    def exchange(self, names: tuple[str, ...], partners: tuple[str, ...]) -> None:
-        """Exchanges the values of every name and of its partner, which is of the same type."""
-        here, there = _places(names, partners)
-        self._words[here] = self._words[there]
-        for name, partner in zip(names, partners, strict=True):
-            self.values[name], self.values[partner] = self.values[partner], self.values[name]
+    def exchange(self, name: str, partner: str) -> None:
+        """Exchanges the values of a name and of its partner, which is of the same type."""
+        here, there = row_of(name), row_of(partner)
+        self.words[[here, there]] = self.words[[there, here]]
+
+    def _place(self, name: str) -> tuple:
+        """Kind, address and shape of the array of a name, as the table has them."""
+        row, kind, axes = _rows[name]
+        return kind, *self.words[row, : 1 + axes].tolist()
+
+    @property
+    def values(self) -> dict[str, object]:
+        """The arrays and numbers, by name."""
+        return {name: getattr(self, name) for name in _rows if name in self._known}
 
     def __getattr__(self, name: str):
-        try:
-            return self.values[name]
-        except KeyError:
-            raise AttributeError(name) from None
+        if name.startswith("_") or name not in self._known:
+            raise AttributeError(name)
+        row, kind, axes = _rows[name]
+        if axes:
+            return self._arrays[self._place(name)]
+        return kind((self._floats if kind is float else self.words)[row, 0])
 
 
 class _HandleType(types.Type):

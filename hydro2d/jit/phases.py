@@ -131,10 +131,17 @@ class Phase:
         self.steps = _runs(steps)
         self._address = 0
         _refuse(self.steps)
+        if len({by_name.steers(run.kernel) for run in self.runs()}) > 1:
+            raise ValueError(f"{name} has kernels that steer and others, which would see numbers of before or after")
 
     def runs(self) -> Iterator[Run]:
         """The kernels of the phase, in order."""
         return _all_runs(self.steps)
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether one part runs all of it."""
+        return all(run.alone for run in self.runs())
 
     @functools.cached_property
     def takes(self) -> frozenset[str]:
@@ -168,10 +175,15 @@ class Phase:
             recording.clocked(self.__name__, self._run, handle)
 
     def _run(self, handle: Handle) -> None:
+        run_parts(len(handle.parts) - 1, self.address, handle.address)
+
+    @property
+    def address(self) -> int:
+        """The address of its compiled code."""
         if not self._address:
             with recording.first_call(self.full_name):
                 self._address = self._compiled_address()
-        run_parts(len(handle.parts) - 1, self._address, handle.address)
+        return self._address
 
     @property
     def full_name(self) -> str:

@@ -33,8 +33,8 @@ from hydro2d.kernels.contact import (
 
 slip_zones = Phase(
     "slip_zones",
-    "Distance to the hard bodies of a slip layer and the zones beside them.",
-    alone(sliding.slip_zones),
+    "Distance to the hard bodies of a slip layer and the zones beside them, if they are found anew.",
+    when("finds_zones", alone(sliding.slip_zones)),
 )
 
 close_cells = Phase(

@@ -15,7 +15,22 @@ OF_THE_CALL = (
     Work("i0", "", "first column of the active box", int),
     Work("i1", "", "one past its last column", int),
     Work("time", "", "at the end of the step, s"),
+    Work("reached", "", "time at its beginning, s"),
     Work("dt", "", "time step, s"),
+    Work("cycle", "", "cycles done", int),
+    Work("asks", "", "not zero where Python is needed (`hydro2d.jit.tape`)", int),
+    Work("until", "", "time at which Python is needed next, s"),
+    Work("last_cycle", "", "number of cycles after which it is", int),
+    Work("limited_by", "", "what has set the step (`hydro2d.kernels.choose_step`)", int),
+    Work("ramped", "", "whether the step was shortened as one of the first", bool),
+    Work("lengths", "n", "lengths of the last steps, s, each at the remainder of its number"),
+    Work("grown", "n", "whether only the growth has set them", bool),
+    Work("box", "4", "the active box: first row and one past the last, then columns", int),
+    Work("grows", "", "whether it may grow", bool),
+    Work("most_parts", "", "into how many parts it is cut if it has the rows", int),
+    Work("age", "", "cycles since the last cut", int),
+    Work("row_costs", "j", "cost of a row, for the cut", int),
+    Work("finds_zones", "", "whether the zones of a slip layer are found anew in this cycle", bool),
     Work("mesh_speed", "", "speed of the mesh along z, m/s"),
     Work("travels", "", "whether the mesh travels", bool),
     Work("advance", "", "distance that the mesh travels in the step, m"),
@@ -61,6 +76,35 @@ EDGES = (
     Work("edge_pressure", "4", "pressure from beyond each edge, Pa"),
     Work("void_only", "4", "columns and rows of edges that only void enters through, -1 for the others", int),
     Work("pushed", "2 b J I", "velocity that forces of sources add in the step, m/s, or an empty array"),
+)
+
+#: a mesh that travels
+TRAVEL = (
+    Work("followed", "", "body that the mesh follows", int),
+    Work("heading", "", "sense of its motion along z, 1 or -1"),
+    Work("core_run", "2", "rows of the core of the followed body on the axis", int),
+    Work("core", "2", "mass and axial momentum of that core"),
+    Work("placed", "2", "heights between which the ghost rows ahead have the material of the deck, m"),
+    Work("reach", "m", "how far each body reached along z at the start, in that sense, m"),
+    Work("z_start", "J", "heights of the edges of rows at the start, m"),
+    Work("zc_start", "j", "heights of their centres at the start, m"),
+    Work("offset", "1", "way of the mesh since the start, m"),
+)
+
+#: what the books of a run keep
+BOOKS = (
+    Work("sinks", "s 2+m", "momentum, energy and mass of every body, that have left through each sink of the audit"),
+    Work("transfers", "3 2", "momentum and heat that the groups of a contact have exchanged"),
+    Work("edge_sinks", "4", "sink of each edge", int),
+    Work("edges_open", "4", "whether bodies flow through it", bool),
+    Work("holding_rows", "2", "rows of the edges along z that hold or push, -1 for none", int),
+    Work("held_column", "", "sink of the edges along r that hold, -1 without any", int),
+    Work("course_moved", "m 2", "change of the first moments of each body's mass by what crossed the edges"),
+    Work("course_whole", "m", "mass of each body that has been in the mesh"),
+    Work("course_columns", "i", "mean radii of the columns, m"),
+    Work("ejecta", "t 4", "of each target: sense of the flight at it, place of its face, depth of its rear, its velocity"),
+    Work("ejecta_bodies", "t 2", "the target and its projectile", int),
+    Work("ejecta_gone", "t 3", "mass and momentum gone before its face, mass gone behind its rear"),
 )
 
 #: groups and rules of bodies in the state, its blocks whose rows have their own names, and views of them
@@ -154,7 +198,7 @@ STATE = (*(Work(field.symbol, _AXES[field.centring], field.meaning) for field in
 
 #: all names that kernels of the step can use
 NAMES = (
-    *STATE, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *EDGES, *BODIES, *WORDS,
+    *STATE, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *EDGES, *TRAVEL, *BOOKS, *BODIES, *WORDS,
     *(name for some in NUMBERS.values() for name in some), *DERIVED, *TIES,
 )
 

@@ -61,26 +61,24 @@ carry_momentum = Phase(
 
 find_moving = Phase(
     "find_moving",
-    "Rows and columns of the vertices that move.",
-    column_ranges.moving_columns,
-    WAIT,
-    alone(column_ranges.moving_box),
+    "Rows and columns of the vertices that move, if the active box may grow.",
+    when("grows",
+         column_ranges.moving_columns,
+         WAIT,
+         alone(column_ranges.moving_box)),
 )
 
 find_bodies = Phase(
     "find_bodies",
-    "The columns in which each body lies.",
-    column_ranges.find_body_ranges,
-    WAIT,
-    column_ranges.find_active_ranges,
-    WAIT,
-    column_ranges.widen_ranges,
-)
-
-list_mixed = Phase(
-    "list_mixed",
-    "The cells that are not full of one body.",
-    column_ranges.list_mixed,
+    "The columns in which each body lies, looked for in all of them, and the cells that are not full of one body.",
+    when("anew",
+         column_ranges.find_body_ranges,
+         WAIT,
+         column_ranges.find_active_ranges,
+         WAIT,
+         column_ranges.widen_ranges,
+         WAIT,
+         column_ranges.list_mixed),
 )
 
 find_masses = Phase(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,21 +27,55 @@ CONTACT_TRANSFERS = {
 }
 
 
-@dataclass
-class Sink:
-    """Losses under one name: mass per body, axial momentum, energy; per radian (per unit depth in planar geometry)."""
+class Transfer:
+    """Axial momentum and heat that two groups have exchanged in one way; per radian (per unit depth in planar geometry).
 
-    mass: np.ndarray
-    momentum: float = 0.0
-    energy: float = 0.0
+    row : float64[2], where the numbers are
+    """
+
+    def __init__(self, row: np.ndarray):
+        self._row = row
+
+    @property
+    def momentum(self) -> float:
+        """Axial momentum, N s."""
+        return float(self._row[0])
+
+    @momentum.setter
+    def momentum(self, momentum: float) -> None:
+        self._row[0] = momentum
+
+    @property
+    def energy(self) -> float:
+        """Energy, J."""
+        return float(self._row[1])
+
+    @energy.setter
+    def energy(self, energy: float) -> None:
+        self._row[1] = energy
+
+    def saved(self) -> dict:
+        """Data for a restart file."""
+        return {"momentum": self.momentum, "energy": self.energy}
 
 
-@dataclass
-class ContactTransfer:
-    """Transfers between two groups under one name: axial momentum and heat; per radian (per unit depth in planar geometry)."""
+class Sink(Transfer):
+    """Losses under one name: axial momentum, energy, mass per body; per radian (per unit depth in planar geometry).
 
-    momentum: float = 0.0
-    energy: float = 0.0
+    row : float64[2 + m], where the numbers are
+
+    Attributes
+    ----------
+    mass : float64[m], kg
+    """
+
+    def __init__(self, row: np.ndarray):
+        super().__init__(row)
+        self.mass = row[2:]
+
+    def saved(self) -> dict:
+        """Data for a restart file."""
+        return {"mass": self.mass.tolist(), **super().saved()}
 
 
 @dataclass
@@ -74,22 +108,29 @@ def totals(state) -> Totals:
     return Totals(mass=bodies[:, 0].copy(), momentum=momentum, internal_of=bodies[:, 1].copy(), kinetic=kinetic)
 
 
-@dataclass
 class Audit:
     """The totals at the start and the sinks since.
 
-    Attributes
+    Parameters
     ----------
     start : Totals
     noise : energy below which all sums are round-off of the stresses, J per radian: the last bit of m c^2, c the speed of sound
+    names : of the sinks
+    contact : whether there is a contact
+
+    Attributes
+    ----------
+    amounts : float64[sinks, 2 + m], momentum, energy and mass of every body, which the books of a cycle add to
+    exchanged : float64[3, 2], momentum and energy of the transfers of a contact
     sinks : name -> Sink
-    contact_transfers : name -> ContactTransfer, empty without contact
+    contact_transfers : name -> Transfer, empty without contact
     """
 
-    start: Totals
-    noise: float
-    sinks: dict[str, Sink] = field(default_factory=dict)
-    contact_transfers: dict[str, ContactTransfer] = field(default_factory=dict)
+    def __init__(self, start: Totals, noise: float, names: Iterable[str], contact: bool):
+        self.start, self.noise, names = start, noise, list(names)
+        self.amounts, self.exchanged = np.zeros((len(names), 2 + len(start.mass))), np.zeros((len(CONTACT_TRANSFERS), 2))
+        self.sinks = dict(zip(names, map(Sink, self.amounts), strict=True))
+        self.contact_transfers = dict(zip(CONTACT_TRANSFERS, map(Transfer, self.exchanged), strict=True)) if contact else {}
 
     @classmethod
     def open(cls, state, speeds: np.ndarray, own: Iterable[str] = ()) -> Audit:
@@ -99,8 +140,7 @@ class Audit:
         addition to SINKS
         """
         start = totals(state)
-        return cls(start, _noise(start, speeds), {name: Sink(np.zeros(state.bodies)) for name in (*SINKS, *own)},
-                   {name: ContactTransfer() for name in CONTACT_TRANSFERS if state.groups > 1})
+        return cls(start, _noise(start, speeds), (*SINKS, *own), state.groups > 1)
 
     def add(self, name: str, mass: np.ndarray | None = None, momentum: float = 0.0, energy: float = 0.0) -> None:
         """Adds to a sink a loss from the totals; mass per body [m]."""
@@ -123,12 +163,6 @@ class Audit:
     def _brought(self, names: Iterable[str]) -> float:
         """Energy that has come in through sinks, J per radian."""
         return -sum(min(self.sinks[name].energy, 0.0) for name in names)
-
-    def transfer(self, name: str, momentum: float = 0.0, energy: float = 0.0) -> None:
-        """Adds to a transfer of a contact: axial momentum that soft bodies gained from hard ones, and heat."""
-        entry = self.contact_transfers[name]
-        entry.momentum += momentum
-        entry.energy += energy
 
     @property
     def scale(self) -> float:
@@ -177,8 +211,8 @@ class Audit:
         """Data for a restart file."""
         return {
             "start": {**vars(self.start), "mass": self.start.mass.tolist(), "internal_of": self.start.internal_of.tolist()},
-            "sinks": {name: {**vars(sink), "mass": sink.mass.tolist()} for name, sink in self.sinks.items()},
-            "contact_transfers": {name: vars(entry) for name, entry in self.contact_transfers.items()},
+            "sinks": {name: sink.saved() for name, sink in self.sinks.items()},
+            "contact_transfers": {name: entry.saved() for name, entry in self.contact_transfers.items()},
         }
 
     @classmethod
@@ -186,9 +220,12 @@ class Audit:
         """The audit that `saved` described; speeds as for `open`."""
         arrays = {name: np.array(saved["start"][name]) for name in ("mass", "internal_of")}
         start = Totals(**{**saved["start"], **arrays})
-        sinks = {name: Sink(**{**entry, "mass": np.array(entry["mass"])}) for name, entry in saved["sinks"].items()}
-        contact_transfers = {name: ContactTransfer(**entry) for name, entry in saved["contact_transfers"].items()}
-        return cls(start, _noise(start, speeds), sinks, contact_transfers)
+        audit = cls(start, _noise(start, speeds), saved["sinks"], bool(saved["contact_transfers"]))
+        for name, entry in saved["sinks"].items():
+            audit.add(name, np.array(entry["mass"]), entry["momentum"], entry["energy"])
+        for name, entry in saved["contact_transfers"].items():
+            audit.contact_transfers[name].momentum, audit.contact_transfers[name].energy = entry["momentum"], entry["energy"]
+        return audit
 
 
 def _noise(start: Totals, speeds: np.ndarray) -> float:

@@ -24,7 +24,9 @@ FILM_SAID = "most of its mass is in cells that it does not fill"
 CLOUD_SAID = f"it has more than {CLOUD:g} times the volume of the start"
 AXES = "r", "z"
 #: attributes of `Courses` in a restart file
-KEPT = ("_start", "_moved", "_momentum", "_way", "_whole", "_thick", "_film", "_cloud", "_specific", "apart")
+KEPT = ("_start", "moved", "_momentum", "_way", "whole", "_thick", "_film", "_cloud", "_specific", "apart")
+#: those that had other names in files of earlier versions
+RENAMED = {"moved": "_moved", "whole": "_whole"}
 
 
 class Courses:
@@ -41,6 +43,9 @@ class Courses:
 
     Attributes
     ----------
+    moved, whole : float64[m, 2] and [m], change of the first moments of each body's mass, and all of it that has been in the
+        mesh, which the books of a cycle change by what crosses the edges (`hydro2d.kernels.books`)
+    columns : float64[i], mean radii of the columns, m
     apart : float64[m, 2], offset of the centre of mass along r and z, in cells of the mean size where the body is; of all the
         mass of the body that has been in the mesh
     film, cloud : bool[m], which bodies have become a film or a spray, and a cloud
@@ -55,25 +60,15 @@ class Courses:
         g, n = grid.g, state.bodies
         inner, outer = grid.r[:-1], grid.r[1:]
         self._middle = 0.25 * (inner**2 + outer**2) if grid.cylindrical else grid.rc
-        self._columns = np.sqrt(2.0 * self._middle) if grid.cylindrical else grid.rc
+        self.columns = np.sqrt(2.0 * self._middle) if grid.cylindrical else grid.rc
         self._sums = np.zeros((n, 9))
         self._shape = g, grid.nz, grid.nr, grid.cylindrical
         self._last = 0.0
         self._momentum = np.zeros((n, 2))
-        self._start, self._moved, self._way, self.apart = (np.zeros((n, 2)) for _ in range(4))
-        self._whole, self._begun = np.zeros(n), False
+        self._start, self.moved, self._way, self.apart = (np.zeros((n, 2)) for _ in range(4))
+        self.whole, self._begun = np.zeros(n), False
         self._thick, self._film, self._cloud = (np.zeros(n, dtype=bool) for _ in range(3))
         self.film, self.cloud, self._specific = self._film, self._cloud, np.zeros(n)
-
-    def crossed(self, di: int, side: int, first: int, last: int, advance: float) -> None:
-        """Books the material that crossed an edge of the mesh in a sweep, from place `first` to `last` along the edge.
-
-        di, side : direction of the sweep and edge, as in `Cycle.remap_bodies` and in `edge_flux`;  advance : of the mesh, m
-        """
-        s, grid = self.state, self.state.grid
-        at = grid.g + (0, (grid.nr if di else grid.nz))[side]
-        sums.edge_course(di, first, last, at, -1.0 if side else 1.0, advance, self._columns, grid.r, grid.z, grid.zc, grid.dz,
-                         grid.metrics[FACE_R], grid.vol_r, s.fr, s.fz, s.edge_flux[side, RHO], self._moved, self._whole)
 
     def look(self, time: float, keep: bool = True) -> None:
         """Finds how far every body is off its course, from its momentum since the last look; first at the start.
@@ -90,20 +85,22 @@ class Courses:
         shared = self._sums[:, 7] > FILM * mass[:, 0]
         specific = np.divide(self._sums[:, 8], mass[:, 0], out=np.zeros(s.bodies), where=mass[:, 0] > 0.0)
         if not self._begun:
-            self._start, self._whole, self._begun = moment.copy(), mass[:, 0].copy(), True
+            self._start, self._begun = moment.copy(), True
+            self.whole[:] = mass[:, 0]
             self._thick, self._specific = np.array([self._has_core(m) for m in range(s.bodies)]), specific
         else:
             step = 0.5 * (time - self._last) * (self._momentum + momentum)
-            moved = self._moved + step
+            moved = self.moved + step
             there = (mass > 0.0) & np.ones(2, dtype=bool)  # a body that has left keeps its scale
             way = self._way + np.divide(np.abs(step), sizes, out=np.zeros_like(step), where=there)
-            scale = self._whole[:, None] * np.divide(sizes, mass, out=np.ones_like(sizes), where=there)
+            scale = self.whole[:, None] * np.divide(sizes, mass, out=np.ones_like(sizes), where=there)
             np.divide(moment - self._start - moved, scale, out=self.apart, where=there)
             self.film = self._film | (self._thick & shared)
             self.cloud = self._cloud | (specific > CLOUD * self._specific)
             if not keep:
                 return
-            self._moved, self._way, self._film, self._cloud = moved, way, self.film, self.cloud
+            self.moved[:] = moved
+            self._way, self._film, self._cloud = way, self.film, self.cloud
         self._last, self._momentum = time, momentum.copy()
 
     def _has_core(self, m: int) -> bool:
@@ -128,8 +125,13 @@ class Courses:
     def resume(self, saved: dict) -> None:
         """Continues from the result of `saved`."""
         for name in KEPT:
-            if name in saved:  # files of earlier versions do not know films and clouds
-                setattr(self, name, np.array(saved[name]))
+            stored = saved.get(name, saved.get(RENAMED.get(name, "")))
+            if stored is None:  # files of earlier versions do not know films and clouds
+                continue
+            if name in RENAMED:
+                getattr(self, name)[...] = stored
+            else:
+                setattr(self, name, np.array(stored))
         self.film, self.cloud = self._film, self._cloud
         self._last, self._begun = saved["last"], True
 

@@ -6,8 +6,6 @@ import numpy as np
 
 from hydro2d.measure.result import Number, Result, result
 from hydro2d.measure.wall_damage import DETACHED_SPALL, PERFORATED
-from hydro2d.mesh import sums
-from hydro2d.mesh.fields import RHO
 
 #: share of the projectile's momentum that may fly behind the target without a momentum multiplication taking account of it
 IGNORED = 0.01
@@ -40,12 +38,14 @@ class Ejecta:
     sim : Simulation
     crater : Crater of the target
     m : index of the projectile
+    gone : float64[3], mass and momentum that have left the mesh before the face, and mass of the target behind its rear, which
+        the books of a cycle add to (`hydro2d.kernels.books`)
     """
 
-    def __init__(self, sim, crater, m: int):
+    def __init__(self, sim, crater, m: int, gone: np.ndarray):
         self.sim, self._crater = sim, crater
         self._bodies = (crater.m, m)
-        self._gone = np.zeros(3)
+        self._gone = gone
 
     @property
     def lost(self) -> float:
@@ -55,16 +55,6 @@ class Ejecta:
     @property
     def _around(self) -> float:
         return 2.0 * np.pi if self.sim.grid.cylindrical else 1.0
-
-    def crossed(self, di: int, side: int, first: int, last: int) -> None:
-        """Books what leaves before or behind the target through an edge of the mesh in a sweep; arguments as for
-        `Courses.crossed`."""
-        s, grid, crater = self.sim.state, self.sim.grid, self._crater
-        at = grid.g + side * ((grid.nr if di else grid.nz) - 1)
-        for m in self._bodies:
-            sums.edge_ejecta(di, first, last, at, 1.0 if side else -1.0, crater.direction, crater.target.surface, crater.rear,
-                             crater.target.velocity, m == crater.m, grid.zc, s.v[s.group[m]], s.edge_flux[side, RHO, m],
-                             self._gone)
 
     def measure(self, damage: str | None, behind: float) -> Ejected:
         """What flies back now; SI, whole circumference.

@@ -40,6 +40,16 @@ class BoundaryConditions:
         """The edges that the table [boundaries] of a resolved deck describes."""
         return cls(tuple(made(edge, boundaries) for edge in EDGES))
 
+    @property
+    def changes(self) -> bool:
+        """Whether `drive` ever changes anything."""
+        return bool(self._driven or self._pressing)
+
+    @property
+    def moves(self) -> bool:
+        """Whether an edge ever has a velocity."""
+        return bool(self._moving)
+
     def drive(self, time: float, dt: float = 0.0) -> None:
         """Sets `velocity` to its values at the end of a step, a time in s, and `pressure` to those in the middle of it."""
         for n, edge in self._driven:  # the velocities of the others never change

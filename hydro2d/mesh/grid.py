@@ -76,8 +76,8 @@ class Grid:
         self.r, self.z = _with_ghosts(r_edges), _with_ghosts(z_edges)
         self.dr, self.dz = np.diff(self.r), np.diff(self.z)
         self.rc, self.zc = 0.5 * (self.r[1:] + self.r[:-1]), 0.5 * (self.z[1:] + self.z[:-1])
-        self.offset = 0.0
-        self._start = self.z.copy(), self.zc.copy()
+        self.moved = np.zeros(1)
+        self.start = self.z.copy(), self.zc.copy()
         self._columns()
         self.volume = self.dz[:, None] * self.vol_r[None, :]
         self.shape = self.volume.shape
@@ -107,9 +107,14 @@ class Grid:
 
     def move(self, offset: float) -> None:
         """Places the whole mesh at `offset` from where it was at the start: edges and centres along z, in place."""
-        self.offset = offset
-        for now, start in zip((self.z, self.zc), self._start, strict=True):
+        self.moved[0] = offset
+        for now, start in zip((self.z, self.zc), self.start, strict=True):
             np.add(start, offset, out=now)
+
+    @property
+    def offset(self) -> float:
+        """Distance that the mesh has travelled along z since the start, m; see `move`."""
+        return float(self.moved[0])
 
     @property
     def cells(self) -> int:

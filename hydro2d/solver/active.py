@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-#: cells that the active box leads the moving vertices by; one cycle spreads a signal by fewer
-MARGIN = 6
+from hydro2d.kernels.active_box import MARGIN
 
 
 class ActiveBox:
@@ -22,29 +21,28 @@ class ActiveBox:
     Attributes
     ----------
     mesh : int64[4], rows j0, j1 and columns i0, i1 of the mesh without ghosts
-    box : list of int [j0, j1, i0, i1] of the cells that are active
+    bounds : int64[4], those of the cells that are active
     """
 
     def __init__(self, state, table, boundaries, skips: bool):
         self._state, self._table, self._boundaries, self._skips = state, table, boundaries, skips
         g, nz, nr = state.grid.g, state.grid.nz, state.grid.nr
         self.mesh = np.array([g, g + nz, g, g + nr], dtype=np.int64)
-        self._all: list[int] = self.mesh.tolist()
-        self.box = list(self._all)
+        self.bounds = self.mesh.copy()
+
+    @property
+    def box(self) -> list[int]:
+        """Rows and columns [j0, j1, i0, i1] of the cells that are active."""
+        return self.bounds.tolist()
+
+    @box.setter
+    def box(self, box: list[int]) -> None:
+        self.bounds[:] = box
 
     @property
     def is_all(self) -> bool:
         """Whether every cell is active."""
-        return self.box == self._all
-
-    @property
-    def rows(self) -> np.ndarray:
-        """Its rows as one part, int64[2]."""
-        return np.array(self.box[:2], dtype=np.int64)
-
-    def reaches(self) -> list[bool]:
-        """Whether it has reached the low and the high edge along z, and along r."""
-        return [True] * 4 if self.is_all else [here == there for here, there in zip(self.box, self._all, strict=True)]
+        return bool((self.bounds == self.mesh).all())
 
     def begin(self) -> None:
         """Becomes the smallest box around everything that moves or is under pressure or stress and the driving edges, plus the
@@ -69,16 +67,6 @@ class ActiveBox:
             loud[cells] |= edge_drives
         rows, columns = np.nonzero(loud[j0:j1, i0:i1])
         self.box = self._clipped([rows.min() + j0, rows.max() + j0 + 1, columns.min() + i0, columns.max() + i0 + 1])
-
-    def grow(self) -> bool:
-        """Grows ahead of the moving vertices in ``State.moving`` (equation 1). Returns whether it has grown."""
-        first, last, low, high = self._state.moving
-        if first == last:
-            return False
-        (j0, j1, i0, i1), ahead = self.box, self._clipped([first - 1, last, low - 1, high])
-        grown = [min(j0, ahead[0]), max(j1, ahead[1]), min(i0, ahead[2]), max(i1, ahead[3])]
-        before, self.box = self.box, grown
-        return grown != before
 
     def _clipped(self, box) -> list[int]:
         """A box with the margin, inside the mesh."""

@@ -1,4 +1,4 @@
-"""Contact within a step: what `Cycle` does in addition to its own phases where two body groups meet (explanation/sliding)."""
+"""The memory of a contact: data of its nodes in slots, as many as are needed (explanation/sliding)."""
 
 from __future__ import annotations
 
@@ -6,9 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hydro2d.kernels import lagrangian_step
 from hydro2d.kernels.contact import extension
-from hydro2d.measure.audit import Audit
 
 
 class Ties(NamedTuple):
@@ -85,42 +83,18 @@ def most_squares(table, courant: float) -> float:
     return float(max(4.0 * lightest * speeds.max() ** 2 / ((table.rho0 * speeds**2).max() * courant**2), 1.0))
 
 
-class NoContact:
-    """One group of bodies, without a second one to meet.
+class Contact:
+    """The slots of the contact nodes of a state, of which there are more when more are needed; none with one group.
 
-    ties : empty slots, for phases without contact nodes
+    Attributes
+    ----------
+    ties : Ties
     """
 
-    def __init__(self):
-        self.ties = slots()
-
-    def find(self, parts, given) -> None:
-        """Finds where the groups meet; parts : int64[n + 1], rows;  given : Given."""
-
-    def account(self, audit: Audit) -> None:
-        """Enters into the audit the transfers of contact between groups and walls in the step."""
-
-
-class Contact(NoContact):
-    """Two groups of bodies of a state that touch, press and slide; it keeps the slots of their contact nodes."""
-
     def __init__(self, state):
-        super().__init__()
-        self.state = state
+        self.state, self.ties = state, slots()
 
-    def find(self, parts, given) -> None:
-        """Sets up the contact: face apertures, normals, slave nodes; volume rate and viscosity of contact-interface cells.
-
-        Beyond the active box bodies that touch have no pressure to exchange yet.
-        """
-        if (needed := int(self.state.first_slot[parts[-1] + 1])) > len(self.ties.strength):
-            self.ties = slots(2 * needed)
-        given.run(lagrangian_step.find_contact)
-
-    def account(self, audit: Audit) -> None:
-        """Enters into the audit the transfers of contact between groups and walls in the step."""
-        pushed, *heats, walls = self.state.transfer_sum.tolist()
-        audit.add("walls", momentum=walls)
-        audit.transfer("contact", momentum=pushed, energy=heats[0])
-        audit.transfer("friction", energy=heats[1])
-        audit.transfer("under-filled nodes", energy=heats[2])
+    def make_room(self, handle) -> None:
+        """Doubles the slots that are needed now, and gives them to a handle."""
+        self.ties = slots(2 * int(self.state.first_slot[handle.parts[-1] + 1]))
+        handle.update(**self.ties._asdict())

@@ -7,40 +7,47 @@ has advanced by w dt. The material that the deck has placed ahead flows in throu
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from hydro2d.deck.layout import layout
+from hydro2d.jit import Conductor, Handle
+from hydro2d.kernels import between_phases
+from hydro2d.kernels.mesh_travel import THINNEST
 from hydro2d.materials.starts import slot_of
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.mesh.grid import Grid
-from hydro2d.mesh.state import EMPTY
-from hydro2d.mesh.sums import HALF
 from hydro2d.solver import insertion
-
-#: entering material is looked up in a strip of at least this share of a cell, so that it has a height when the mesh rests
-THINNEST = 1e-9
 
 
 class FixedMesh:
     """A mesh that stays where it is.
 
-    velocity : float, of the mesh along z, m/s;  leading : the leading edge along z, 0 low, 1 high, None: neither
+    Attributes
+    ----------
+    leading : the leading edge along z, 0 low, 1 high, None: neither
     """
 
-    velocity = 0.0
-    leading = None
+    leading: int | None = None
 
-    def prepare(self) -> None:
+    def values(self) -> dict[str, object]:
+        """Its values in a handle (`hydro2d.kernels.names.TRAVEL`)."""
+        none = np.zeros(0)
+        return {"followed": -1, "heading": 0.0, "core_run": np.zeros(2, dtype=np.int64), "core": np.zeros(2),
+                "placed": np.zeros(2), "reach": none}
+
+    def prepare(self, given: Conductor) -> None:
         """Begins with the state as it is, at the start or after a restart."""
 
-    def follow(self) -> None:
+    def follow(self, given: Conductor) -> None:
         """Chooses the velocity of the mesh for the step."""
 
-    def fill_ghosts(self, dt: float) -> None:
+    def fill_ghosts(self, given: Conductor) -> None:
         """Fills the ghost cells ahead of the mesh with the inflow."""
 
-    def move(self, dt: float) -> None:
+    def move(self, given: Conductor) -> None:
         """Moves the mesh to the end of the step."""
 
 
@@ -63,25 +70,30 @@ class UndisturbedSpace:
         self._extents = [(m, *entry.extent("z")) for m, entry in zip(slots, outlines, strict=True)]
         self._layers: dict[int, dict] = {}
 
-    def beyond(self, z: float, direction: float) -> set[int]:
-        """The bodies m that reach beyond z in a direction along the axis."""
-        return {m for m, low, high in self._extents if (high > z if direction > 0 else low < z)}
+    def reach(self, direction: float) -> np.ndarray:
+        """How far each body reaches along the axis in a direction, m, float64[m]."""
+        reach = np.full(len(self.table.names), -direction * np.inf)
+        for m, low, high in self._extents:
+            reach[m] = max(reach[m], high) if direction > 0 else min(reach[m], low)
+        return reach
 
-    def strip(self, low: float, high: float) -> dict[str, np.ndarray]:
-        """``vof``, ``rho`` (kg/m^3), ``e`` (J/kg) and ``centroid`` between two heights, as `insertion` gives them.
+    def strip(self, low: float, high: float) -> tuple[dict[str, np.ndarray], tuple[float, float]]:
+        """What is between two heights, and the heights from and up to which it is the same.
 
-        Shapes (m, nr), of ``centroid`` (2, m, nr).
+        ``vof``, ``rho`` (kg/m^3), ``e`` (J/kg) and ``centroid``, as `insertion` gives them: shapes (m, nr), of ``centroid``
+        (2, m, nr).
 
         Where no body begins, ends or curves between two heights, they are computed once for all of the space between, so that
-        they do not depend on the time of the call: a run continued from a restart has the same bits.
+        they do not depend on the time of the call: a run continued from a restart has the same bits. Elsewhere they are for
+        this strip only.
         """
         first, last = np.searchsorted(self._levels, [low, high], side="right")
         if first != last or any(a < high and b > low for a, b in self._curved):
-            return self._insert(low, high)
+            return self._insert(low, high), (np.inf, -np.inf)
+        same = tuple(np.concatenate([[-np.inf], self._levels, [np.inf]])[first:first + 2].tolist())
         if first not in self._layers:
-            between = 0 < first < len(self._levels)
-            self._layers = {first: self._insert(*(self._levels[first - 1:first + 1] if between else (low, high)))}
-        return self._layers[first]
+            self._layers = {first: self._insert(*(same if np.isfinite(same).all() else (low, high)))}
+        return self._layers[first], same
 
     def _insert(self, low: float, high: float) -> dict[str, np.ndarray]:
         row = Grid(self.grid.r_edges, [low, high], self.grid.geometry)
@@ -89,7 +101,7 @@ class UndisturbedSpace:
         return {name: state[name][..., 0, :] for name in ("vof", "centroid", "rho", "e")}
 
 
-class FollowingMesh:
+class FollowingMesh(FixedMesh):
     """A mesh that travels with the core of a body, forward only.
 
     The core is the intact part of the body that is connected from the axis outward along its longest run on the axis, so that
@@ -106,65 +118,52 @@ class FollowingMesh:
 
     def __init__(self, state, space: UndisturbedSpace, m: int, direction: float, mirrors: tuple[bool, bool]):
         self.state, self.grid, self.space, self.m, self.direction = state, state.grid, space, m, direction
-        self.velocity, self.leading = 0.0, int(direction > 0)
+        self.leading = int(direction > 0)
         self._pads = tuple("symmetric" if mirror else "edge" for mirror in mirrors)
-        self._run = np.zeros(2, dtype=np.int64)
-        self._sums = np.zeros(2)
-        self._placed: dict | None = None
+        self._placed = np.zeros(2)
 
-    def prepare(self) -> None:
+    def values(self) -> dict[str, object]:
+        """Its values in a handle (`hydro2d.kernels.names.TRAVEL`)."""
+        return {**super().values(), "followed": self.m, "heading": float(self.direction), "placed": self._placed,
+                "reach": self.space.reach(self.direction)}
+
+    def prepare(self, given: Conductor) -> None:
         """Begins with the state as it is, at the start or after a restart: nothing is placed beyond the leading edge yet."""
-        self._placed = None
-        self._announce()
+        self._placed[:] = np.inf, -np.inf
+        given.run(between_phases.announce)
 
-    def _announce(self) -> None:
-        """Gives bodies that may enter all columns of the ghost rows ahead as their range."""
-        s, g = self.state, self.grid
-        coming = self.space.beyond(self._edge, self.direction)
-        for row in self._ghost_rows:
-            s.body_ranges[0, :, row], s.occupied[:, row] = EMPTY, EMPTY
-            for m in coming:
-                s.body_ranges[0, m, row] = g.g, g.g + g.nr
-                s.occupied[: s.group[m] + 1, row] = g.g, g.g + g.nr
-
-    def follow(self) -> None:
+    def follow(self, given: Conductor) -> None:
         """Takes the mass-weighted mean velocity of the body's core, or of the whole body if it has no core; never backward."""
-        s, g, m = self.state, self.grid, self.m
-        sums.axis_run(g.g, g.nz, m, HALF, g.z, s.vof, s.dmg, self._run)
-        first, last = self._run
-        if first < last:
-            first, last = max(first - 1, g.g), min(last + 1, g.g + g.nz)
-        sums.core_sums(g.g, g.nr, first, last, m, HALF, self.direction, np.inf, 0.0, g.volume, s.vof, s.dmg, s.rho,
-                       s.v[s.group[m]], self._sums)
-        if self._sums[0] == 0.0:
-            rows = np.zeros((2, g.shape[0]))
-            sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, s.v[s.group[m]], rows)
-            self._sums[:] = rows[:, g.inside[0]].sum(axis=1)
-        mass, momentum = self._sums
-        velocity = momentum / mass if mass > 0.0 else 0.0
-        self.velocity = velocity if velocity * self.direction > 0.0 else 0.0
+        given.ask(between_phases.follow_core, partial(self._follow_whole, given.handle))
 
-    def fill_ghosts(self, dt: float) -> None:
+    def _follow_whole(self, handle: Handle) -> None:
+        """Takes the mean velocity of the whole body."""
+        s, g, m, rows = self.state, self.grid, self.m, np.zeros((2, self.grid.shape[0]))
+        sums.body_sums(g.g, g.nz, g.nr, m, g.cm_in, g.cm_out, g.volume, s.vof, s.rho, handle.v[s.group[m]], rows)
+        mass, momentum = rows[:, g.inside[0]].sum(axis=1)
+        velocity = momentum / mass if mass > 0.0 else 0.0
+        handle.update(mesh_speed=velocity if velocity * self.direction > 0.0 else 0.0)
+
+    def fill_ghosts(self, given: Conductor) -> None:
         """Inserts the deck's material in the strip that the leading edge crosses in the step, at rest and without stress.
 
         Nothing else writes there: the material stays until other material replaces it.
         """
-        s, g, z = self.state, self.grid, self._edge
-        row = self._ghost_rows[0]
-        height = max(abs(self.velocity) * dt, THINNEST * g.dz[row])
-        strip = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
-        if strip is self._placed:
-            return
-        self._placed = strip
+        given.ask(between_phases.look_ahead, partial(self._place, given.handle))
+
+    def _place(self, handle: Handle) -> None:
+        """Inserts the material in the ghost rows ahead."""
+        s, g, z, rows = self.state, self.grid, self._edge, self._ghost_rows
+        height = max(abs(handle.mesh_speed) * handle.dt, THINNEST * g.dz[rows[0]])
+        strip, self._placed[:] = self.space.strip(*((z, z + height) if self.leading else (z - height, z)))
         vof, rho, e, centroid = (self._padded(strip[name]) for name in ("vof", "rho", "e", "centroid"))
-        for row in self._ghost_rows:
+        for row in rows:
             s.vof[:, row], s.q[:, :, row] = vof, s.initial[:, :, None]
             s.q[RHO, :, row], s.q[E, :, row], s.centroid[:, :, row] = rho, e, centroid
 
-    def move(self, dt: float) -> None:
+    def move(self, given: Conductor) -> None:
         """Advances the mesh by w dt, and drops bodies that are wholly inside."""
-        self.grid.move(self.grid.offset + self.velocity * dt)
-        self._announce()
+        given.run(between_phases.move_mesh)
 
     @property
     def _edge(self) -> float:

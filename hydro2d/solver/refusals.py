@@ -8,6 +8,7 @@ import numpy as np
 
 from hydro2d.base.errors import UnphysicalState
 from hydro2d.mesh import fields
+from hydro2d.solver import time_step
 from hydro2d.solver.time_step import COLLAPSED, PATIENCE
 
 
@@ -33,8 +34,7 @@ class Refusals:
                 f"{self._where(j, i, m)}: volume fraction {s.vof[m, j, i]:.6g}, density {s.rho[m, j, i]:.6g} kg/m^3, energy "
                 f"{s.e[m, j, i]:.6g} J/kg, pressure {s.pm[m, j, i]:.6g} Pa ({int(s.bad[j, 0])} such cells in its row)"
                 + (f"; material {self._cycle.table.materials[m].name}: {limits}" if limits else ""))
-        if row[2] >= 0:
-            raise UnphysicalState(f"{self._when}: velocities that are not finite near z = {g.zc[row[2]]:.6g} m")
+        raise UnphysicalState(f"{self._when}: velocities that are not finite near z = {g.zc[row[2]]:.6g} m")
 
     def not_finite(self) -> str | None:
         """The first number of the bodies or of the velocities that is not finite, with its place; None if all are."""
@@ -59,12 +59,11 @@ class Refusals:
             for what, values in (("radial", s.u), ("axial", s.v)):
                 yield f"{what} velocity", g.interior_vertices(values)[b], g.r_edges, g.z_edges
 
-    def small_step(self, dt: float, cause: str) -> None:
-        """Raises UnphysicalState for a time step below the least one; cause : the condition that set it."""
-        dt_min = self._cycle.method.numerics.dt_min
-        if not dt_min < dt < 1e300:
-            raise UnphysicalState(f"{self._when}: time step {dt:.3g} s, below dt_min = {dt_min:.3g} s, set by {cause}, in body "
-                                  f'"{self._slowest}"')
+    def small_step(self) -> None:
+        """Raises UnphysicalState for a time step below the least one."""
+        raise UnphysicalState(
+            f"{self._when}: time step {self._cycle.dt:.3g} s, below dt_min = {self._cycle.method.numerics.dt_min:.3g} s, set by "
+            f'{time_step.cause(self._cycle)}, in body "{self._slowest}"')
 
     def collapsed_step(self, median: float) -> None:
         """Raises UnphysicalState for time steps that have collapsed, see `time_step.Steps`; median : of the run so far, s."""
@@ -74,12 +73,10 @@ class Refusals:
             "shot can cause is as fast")
 
     def turned_cells(self, second: int) -> None:
-        """Raises UnphysicalState if the faces of a cell sweep more than its volume, in both directions or in the second one, so
-        that no remap can recover its contents."""
+        """Raises UnphysicalState: the faces of a cell sweep more than its volume, in both directions or in the second one, so that
+        no remap can recover its contents."""
         s = self._cycle.state
         j, i, m = s.first_turned.tolist()
-        if j < 0:
-            return
         share = s.pre_sweep_volume[j, i] / self._cycle.grid.volume[j, i]
         raise UnphysicalState(
             f"{self._where(j, i, m)}: the step of {self._cycle.dt:.3g} s turned the cell inside out"

@@ -14,6 +14,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import formulas, targets
 from hydro2d.deck.layout import body_at
 from hydro2d.jit import compilation
+from hydro2d.kernels.choose_step import GROWTH
 from hydro2d.materials import library, quantities
 from hydro2d.measure import bodies, debris, outcome, reach, wall_damage
 from hydro2d.measure.audit import Audit, Totals, totals
@@ -107,8 +108,7 @@ class Simulation:
         self.stations = Stations(self, deck, [body_at(deck, entry.r, entry.z) for entry in deck.tracer])
         self._rows = np.zeros((2, self.grid.shape[0]))
         self.penetrator, self.craters = self._penetration()
-        self._ejecta = [Ejecta(self, crater, self.penetrator.m) for crater in self.craters] if self.penetrator else []
-        self.engine.crossings += [each.crossed for each in self._ejecta]
+        self._ejecta = self._ejecta_of()
         self.watched = slots.index(deck.stop.body) if deck.stop.body else None
         #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
         self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
@@ -124,6 +124,16 @@ class Simulation:
             return None, []
         penetrated, flying = targets.targets(self.deck), targets.flight(self.deck)
         return Penetrator(self, flying, penetrated), [Crater(self, target, flying.direction) for target in penetrated]
+
+    def _ejecta_of(self) -> list[Ejecta]:
+        """The measurements of what flies back from the targets."""
+        if self.penetrator is None:
+            return []
+        rod, gone = self.penetrator.m, np.zeros((len(self.craters), 3))
+        fronts = [(each.direction, each.target.surface, each.rear, each.target.velocity) for each in self.craters]
+        self.engine.given.set(ejecta=np.array(fronts, dtype=float), ejecta_gone=gone,
+                              ejecta_bodies=np.array([(each.m, rod) for each in self.craters], dtype=np.int64))
+        return [Ejecta(self, each, rod, own) for each, own in zip(self.craters, gone, strict=True)]
 
     def _mesh(self, slots: list[str], method: Method) -> FixedMesh | FollowingMesh:
         """The motion of the mesh."""
@@ -426,7 +436,8 @@ class Simulation:
     def _refuse_collapse(self) -> None:
         """Raises UnphysicalState if the time steps have collapsed, to what no motion that the shot can have explains."""
         engine = self.engine
-        if engine.number <= engine.method.numerics.ramp_cycles or not self._steps.collapse(engine.dt, engine.cause):
+        grown = engine.given.handle.limited_by == GROWTH
+        if engine.number <= engine.method.numerics.ramp_cycles or not self._steps.collapse(engine.dt, grown):
             return
         size = min(widths[inside].min() for widths, inside in zip((self.grid.dz, self.grid.dr), self.grid.inside, strict=True))
         hottest = float(np.max(self._reach.cell_highest + self._given()))

@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 
+from hydro2d.kernels.choose_step import EDGE, GROWTH
 from hydro2d.physics import waves
 
 #: vertices may be this many times faster than the fastest body at the start, or than the slowest wave
 SPEED_LIMIT_FACTOR = 5.0
 #: least speed of sound as a share of the speeds of a shot, and the largest square of it, (m/s)^2
 SOUND_SHARE, SOUND_MOST = 1e-2, 1.0
-#: cause of a step that only grows from the one before
-GROWTH = "growth"
 #: a step below this share of the median has collapsed if it stays there for this many cycles, in which it does not only grow
 COLLAPSED, PATIENCE = 1e-3, 100
 #: classes of steps in a factor of two
@@ -35,22 +34,26 @@ def speed_limit(state, sound_speeds) -> float:
     return SPEED_LIMIT_FACTOR * max(fastest, float(sound_speeds.min()))
 
 
-def chosen(cycle) -> tuple[float, str]:
-    """The time step, s, and its cause: the term and the cell that set it, the ramp of the first cycles, the growth from step to
-    step, or the velocity of an edge."""
-    s, g, numerics = cycle.state, cycle.grid, cycle.method.numerics
-    j, (cause, i) = int(s.least_row[0]), s.cause
-    first = numerics.initial_dt_factor
-    ramp = min(1.0, first + (1.0 - first) * cycle.number / max(numerics.ramp_cycles, 1))
-    dt, said = float(s.row_step[j]) * ramp, f"{waves.CAUSES[cause]} at r = {g.rc[i] * 1e3:.3f} mm, z = {g.zc[j] * 1e3:.3f} mm"
-    if ramp < 1.0:
-        said += " (ramp)"
-    if cycle.dt > 0.0 and dt > numerics.max_growth * cycle.dt:
-        dt, said = numerics.max_growth * cycle.dt, GROWTH
-    crossing, edge = cycle.method.boundaries.least_crossing(cycle.edges.widths, cycle.time, cycle.time + dt)
-    if dt > numerics.advective_courant * crossing:
-        dt, said = numerics.advective_courant * crossing, f"velocity of the edge {edge}"
-    return dt, said
+def by_edges(cycle) -> None:
+    """Shortens the step so that material moving with an edge does not cross too much of the cells next to it."""
+    handle, numerics = cycle.given.handle, cycle.method.numerics
+    crossing, edge = cycle.method.boundaries.least_crossing(cycle.edges.widths, cycle.time, cycle.time + cycle.dt)
+    if cycle.dt > numerics.advective_courant * crossing:
+        handle.update(dt=numerics.advective_courant * crossing, limited_by=EDGE)
+        cycle.edges.limiting = edge
+
+
+def cause(cycle) -> str:
+    """What has set the time step, in words: the term and the cell, the ramp of the first cycles, the growth from step to step,
+    or the velocity of an edge."""
+    handle, g = cycle.given.handle, cycle.grid
+    if handle.limited_by == GROWTH:
+        return "growth"
+    if handle.limited_by == EDGE:
+        return f"velocity of the edge {cycle.edges.limiting}"
+    j, (term, i) = int(cycle.state.least_row[0]), cycle.state.cause
+    return (f"{waves.CAUSES[term]} at r = {g.rc[i] * 1e3:.3f} mm, z = {g.zc[j] * 1e3:.3f} mm"
+            + (" (ramp)" if handle.ramped else ""))
 
 
 class Steps:
@@ -69,10 +72,10 @@ class Steps:
         self._covered: dict[int, float] = {}
         self._taken = self._low = 0
 
-    def collapse(self, dt: float, cause: str) -> bool:
-        """Adds a step, s, with its cause; whether PATIENCE of them were below COLLAPSED times the median.
+    def collapse(self, dt: float, grown: bool) -> bool:
+        """Adds a step, s; whether PATIENCE of them were below COLLAPSED times the median.
 
-        A step that only grows is not counted among these: it recovers. After True the count begins again.
+        A step that has only grown from the one before (``grown``) is not counted among these: it recovers. After True the count begins again.
         """
         number = math.floor(CLASSES * math.log2(dt))
         self._covered[number] = self._covered.get(number, 0.0) + dt
@@ -81,7 +84,7 @@ class Steps:
             self.median = self._middle()
         if dt >= COLLAPSED * self.median:
             self._low = 0
-        elif cause != GROWTH:
+        elif not grown:
             self._low += 1
         if self._low < PATIENCE:
             return False
