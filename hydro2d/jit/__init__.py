@@ -53,9 +53,9 @@ from hydro2d.jit.recording import FIRST_CALL, Call, is_recording, profiling, rec
 from hydro2d.jit.tape import Conductor, Tape
 
 __all__ = [
-    "Call", "Conductor", "FIRST_CALL", "GATE", "Handle", "MACHINE_CODE", "OPTIMISE", "PHASE_TYPES", "Phase", "Tape", "WAIT", "add_model",
-    "all_folder", "alone", "by_id", "cell_rows", "compiler_events", "control", "declare", "declared", "exp", "given",
-    "is_recording", "kernel", "late_bound", "log", "max_threads", "module_of", "modules", "not_inlined", "parts_at_once",
-    "plus", "point", "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise", "serial",
-    "set_threads", "store", "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",
+    "Call", "Conductor", "FIRST_CALL", "GATE", "Handle", "MACHINE_CODE", "OPTIMISE", "PHASE_TYPES", "Phase", "Tape", "WAIT",
+    "add_model", "all_folder", "alone", "by_id", "cell_rows", "compiler_events", "control", "declare", "declared", "exp",
+    "given", "is_recording", "kernel", "late_bound", "log", "max_threads", "module_of", "modules", "not_inlined",
+    "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise",
+    "serial", "set_threads", "store", "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",
 ]

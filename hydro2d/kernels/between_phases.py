@@ -1,4 +1,4 @@
-"""What stands between the phases of a step, as phases of their own: one thread runs them, and they set numbers of the handle."""
+"""What stands between the phases of a step, as phases of their own that set numbers of the handle; one thread runs them."""
 
 from hydro2d.jit import Phase, alone
 from hydro2d.kernels import active_box, books, choose_step, judgements, mesh_travel
@@ -20,3 +20,5 @@ move_mesh = Phase("move_mesh", "Moves the mesh.", alone(mesh_travel.move_mesh), 
 announce = Phase("announce", "Announces bodies that may enter.", alone(mesh_travel.announce))
 end_step = Phase("end_step", "Counts a step that is over.", alone(choose_step.end_step))
 look_at_clock = Phase("look_at_clock", "Whether it is time to leave the tape.", alone(choose_step.look_at_clock))
+is_time_to_look = Phase("is_time_to_look", "Whether the whole state is looked at.", alone(judgements.is_time_to_look))
+watch_shot = Phase("watch_shot", "Whether the projectile is looked at.", alone(judgements.watch_shot))

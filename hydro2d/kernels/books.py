@@ -48,7 +48,7 @@ def book_acceleration(w):
 
 @control
 def aim(w):
-    """Whether bodies flow through the low and the high edge of the sweep's direction: open edges that the active box has reached.
+    """Whether bodies flow through the low and the high edge of a sweep's direction: open ones that the active box has reached.
 
     Reads    box, mesh_box [4]; edges_open [edge]
     """
@@ -81,7 +81,8 @@ def book_outflow(w):
             for k in range(2):
                 m = w.ejecta_bodies[target, k]
                 edge_ejecta(w.di, first, last, at - side, 1.0 if side == 1 else -1.0, w.ejecta[target, 0], surface,
-                            w.ejecta[target, 2], w.ejecta[target, 3], k == 0, w.zc, w.v[w.group[m]], w.edge_flux[side, 0, m], w.ejecta_gone[target])
+                            w.ejecta[target, 2], w.ejecta[target, 3], k == 0, w.zc, w.v[w.group[m]],
+                            w.edge_flux[side, 0, m], w.ejecta_gone[target])
         for way in range(2):
             some = w.outflow[side, way, 0] != 0.0
             for m in range(w.group.shape[0]):

@@ -107,6 +107,23 @@ BOOKS = (
     Work("ejecta_gone", "t 3", "mass and momentum gone before its face, mass gone behind its rear"),
 )
 
+#: what is watched in every cycle: tracers and gauges, and when the measurements of a shot need Python
+WATCHES = (
+    Work("station_places", "n 2", "places of tracers and gauges, r and z, m"),
+    Work("tracer_places", "k 2", "those of the tracers"),
+    Work("station_groups", "n", "body group that each moves with, -1 for that of the cell", int),
+    Work("station_values", "n k", "values there (`hydro2d.measure.station_columns`)"),
+    Work("station_peaks", "n k", "their extreme values since the start"),
+    Work("eos_model", "m", "number of the equation of state of each body", int),
+    Work("memory", "m", "row of q of its first internal variable", int),
+    Work("eos_par", "m k", "its constants"),
+    Work("looks_every", "", "cycles between two looks at the state", int),
+    Work("rod", "", "projectile, -1 without any", int),
+    Work("rod_exits", "k", "rows of the cells on the axis at which it may leave the mesh", int),
+    Work("rod_leaves", "", "whether it is being watched as it leaves", bool),
+    Work("crater_rows", "t", "depth at which the next row of each crater leaves the mesh, m"),
+)
+
 #: groups and rules of bodies in the state, its blocks whose rows have their own names, and views of them
 BLOCKS = (
     Work("group", "m", "body group", int),
@@ -198,8 +215,8 @@ STATE = (*(Work(field.symbol, _AXES[field.centring], field.meaning) for field in
 
 #: all names that kernels of the step can use
 NAMES = (
-    *STATE, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *EDGES, *TRAVEL, *BOOKS, *BODIES, *WORDS,
-    *(name for some in NUMBERS.values() for name in some), *DERIVED, *TIES,
+    *STATE, *fields.HOLD_WORK, *fields.MEMORY_WORK, *fields.CONTACT_WORK, *OF_THE_CALL, *MESH, *EDGES, *TRAVEL,
+    *BOOKS, *WATCHES, *BODIES, *WORDS, *(name for some in NUMBERS.values() for name in some), *DERIVED, *TIES,
 )
 
 declare({name.symbol: (name.kind, len(name.axes.split())) for name in (*NAMES, *LIGHT)})

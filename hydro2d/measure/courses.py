@@ -12,8 +12,6 @@ import numpy as np
 
 from hydro2d.measure.doubt import Doubt
 from hydro2d.mesh import sums
-from hydro2d.mesh.fields import RHO
-from hydro2d.mesh.grid import FACE_R
 
 #: cells by which the centre of mass of a body may be off, and the share of its way, the larger of both
 PARTED, PARTED_OF_WAY = 0.1, 0.02

@@ -74,14 +74,17 @@ class Crater:
     sim : Simulation
     target : the body that the hole is in
     direction : of the rod's flight along z, 1 or -1
+    next_row : float64[1], depth at which the next row leaves the mesh, m, which a cycle compares with the mesh's edge
+        (`hydro2d.kernels.judgements`)
     """
 
-    def __init__(self, sim, target: Target, direction: float):
+    def __init__(self, sim, target: Target, direction: float, next_row: np.ndarray):
         self.sim, self.m = sim, target.m
         self.direction, self._target = direction, target
         self.rear = float(direction * ((target.high if direction > 0 else target.low) - target.surface))
         self._left: list[tuple[float, float]] = []
-        self._next = self._trailing_edge()
+        self._next = next_row
+        self._next[0] = self._trailing_edge()
 
     # ------------------------------------------------------------------------------------------------ rows in the mesh
 
@@ -230,10 +233,10 @@ class Crater:
     def record(self) -> None:
         """After a cycle: keeps the radius in the mesh's last row, once for every row height that the mesh has moved."""
         edge = self._trailing_edge()
-        if self.sim.grid.offset == 0.0 or edge < self._next:
+        if self.sim.grid.offset == 0.0 or edge < self._next[0]:
             return
         last = 0 if self.direction > 0 else -1
-        self._next = edge + float(np.diff(self.sim.grid.z_edges)[last])
+        self._next[0] = edge + float(np.diff(self.sim.grid.z_edges)[last])
         depth, radius = self._last_row(last, *self._walls())
         if np.isfinite(radius) and not (self._left and depth <= self._left[-1][0]):
             self._left.append((depth, radius))
@@ -253,11 +256,11 @@ class Crater:
 
     def saved(self) -> dict:
         """Data for a restart file."""
-        return {"next": self._next, "left": [list(pair) for pair in self._left]}
+        return {"next": float(self._next[0]), "left": [list(pair) for pair in self._left]}
 
     def resume(self, saved: dict) -> None:
         """Continues from the result of `saved`."""
-        self._next, self._left = saved["next"], [(depth, radius) for depth, radius in saved["left"]]
+        self._next[0], self._left = saved["next"], [(depth, radius) for depth, radius in saved["left"]]
 
     # ------------------------------------------------------------------------------------------------ results
 

@@ -147,8 +147,9 @@ class Penetrator:
         self.exit: Exit | None = None
         self.passed: list[Passage] = []
         self._deepest = 0.0
-        self._offset = grid.offset
         self._open = [(0 if end < 0 else grid.nz, float(end)) for end in flight.exits]
+        edge_cells = [grid.g + vertex - (sign > 0.0) for vertex, sign in self._open]
+        sim.engine.given.set(rod=self.m, rod_exits=np.array(edge_cells, dtype=np.int64))
 
     @property
     def targets(self) -> list[Target]:
@@ -331,7 +332,11 @@ class Penetrator:
     # ------------------------------------------------------------------------------------------------ leaving the mesh
 
     def watch(self) -> None:
-        """After a cycle: records the rod when its core reaches an open edge, and when it is through each target."""
+        """Records the rod when its core reaches an open edge, and when it is through each target.
+
+        Called every few cycles, and after each in which the rod fills half of a cell on the axis at an open edge or has reached
+        that edge (`hydro2d.kernels.judgements`).
+        """
         looks = self.sim.cycle % WATCH_EVERY == 0
         if looks and len(self.passed) == len(self.targets) and not (self.left or self._flies_from()):
             self.passed.pop()
@@ -339,11 +344,14 @@ class Penetrator:
             flying = self._whole() if self._in_pieces() else self._whole_core()
             self.passed.append(Passage(exit_time_s=self.sim.time, exit_velocity_m_s=flying[0], exit_mass_kg=flying[1],
                                        exit_length_m=self._stretch * self._length()[0]))
-        grid, dt = self.sim.grid, self.sim.dt
-        drift = (grid.offset - self._offset) / dt if dt > 0.0 else 0.0
-        self._offset = grid.offset
+        self._watch_edges(looks)
+        self.sim.engine.given.handle.update(rod_leaves=self.exit is not None and not self.left)
+
+    def _watch_edges(self, looks: bool) -> None:
+        """Records the rod when its core reaches an open edge; looks : whether its pieces and its depth are looked at, too."""
         if self.left:
             return
+        drift = self.sim.engine.given.handle.mesh_speed
         if any(self._reaches(vertex, sign, drift) for vertex, sign in self._open):
             self.exit = self.exit or Exit(*self._whole_core(), self.nose(), self._outflow())
         elif self.exit and not self.exit.pieces:
@@ -398,13 +406,13 @@ class Penetrator:
 
     def saved(self) -> dict:
         """Data for a restart file."""
-        return {"exit": self.exit and self.exit._asdict(), "offset": self._offset, "deepest": self._deepest,
+        return {"exit": self.exit and self.exit._asdict(), "deepest": self._deepest,
                 "passed": [list(one.model_dump().values()) for one in self.passed]}
 
     def resume(self, saved: dict) -> None:
         """Continues from the result of `saved`."""
         self.exit = Exit(**saved["exit"]) if saved["exit"] else None
-        self._offset = saved["offset"]
+        self.sim.engine.given.handle.update(rod_leaves=self.exit is not None)
         self.passed = [Passage(**dict(zip(Passage.model_fields, one, strict=True))) for one in saved["passed"]]
         self._deepest = saved["deepest"]
 

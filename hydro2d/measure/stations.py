@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydro2d.jit import Conductor
 from hydro2d.measure import tracers
 from hydro2d.measure.station_columns import NO_PEAKS, PEAKS, QUANTITIES, U, V
 from hydro2d.measure.surfaces import Follower
@@ -45,35 +46,43 @@ class Stations:
         self._followers = {n: Follower(sim, on_surface[name], self.places[n]) for n, name in enumerate(self.names)
                            if name in on_surface}
         self._values = np.zeros((len(self.names), len(QUANTITIES)))
+        if self.names:
+            sim.engine.given.set(
+                station_places=self.places, tracer_places=self.tracers, station_groups=self._groups, station_peaks=self.peaks,
+                station_values=self._values, eos_model=sim.table.eos_model, memory=sim.table.memory, eos_par=sim.table.eos_par)
+            sim.engine.watches.append(self.record)
 
-    def _look(self) -> None:
-        g, s, t = self._sim.grid, self._sim.state, self._sim.table
-        tracers.sample(g.g, g.nr, g.nz, g.r, g.z, self._groups, s.group, t.eos_model, t.memory, t.eos_par, s.vof, s.q, s.u, s.v,
-                       self.places, self._values)
+    def _look(self, given: Conductor) -> None:
+        given.run(tracers.sample_stations)
+        if self._followers:
+            given.do(self._take_velocities)
+        given.run(tracers.keep_peaks_of_stations)
+
+    def _take_velocities(self) -> None:
         for n, follower in self._followers.items():
             self._values[n, [U, V]] = follower.velocity()
-        tracers.keep_peaks(self._sim.time, self._values, self.peaks)
 
-    def record(self) -> None:
+    def _follow(self) -> None:
+        for follower in self._followers.values():
+            follower.follow()
+
+    def record(self, given: Conductor) -> None:
         """After a cycle: tracers follow the velocity in their cell, bilinear, by the midpoint rule; gauges stay on
         their surfaces; peaks are kept.
 
         A tracer that begins in a body moves with that body's group, also where the two groups of a contact share its cell.
         """
-        if not self.names:
-            return
         if len(self.tracers):
-            g, s = self._sim.grid, self._sim.state
-            tracers.advect(g.g, g.nr, g.nz, self._sim.dt, g.r, g.z, self._groups, s.group, s.vof, s.u, s.v, self.tracers)
-        for follower in self._followers.values():
-            follower.follow()
-        self._look()
+            given.run(tracers.move_tracers)
+        if self._followers:
+            given.do(self._follow)
+        self._look(given)
 
     def measure(self) -> dict[str, dict[str, float | None]]:
         """By station, present values and extreme values since the start, SI; None while it is outside the mesh."""
         if not self.names:
             return {}
-        self._look()
+        self._look(self._sim.engine.given)
         keys = ("r_m", "z_m", *QUANTITIES, *PEAKS)
         rows = np.concatenate([self.places, self._values, self.peaks], axis=1)
         known = np.where(np.isfinite(rows), rows, None).tolist()

@@ -7,9 +7,11 @@ from math import nan, sqrt
 import numpy as np
 
 from eos.dispatch import evaluate
-from hydro2d.jit import point, serial
+from hydro2d.jit import Phase, alone, point, serial
+from hydro2d.kernels import names  # noqa: F401 (declares the names of handles)
 from hydro2d.measure.station_columns import DENSITY, FAILED, MISES, PRESSURE, S_RR, S_RZ, S_TT, S_ZZ, STRAIN, TEMPERATURE, U, V
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.grid import GHOSTS
 from hydro2d.physics.stress import von_mises
 
 
@@ -161,6 +163,43 @@ def keep_peaks(time, values, peaks):
         peaks[n, 4] = max(peaks[n, 4], values[n, MISES])
         peaks[n, 5] = max(peaks[n, 5], values[n, TEMPERATURE])
         peaks[n, 6] = max(peaks[n, 6], values[n, STRAIN])
+
+
+@serial
+def move_all(w):
+    """Moves the tracers of a run over its step (`advect`).
+
+    Reads    r, z; station_groups [n]; group [m]; vof [m, j, i]; u, v [b, j-1/2, i-1/2]
+    Updates  tracer_places [k, 2]
+    """
+    advect(GHOSTS, w.nr, w.nz, w.dt, w.r, w.z, w.station_groups, w.group, w.vof, w.u, w.v, w.tracer_places)
+
+
+@serial
+def sample_all(w):
+    """Values at the stations of a run (`sample`).
+
+    Reads    r, z; station_groups [n]; group, eos_model, memory [m]; eos_par [m, k]; vof [m, j, i]; q [k, m, j, i];
+             u, v [b, j-1/2, i-1/2]; station_places [n, 2]
+    Writes   station_values [n, QUANTITIES]
+    """
+    sample(GHOSTS, w.nr, w.nz, w.r, w.z, w.station_groups, w.group, w.eos_model, w.memory, w.eos_par, w.vof, w.q, w.u, w.v,
+           w.station_places, w.station_values)
+
+
+@serial
+def keep_all_peaks(w):
+    """Extreme values at the stations of a run (`keep_peaks`).
+
+    Reads    station_values [n, QUANTITIES]
+    Updates  station_peaks [n, PEAKS]
+    """
+    keep_peaks(w.reached, w.station_values, w.station_peaks)
+
+
+move_tracers = Phase("move_tracers", "Moves the tracers of a run.", alone(move_all))
+sample_stations = Phase("sample_stations", "Values at the stations of a run.", alone(sample_all))
+keep_peaks_of_stations = Phase("keep_peaks_of_stations", "Extreme values at the stations of a run.", alone(keep_all_peaks))
 
 
 def velocity_at(grid, state, points, group: int | None = None) -> np.ndarray:

@@ -14,6 +14,7 @@ continues bitwise as if it had not been interrupted.
 
 from __future__ import annotations
 
+import math
 import os
 import time as clock
 import tomllib
@@ -239,13 +240,17 @@ class Run:
             self.report.line(text)
 
     def _step(self) -> None:
-        """One cycle."""
+        """Cycles up to the next output, or fewer."""
         if self.stepped == 0:
-            self.sim.step()
+            self.stepped += self.sim.advance(cycles=1)
             self.clock.begin(self.sim)
         else:
-            self.team.run(self.sim.step)
-        self.stepped += 1
+            self.stepped += self.team.run(lambda: self.sim.advance(self._next_output()))
+
+    def _next_output(self) -> float:
+        """The time at which an output is due or the run is over, s."""
+        end = self.deck.stop.time
+        return min(*(due.next for due in self.due.values()), math.inf if end is None else end)
 
     # ------------------------------------------------------------------------------------------------ outputs
 

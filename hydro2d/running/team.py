@@ -17,11 +17,11 @@ from hydro2d import jit
 from hydro2d.base.errors import Error
 from hydro2d.base.terminal import several
 
-#: cycles in a trial for each number of threads
+#: calls of compiled code, of a few cycles each, in a trial for each number of threads
 TRIAL = 5
 #: the next trial comes after this many times the duration of the last one, and after at least this many seconds
 REST, LEAST = 20.0, 2.0
-#: it comes after this fraction of that interval if the median of this many cycles exceeds that of the trial by this factor
+#: it comes after this fraction of that interval if the median of this many calls exceeds that of the trial by this factor
 EARLY, LATE, SLOWER = 0.25, 20, 1.5
 
 
@@ -49,7 +49,7 @@ def at_most(threads: int | None) -> Iterator[None]:
 class Team:
     """Chooses the number of threads from the duration of cycles.
 
-    At intervals, a trial runs a few cycles with each candidate: all threads, a half and a quarter of them, and one. The number
+    At intervals, a trial runs some cycles with each candidate: all threads, a half and a quarter of them, and one. The number
     with the shortest median is used until the next trial.
 
     Parameters
@@ -70,18 +70,20 @@ class Team:
         self._options = sorted({most, most // 2, most // 4, 1} - {0}, reverse=True)
         self._trial: dict[int, list[float]] = {n: [] for n in self._options}
         self._recent: deque[float] = deque(maxlen=LATE)
-        self._expected, self._early, self._until = 0.0, 0.0, 0.0
+        self._tried, self._expected, self._early, self._until = 0.0, 0.0, 0.0, 0.0
 
-    def run(self, cycle: Callable[[], None]) -> float:
-        """Runs one cycle with the best number of threads of the last trial, or the next of this one. Returns its seconds."""
+    def run(self, cycles: Callable[[], int]) -> int:
+        """Runs cycles with the best number of threads of the last trial, or the next of this one. Returns how many it were.
+
+        cycles : runs some and returns their number
+        """
         if self._trial:
             self._set(next(n for n in self._options if len(self._trial[n]) < TRIAL))
         before = self._clock()
-        cycle()
-        seconds = self._clock() - before
-        self.cycles[self.threads] = self.cycles.get(self.threads, 0) + 1
-        self._observe(seconds)
-        return seconds
+        done = cycles()
+        self.cycles[self.threads] = self.cycles.get(self.threads, 0) + done
+        self._observe(self._clock() - before, done)
+        return done
 
     def thread_use(self) -> str:
         """Text such as '2 threads in 93 % of the cycles, 1 in 7 %'; empty for a run on one thread."""
@@ -102,13 +104,14 @@ class Team:
             self._use(threads)
             self.threads = threads
 
-    def _observe(self, seconds: float) -> None:
+    def _observe(self, seconds: float, done: int) -> None:
         if self._trial:
-            self._trial[self.threads].append(seconds)
+            self._trial[self.threads].append(seconds / done)
+            self._tried += seconds
             if all(len(times) == TRIAL for times in self._trial.values()):
                 self._decide()
             return
-        self._recent.append(seconds)
+        self._recent.append(seconds / done)
         slow = len(self._recent) == LATE and statistics.median(self._recent) > SLOWER * self._expected
         if self._clock() >= (self._early if slow else self._until):
             self._trial = {n: [] for n in self._options}
@@ -116,7 +119,7 @@ class Team:
     def _decide(self) -> None:
         medians = {n: statistics.median(times) for n, times in self._trial.items()}
         self._set(min(medians, key=medians.get))
-        rest = max(REST * sum(sum(times) for times in self._trial.values()), LEAST)
+        rest, self._tried = max(REST * self._tried, LEAST), 0.0
         now = self._clock()
         self._expected, self._early, self._until = medians[self.threads], now + EARLY * rest, now + rest
         self._recent.clear()

@@ -11,6 +11,11 @@ class Due:
     def __init__(self, interval: float):
         self.interval, self.count = interval, 0
 
+    @property
+    def next(self) -> float:
+        """The time at which the next output is due, s."""
+        return self.count * self.interval
+
     def saved(self) -> list:
         """Data for a restart file."""
         return [self.interval, self.count]

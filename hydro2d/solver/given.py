@@ -90,6 +90,12 @@ class Given(Conductor):
             "course_columns": cycle.courses.columns, "ejecta": np.zeros((0, 4)),
             "ejecta_bodies": np.zeros((0, 2), dtype=np.int64), "ejecta_gone": np.zeros((0, 3)),
         }
+        none, no_rows = np.zeros((0, 0)), np.zeros(0, dtype=np.int64)
+        watches = {
+            "station_places": none, "tracer_places": none, "station_values": none, "station_peaks": none, "eos_par": none,
+            "station_groups": no_rows, "eos_model": no_rows, "memory": no_rows, "rod_exits": no_rows, "rod": -1,
+            "looks_every": 1, "rod_leaves": False, "crater_rows": np.zeros(0),
+        }
         derived = {
             "contact": state.groups > 1, "remembers": table.remembers,
             "underfilled_density": method.numerics.mass_floor * float(np.max(table.rho0)),
@@ -103,7 +109,7 @@ class Given(Conductor):
             "parts": cycle.active.bounds[:2].copy(), "row_costs": np.zeros(grid.shape[0], dtype=np.int64),
             "finds_zones": False, "i0": cycle.box[2], "i1": cycle.box[3],
         }
-        self.handle.update(**owned, **empty, **bodies, **edges, **travel, **books, **derived, **start,
+        self.handle.update(**owned, **empty, **bodies, **edges, **travel, **books, **watches, **derived, **start,
                            **cycle.contact.ties._asdict())
 
     def ask(self, phase: Phase, function: Callable[[], object] | None) -> None:

@@ -79,11 +79,11 @@ class Recorder:
     """
 
     def __init__(self, interval: float):
-        self.columns, self._due = Columns(), Due(interval)
+        self.columns, self.due = Columns(), Due(interval)
 
     def __call__(self, sim: Any) -> None:
         """Adds a row if one is due."""
-        if self._due(sim.time):
+        if self.due(sim.time):
             self.columns.append(row(sim))
 
     def last(self, sim: Any) -> None:

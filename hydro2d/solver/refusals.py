@@ -62,8 +62,8 @@ class Refusals:
     def small_step(self) -> None:
         """Raises UnphysicalState for a time step below the least one."""
         raise UnphysicalState(
-            f"{self._when}: time step {self._cycle.dt:.3g} s, below dt_min = {self._cycle.method.numerics.dt_min:.3g} s, set by "
-            f'{time_step.cause(self._cycle)}, in body "{self._slowest}"')
+            f"{self._when}: time step {self._cycle.dt:.3g} s, below dt_min = {self._cycle.method.numerics.dt_min:.3g} s, set "
+            f'by {time_step.cause(self._cycle)}, in body "{self._slowest}"')
 
     def collapsed_step(self, median: float) -> None:
         """Raises UnphysicalState for time steps that have collapsed, see `time_step.Steps`; median : of the run so far, s."""
@@ -73,8 +73,8 @@ class Refusals:
             "shot can cause is as fast")
 
     def turned_cells(self, second: int) -> None:
-        """Raises UnphysicalState: the faces of a cell sweep more than its volume, in both directions or in the second one, so that
-        no remap can recover its contents."""
+        """Raises UnphysicalState: the faces of a cell sweep more than its volume, in both directions or in the second one, so
+        that no remap can recover its contents."""
         s = self._cycle.state
         j, i, m = s.first_turned.tolist()
         share = s.pre_sweep_volume[j, i] / self._cycle.grid.volume[j, i]

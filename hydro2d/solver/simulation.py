@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import time as clock
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro2d import jit
 from hydro2d.base import units
 from hydro2d.base.errors import UnphysicalState, unknown
 from hydro2d.base.interrupt import Interrupt, signals
@@ -14,7 +17,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import formulas, targets
 from hydro2d.deck.layout import body_at
 from hydro2d.jit import compilation
-from hydro2d.kernels.choose_step import GROWTH
+from hydro2d.kernels import between_phases
 from hydro2d.materials import library, quantities
 from hydro2d.measure import bodies, debris, outcome, reach, wall_damage
 from hydro2d.measure.audit import Audit, Totals, totals
@@ -31,7 +34,7 @@ from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import PUSH
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
-from hydro2d.solver import far_field, insertion
+from hydro2d.solver import far_field, insertion, stops
 from hydro2d.solver.first_cycle import calls_of_a_cycle, kernels
 from hydro2d.solver.following import FixedMesh, FollowingMesh, UndisturbedSpace
 from hydro2d.solver.memory_needed import refuse_too_large
@@ -48,8 +51,8 @@ if TYPE_CHECKING:
     from hydro2d.solver.method import Method
 
 
-#: a body that is slower than this, m/s, has not moved yet
-MOVES = 1e-3
+#: the longest time in one call of compiled code, s, after which an interrupt is seen
+AT_ONCE = 0.1
 #: share of the time in which the fastest possible wave crosses the smallest cell, below which no sound run has a time step
 SOUND_STEP = 0.01
 
@@ -104,14 +107,17 @@ class Simulation:
         self._reach = reach.of(deck, self.table, self.state, self.audit.start)
         self._doubts: dict[str, str] = {}
         self._notes: dict[str, str] = {}
-        self._steps = Steps()
+        self._steps, self._counted = Steps(), 0
+        self.engine.given.set(looks_every=WATCH_EVERY)
+        self.engine.watches.append(self._look_at_state)
         self.stations = Stations(self, deck, [body_at(deck, entry.r, entry.z) for entry in deck.tracer])
-        self._rows = np.zeros((2, self.grid.shape[0]))
+        self._rows, self._pace = np.zeros((2, self.grid.shape[0])), 0.0
         self.penetrator, self.craters = self._penetration()
         self._ejecta = self._ejecta_of()
-        self.watched = slots.index(deck.stop.body) if deck.stop.body else None
-        #: the body that `stop` watches, the sign of the velocity that it first had, whether it was faster than `speed_below`
-        self._watch: dict = {"body": deck.stop.body, "sign": None, "moved": False}
+        if self.penetrator:
+            self.engine.watches.append(self._look_at_shot)
+        #: the conditions of [stop] that end a run, see `solver.stops`
+        self.stops = stops.of(self)
         self.columns: dict[str, Callable[[Simulation], float]] = {}
         self.lengths = bodies.lengths(self)
         self.formulas = formulas.expressions(deck)
@@ -123,7 +129,10 @@ class Simulation:
         if self.deck.penetration is None:
             return None, []
         penetrated, flying = targets.targets(self.deck), targets.flight(self.deck)
-        return Penetrator(self, flying, penetrated), [Crater(self, target, flying.direction) for target in penetrated]
+        next_rows = np.zeros((len(penetrated), 1))
+        self.engine.given.set(crater_rows=next_rows[:, 0])
+        craters = [Crater(self, target, flying.direction, own) for target, own in zip(penetrated, next_rows, strict=True)]
+        return Penetrator(self, flying, penetrated), craters
 
     def _ejecta_of(self) -> list[Ejecta]:
         """The measurements of what flies back from the targets."""
@@ -232,10 +241,11 @@ class Simulation:
         interrupt waits for the end of the cycle.
         """
         ended, callbacks, interrupt = self._end(until), tuple(callbacks), Interrupt()
+        most = 1 if callbacks or callable(until) else None
         self._recorder(self)
         with signals(interrupt):
             while (reason := ended()) is None and not interrupt.reason:
-                self.step()
+                self.advance(min(self._next_stop(until), self._recorder.due.next), most)
                 for each in callbacks:
                     each(self)
                 self._recorder(self)
@@ -244,6 +254,14 @@ class Simulation:
         self.refuse_nonsense()
         self._recorder.last(self)
         return reason
+
+    def _next_stop(self, until: float | str | Callable[[Simulation], bool] | None) -> float:
+        """The time that `run` may not pass by more than a cycle, s."""
+        if callable(until):
+            return math.inf
+        if until is not None:
+            return units.to_si(until, "s")
+        return math.inf if self.deck.stop.time is None else self.deck.stop.time
 
     def _end(self, until: float | str | Callable[[Simulation], bool] | None) -> Callable[[], str | None]:
         """A function that gives the reason why `run` is over, or None."""
@@ -272,14 +290,48 @@ class Simulation:
     def step(self) -> None:
         """One cycle. Raises UnphysicalState."""
         self.engine.advance()
-        self._refuse_collapse()
-        if self.cycle % WATCH_EVERY == 0:
-            self.refuse_nonsense()
-        self.stations.record()
-        if self.penetrator:
-            self.penetrator.watch()
-            for crater in self.craters:
-                crater.record()
+        self._count_steps()
+
+    def advance(self, until: float = math.inf, cycles: int | None = None) -> int:
+        """Cycles in one call of compiled code, at least one, and returns their number.
+
+        until : time in s that the last one reaches or passes, unless another reason comes first
+        cycles : the most; by default, up to the next look at the whole state or the last cycle, or as many as take AT_ONCE
+
+        Raises UnphysicalState.
+        """
+        before, began = self.cycle, clock.perf_counter()
+        last = self.deck.stop.cycles
+        most = min(WATCH_EVERY - before % WATCH_EVERY, max(last - before, 1) if last else WATCH_EVERY)
+        if self._pace > 0.0:
+            most = max(min(most, int(AT_ONCE / self._pace)), 1)
+        self.engine.play(until, before + min(most, cycles or most))
+        self._count_steps()
+        done = self.cycle - before
+        self._pace = (clock.perf_counter() - began) / done
+        return done
+
+    def _count_steps(self) -> None:
+        """Looks at the steps that have been taken since the last call."""
+        handle = self.engine.given.handle
+        for number in range(self._counted, self.cycle):
+            here = number % len(handle.lengths)
+            self._refuse_collapse(number + 1, float(handle.lengths[here]), bool(handle.grown[here]))
+        self._counted = self.cycle
+
+    def _look_at_state(self, given: jit.Conductor) -> None:
+        """Every few cycles, looks for faults of the state."""
+        given.ask(between_phases.is_time_to_look, self.refuse_nonsense)
+
+    def _look_at_shot(self, given: jit.Conductor) -> None:
+        """Every few cycles, and when they may have to be, looks at the projectile and the craters."""
+        given.ask(between_phases.watch_shot, self._watch_shot)
+
+    def _watch_shot(self) -> None:
+        assert self.penetrator is not None, "only a shot is watched"
+        self.penetrator.watch()
+        for crater in self.craters:
+            crater.record()
 
     def velocity_at(self, points: ArrayLike, group: int | None = None) -> np.ndarray:
         """Velocity (u, v) at points (r, z), shape [n, 2], m/s: of a body group, or of the group that the cell moves with.
@@ -310,36 +362,7 @@ class Simulation:
 
     def stop_reason(self) -> str | None:
         """Why the run is over, or None."""
-        stop, penetrator, shot = self.deck.stop, self.penetrator, self.deck.penetration
-        if stop.time is not None and self.time >= stop.time:
-            return "end time"
-        if stop.cycles is not None and self.cycle >= stop.cycles:
-            return "number of cycles"
-        if self.cycle % WATCH_EVERY != 0:
-            return None
-        slows = stop.speed_below is not None or stop.rebound
-        watches_rod = penetrator is not None and self.watched == penetrator.m
-        if penetrator is not None and shot is not None:
-            if stop.perforation and penetrator.perforates() and (stop.perforation != "tail" or penetrator.cleared()):
-                return f"perforation of {shot.targets[-1]}"
-            if (stop.perforation or (watches_rod and slows)) and penetrator.gone:
-                return f"{shot.rod} left the mesh"
-        if self.watched is not None and slows:
-            if self.has_left(self.watched):
-                return f"{stop.body} left the mesh"
-            v = penetrator.speed() if penetrator is not None and watches_rod else self.mean_velocity(self.watched)
-            if v is None:
-                return None
-            watch = self._watch
-            if watch["sign"] is None and abs(v) > MOVES:
-                watch["sign"] = 1.0 if v > 0.0 else -1.0
-            if stop.rebound and v * (watch["sign"] or 0.0) < 0.0:
-                return f"rebound of {stop.body}"
-            if stop.speed_below is not None:
-                watch["moved"] = watch["moved"] or abs(v) >= stop.speed_below
-                if watch["moved"] and abs(v) < stop.speed_below:
-                    return f"speed of {stop.body} below {stop.speed_below:g} m/s"
-        return None
+        return next((reason for stop in self.stops if (reason := stop.reason()) is not None), None)
 
     # ------------------------------------------------------------------------------------------------ results
 
@@ -433,16 +456,18 @@ class Simulation:
         """The most energy that sources and the work of edges have given to a cell of each body so far, J/kg, float64[m]."""
         return self.sources.given + reach.CELL_HOTTER * self._reach.given_by(self.audit.worked)
 
-    def _refuse_collapse(self) -> None:
-        """Raises UnphysicalState if the time steps have collapsed, to what no motion that the shot can have explains."""
+    def _refuse_collapse(self, number: int, dt: float, grown: bool) -> None:
+        """Raises UnphysicalState if the time steps have collapsed, to what no motion that the shot can have explains.
+
+        number, dt : of the cycle and its step, s;  grown : whether the step has only grown from the one before
+        """
         engine = self.engine
-        grown = engine.given.handle.limited_by == GROWTH
-        if engine.number <= engine.method.numerics.ramp_cycles or not self._steps.collapse(engine.dt, grown):
+        if number <= engine.method.numerics.ramp_cycles or not self._steps.collapse(dt, grown):
             return
         size = min(widths[inside].min() for widths, inside in zip((self.grid.dz, self.grid.dr), self.grid.inside, strict=True))
         hottest = float(np.max(self._reach.cell_highest + self._given()))
         speed = self._reach.speed + float(engine.sound_speeds.max()) + (2.0 * hottest) ** 0.5
-        if engine.dt < SOUND_STEP * size / speed:
+        if dt < SOUND_STEP * size / speed:
             engine.refusals.collapsed_step(self._steps.median)
 
     def refuse_nonsense(self) -> None:
@@ -532,9 +557,9 @@ class Simulation:
         """Data that a restart needs in addition to the arrays; JSON keeps every bit of them."""
         e = self.engine
         return {"time": e.time, "dt": e.dt, "cycle": e.number, "cause": e.cause, "box": [int(x) for x in e.box],
-                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit, "watch": self._watch, "doubts": self._doubts,
-                "notes": self._notes, "audit": self.audit.saved(), "courses": e.courses.saved(),
-                "steps": self._steps.saved(),
+                "mesh_offset": self.grid.offset, "speed_limit": e.speed_limit,
+                "stops": {type(stop).__name__: stop.saved() for stop in self.stops}, "doubts": self._doubts,
+                "notes": self._notes, "audit": self.audit.saved(), "courses": e.courses.saved(), "steps": self._steps.saved(),
                 "sources": self.sources.saved(), "penetrator": self.penetrator and self.penetrator.saved(),
                 "craters": [crater.saved() for crater in self.craters], "ejecta": [each.saved() for each in self._ejecta]}
 
@@ -543,8 +568,7 @@ class Simulation:
         e = self.engine
         e.time, e.dt, e.number, e.cause = (scalars[name] for name in ("time", "dt", "cycle", "cause"))
         e.active.box, e.speed_limit = list(scalars["box"]), scalars["speed_limit"]
-        if scalars["watch"]["body"] == self.deck.stop.body:  # else a different one is watched from here on
-            self._watch = dict(scalars["watch"])
+        stops.resume(self.stops, scalars)
         self.grid.move(scalars["mesh_offset"])
         self._doubts, self._notes = dict(scalars["doubts"]), dict(scalars.get("notes", {}))  # files of earlier versions lack it
         e.audit = Audit.resume(scalars["audit"], e.sound_speeds)
@@ -557,4 +581,5 @@ class Simulation:
                 crater.resume(saved)
             for front, saved in zip(self._ejecta, scalars.get("ejecta", ()), strict=False):  # likewise
                 front.resume(saved)
+        self._counted = e.number
         e.prepare()

@@ -75,7 +75,8 @@ class Steps:
     def collapse(self, dt: float, grown: bool) -> bool:
         """Adds a step, s; whether PATIENCE of them were below COLLAPSED times the median.
 
-        A step that has only grown from the one before (``grown``) is not counted among these: it recovers. After True the count begins again.
+        A step that has only grown from the one before (``grown``) is not counted among these: it recovers. After True the count
+        begins again.
         """
         number = math.floor(CLASSES * math.log2(dt))
         self._covered[number] = self._covered.get(number, 0.0) + dt
