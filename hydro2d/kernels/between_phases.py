@@ -1,7 +1,7 @@
 """What stands between the phases of a step, as phases of their own that set numbers of the handle; one thread runs them."""
 
 from hydro2d.jit import Phase, alone
-from hydro2d.kernels import active_box, books, choose_step, judgements, mesh_travel
+from hydro2d.kernels.between import active_box, books, choose_step, judgements, mesh_travel
 
 grow_box = Phase("grow_box", "Grows the active box ahead of all motion.", alone(active_box.grow_box))
 cut_parts = Phase("cut_parts", "Cuts the active box into parts.", alone(active_box.cut_parts))

@@ -21,7 +21,7 @@ OF_THE_CALL = (
     Work("asks", "", "not zero where Python is needed (`hydro2d.jit.tape`)", int),
     Work("until", "", "time at which Python is needed next, s"),
     Work("last_cycle", "", "number of cycles after which it is", int),
-    Work("limited_by", "", "what has set the step (`hydro2d.kernels.choose_step`)", int),
+    Work("limited_by", "", "what has set the step (`hydro2d.kernels.between.choose_step`)", int),
     Work("ramped", "", "whether the step was shortened as one of the first", bool),
     Work("lengths", "n", "lengths of the last steps, s, each at the remainder of its number"),
     Work("grown", "n", "whether only the growth has set them", bool),

@@ -42,7 +42,7 @@ class Courses:
     Attributes
     ----------
     moved, whole : float64[m, 2] and [m], change of the first moments of each body's mass, and all of it that has been in the
-        mesh, which the books of a cycle change by what crosses the edges (`hydro2d.kernels.books`)
+        mesh, which the books of a cycle change by what crosses the edges (`hydro2d.kernels.between.books`)
     columns : float64[i], mean radii of the columns, m
     apart : float64[m, 2], offset of the centre of mass along r and z, in cells of the mean size where the body is; of all the
         mass of the body that has been in the mesh

@@ -75,7 +75,7 @@ class Crater:
     target : the body that the hole is in
     direction : of the rod's flight along z, 1 or -1
     next_row : float64[1], depth at which the next row leaves the mesh, m, which a cycle compares with the mesh's edge
-        (`hydro2d.kernels.judgements`)
+        (`hydro2d.kernels.between.judgements`)
     """
 
     def __init__(self, sim, target: Target, direction: float, next_row: np.ndarray):

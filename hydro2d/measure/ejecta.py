@@ -39,7 +39,7 @@ class Ejecta:
     crater : Crater of the target
     m : index of the projectile
     gone : float64[3], mass and momentum that have left the mesh before the face, and mass of the target behind its rear, which
-        the books of a cycle add to (`hydro2d.kernels.books`)
+        the books of a cycle add to (`hydro2d.kernels.between.books`)
     """
 
     def __init__(self, sim, crater, m: int, gone: np.ndarray):

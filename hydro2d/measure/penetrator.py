@@ -335,7 +335,7 @@ class Penetrator:
         """Records the rod when its core reaches an open edge, and when it is through each target.
 
         Called every few cycles, and after each in which the rod fills half of a cell on the axis at an open edge or has reached
-        that edge (`hydro2d.kernels.judgements`).
+        that edge (`hydro2d.kernels.between.judgements`).
         """
         looks = self.sim.cycle % WATCH_EVERY == 0
         if looks and len(self.passed) == len(self.targets) and not (self.left or self._flies_from()):

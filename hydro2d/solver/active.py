@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro2d.kernels.active_box import MARGIN
+from hydro2d.kernels.between.active_box import MARGIN
 
 
 class ActiveBox:

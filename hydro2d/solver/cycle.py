@@ -14,7 +14,7 @@ import numpy as np
 
 from hydro2d import jit
 from hydro2d.kernels import between_phases, lagrangian_step, remap_step
-from hydro2d.kernels.active_box import FEWEST, RECUT
+from hydro2d.kernels.between.active_box import FEWEST, RECUT
 from hydro2d.measure.audit import Audit
 from hydro2d.measure.courses import Courses
 from hydro2d.mesh.sinks import SINKS
@@ -139,6 +139,7 @@ class Cycle:
         self.given.run(between_phases.end_step)
         for watch in self.watches:
             watch(self.given)
+        self.given.ask(between_phases.look_at_clock, None)
 
     def play(self, until: float, last: int) -> None:
         """Steps until a time in s, or up to the step of this number: at least one, all in one call of compiled code.
@@ -162,7 +163,6 @@ class Cycle:
             for odd in range(2):
                 tape.starts.append(len(tape))
                 self._step(odd)
-                self.given.ask(between_phases.look_at_clock, None)
         return tape
 
     # ------------------------------------------------------------------------------------------------ preparation

@@ -14,7 +14,7 @@ import numpy as np
 from hydro2d.deck.layout import layout
 from hydro2d.jit import Conductor, Handle
 from hydro2d.kernels import between_phases
-from hydro2d.kernels.mesh_travel import THINNEST
+from hydro2d.kernels.between.mesh_travel import THINNEST
 from hydro2d.materials.starts import slot_of
 from hydro2d.mesh import sums
 from hydro2d.mesh.fields import RHO, E

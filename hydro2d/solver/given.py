@@ -12,7 +12,7 @@ import numpy as np
 
 from hydro2d.jit import Conductor, Phase
 from hydro2d.kernels import names
-from hydro2d.kernels.choose_step import CELL
+from hydro2d.kernels.between.choose_step import CELL
 from hydro2d.materials import rows
 from hydro2d.mesh import fields
 from hydro2d.mesh.edges.base import EDGES
@@ -107,7 +107,7 @@ class Given(Conductor):
             "ramped": False, "lengths": np.zeros(REMEMBERED), "grown": np.zeros(REMEMBERED, dtype=np.bool_), "advance": 0.0,
             "box": cycle.active.bounds, "grows": not cycle.active.is_all, "anew": False, "most_parts": 1, "age": 0,
             "parts": cycle.active.bounds[:2].copy(), "row_costs": np.zeros(grid.shape[0], dtype=np.int64),
-            "finds_zones": False, "i0": cycle.box[2], "i1": cycle.box[3],
+            "finds_zones": False, "opens_low": False, "opens_high": False, "i0": cycle.box[2], "i1": cycle.box[3],
         }
         self.handle.update(**owned, **empty, **bodies, **edges, **travel, **books, **watches, **derived, **start,
                            **cycle.contact.ties._asdict())

@@ -59,7 +59,7 @@ class Cycles(Stop):
         return "number of cycles" if self.sim.cycle >= self.stop.cycles else None
 
 
-class Perforation(Stop):
+class Perforated(Stop):
     """The projectile is through the last target, its tail as well if that is asked for."""
 
     def now(self) -> str | None:
@@ -140,7 +140,7 @@ def of(sim: Simulation) -> list[Stop]:
     slows = stop.speed_below is not None or stop.rebound
     watches_rod = shot and stop.body == sim.projectile
     kinds = {
-        EndTime: stop.time is not None, Cycles: stop.cycles is not None, Perforation: shot and stop.perforation,
+        EndTime: stop.time is not None, Cycles: stop.cycles is not None, Perforated: shot and stop.perforation,
         ProjectileGone: shot and (stop.perforation or (watches_rod and slows)), BodyGone: stop.body and slows,
         Rebound: stop.body and stop.rebound, Slowed: stop.body and stop.speed_below is not None,
     }

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from hydro2d.kernels.choose_step import EDGE, GROWTH
+from hydro2d.kernels.between.choose_step import EDGE, GROWTH
 from hydro2d.physics import waves
 
 #: vertices may be this many times faster than the fastest body at the start, or than the slowest wave

@@ -94,16 +94,16 @@ def test_names_that_nobody_has_declared_are_refused():
 def test_a_name_has_one_meaning():
     with pytest.raises(ValueError, match="the name dt is declared twice"):
         jit.declare({"dt": (float, 0)})
-    assert len(handles.declared()) == len(names.NAMES) + len(names.LIGHT)
+    assert len(handles.declared()) == len(names.NAMES) + len(names.LIGHT) + len(handles.TABLE)
 
 
 def test_names_exchange_their_arrays():
     handle, one, other = jit.Handle(), np.full((2, 1, 3, 4), 1.0), np.full((2, 1, 3, 4), 2.0)
     handle.update(velocity=one, velocity0=other)
-    before = handle._words.copy()
-    handle.exchange(("velocity",), ("velocity0",))
+    before = handle.words.copy()
+    handle.exchange("velocity", "velocity0")
     assert handle.velocity is other
     assert handle.velocity0 is one
     rows = [handles._rows[name][0] for name in ("velocity", "velocity0")]
-    np.testing.assert_array_equal(handle._words[rows], before[rows[::-1]])
+    np.testing.assert_array_equal(handle.words[rows], before[rows[::-1]])
     assert before[rows[0], 0] != before[rows[1], 0]

@@ -95,7 +95,7 @@ def test_a_compiled_phase_waits_and_works_in_parts():
     u[0, 4, 3], v[0, 9, 6] = 1.0, 2.0
     moving = np.zeros(4, dtype=int)
     handle.update(parts=np.array([2, 6, 10]), i0=2, i1=6, u=u, v=v, row_moving=np.zeros((13, 2), dtype=int), moving=moving,
-                gate=np.zeros(jit.GATE, dtype=int))
+                gate=np.zeros(jit.GATE, dtype=int), grows=True)
     if jit.parts_at_once() >= 2:
         remap_step.find_moving(handle)
         assert moving.tolist() == [4, 10, 3, 7]

@@ -114,6 +114,7 @@ class Races:
                 self.stopped.acquire()
                 if failed:
                     raise failed[0]
+        handle.update(**{name: value for name, value in vars(watched).items() if not isinstance(value, np.ndarray)})
         arrays = [(name, handle.values[name]) for name in phase.takes if isinstance(handle.values[name], np.ndarray)]
         for interval, touched in enumerate(zip(*logs, strict=True)):
             for one, (_, written) in enumerate(touched):

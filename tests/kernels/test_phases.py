@@ -13,7 +13,7 @@ import pytest
 
 from hydro2d import jit
 from hydro2d.deck import deck
-from hydro2d.kernels import lagrangian_step, remap_step
+from hydro2d.kernels import between_phases, lagrangian_step, remap_step
 from hydro2d.mesh import state
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.test_compiled_equals_source import CASES, CONTACT, text_of
@@ -25,7 +25,7 @@ DECKS = {**{name: text_of(*case) for name, case in CASES.items()}, "both, contac
          "both, deep contact": DEEP, "ke, following": text_of("ke", {"method": "none"}, follows=True)}
 #: two divisions into parts, and contact for most of them
 CYCLES = 20
-PHASES = [(module, name) for module in (lagrangian_step, remap_step) for name, value in vars(module).items()
+PHASES = [(module, name) for module in (lagrangian_step, remap_step, between_phases) for name, value in vars(module).items()
           if isinstance(value, jit.Phase)]
 
 

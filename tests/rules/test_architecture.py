@@ -8,14 +8,13 @@ import textwrap
 
 import pytest
 
-from hydro2d.kernels import lagrangian_step, remap_step
-from hydro2d.solver.contact_ties import Contact
+from hydro2d.kernels import between_phases, lagrangian_step, remap_step
 from hydro2d.solver.cycle import Cycle
 from tests.rules import source
 from tests.rules.test_imports import LAYERS, within
 
 PAGE = (source.ROOT / "docs/explanation/architecture.md").read_text(encoding="utf-8")
-PHASES = {"lagrangian_step": lagrangian_step, "remap_step": remap_step}
+PHASES = {"lagrangian_step": lagrangian_step, "remap_step": remap_step, "between_phases": between_phases}
 
 
 def rows(heading: str) -> list[list[str]]:
@@ -65,10 +64,8 @@ def phases(function) -> set[str]:
 
 
 def kernels(method: str) -> set[str]:
-    """Modules of the kernels in the phases that a line of `Cycle.advance` runs."""
-    functions = [getattr(Cycle, method), *([Contact.find] if method == "close_cells" else [])]
-    run = {phase for function in functions for phase in phases(function)}
-    lists = [getattr(PHASES[phase.split(".")[0]], phase.split(".")[1]) for phase in run]
+    """Modules of the kernels in the phases that a line of `Cycle._step` runs."""
+    lists = [getattr(PHASES[phase.split(".")[0]], phase.split(".")[1]) for phase in phases(getattr(Cycle, method))]
     return {run.kernel.__module__ for phase in lists for run in phase.runs()}
 
 
@@ -84,7 +81,7 @@ def test_a_line_of_the_cycle_has_its_files(row):
 
 
 def test_every_line_of_the_cycle_that_runs_kernels_has_its_row():
-    called = re.findall(r"self\.(\w+)\(", inspect.getsource(Cycle.advance))
+    called = re.findall(r"self\.(\w+)\(", inspect.getsource(Cycle._step))
     assert [row[0].split("`")[1] for row in CYCLE] == list(dict.fromkeys(called))
 
 

@@ -46,7 +46,8 @@ NARROW = {
     "strength": ("strength", "hydro2d.base.parameters", "hydro2d.jit", "hydro2d.mesh.fields"),
     "hydro2d.physics": ("hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid", "eos", "strength"),
     "hydro2d.kernels": ("hydro2d.kernels", "hydro2d.physics", "hydro2d.jit", "hydro2d.mesh.fields", "hydro2d.mesh.grid",
-                        "hydro2d.materials.rows", "hydro2d.base.method_sections", "eos", "strength"),
+                        "hydro2d.mesh.sinks", "hydro2d.mesh.sums", "hydro2d.materials.rows",
+                        "hydro2d.base.method_sections", "eos", "strength"),
     "hydro2d.penetration": ("hydro2d.penetration", "hydro2d.noses", "hydro2d.base.units", "hydro2d.base.parameters",
                             "hydro2d.base.errors"),
 }
@@ -170,7 +171,7 @@ def users(library: str) -> set[str]:
     ("library", "allowed"),
     [
         ("numba", ("hydro2d.jit.options", "hydro2d.jit.target", "hydro2d.jit.store", "hydro2d.jit.calls", "hydro2d.jit.bits",
-                   "hydro2d.jit.barrier", "hydro2d.jit.handle", "hydro2d.jit.phases")),
+                   "hydro2d.jit.barrier", "hydro2d.jit.handle", "hydro2d.jit.phases", "hydro2d.jit.tape")),
         ("pyvista", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("vtk", ("hydro2d.output.vtk", "hydro2d.results.cutaway")),
         ("pint", ("hydro2d.base.units",)),
@@ -183,9 +184,8 @@ def users(library: str) -> set[str]:
         ("jinja2", ("hydro2d.study.report.page",)),
         ("pandas", ("hydro2d.study.records.runs", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
-        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact_ties",
-                             "hydro2d.solver.following", "hydro2d.solver.cycle", "hydro2d.solver.given",
-                             "hydro2d.measure.sanity", "hydro2d.solver.sources", "hydro2d.running.bench")),
+        ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver", "hydro2d.measure.sanity", "hydro2d.measure.tracers",
+                             "hydro2d.running.bench")),
     ],
 )
 def test_only_these_import(library, allowed):

@@ -65,7 +65,7 @@ def test_tracers_take_the_midpoint_rule(moving):
     start = moving.stations.tracers.copy()
     half = start + 0.5 * moving.dt * moving.velocity_at(start)
     expected = start + moving.dt * moving.velocity_at(half)
-    moving.stations.record()
+    moving.stations.record(moving.engine.given)
     np.testing.assert_array_equal(moving.stations.tracers, expected)
 
 
@@ -142,4 +142,4 @@ def test_a_run_that_goes_on_with_another_body_takes_its_direction():
         again.load_restart_arrays(kept[1])
         again.load_restart_scalars(kept[0])
         assert again.stop_reason() is None
-        assert again.restart_scalars()["watch"] == {"body": body, "sign": 1.0 if body == "first" else -1.0, "moved": False}
+        assert again.restart_scalars()["stops"]["Rebound"] == {"body": body, "sign": 1.0 if body == "first" else -1.0}

@@ -5,7 +5,7 @@ import pytest
 
 import hydro2d
 from hydro2d.physics.waves import STABLE
-from hydro2d.solver import time_step
+from hydro2d.solver.cycle import Cycle
 
 #: m/s; so small that nothing yields
 NOISE = 1.0
@@ -64,8 +64,14 @@ def energy_left(monkeypatch, name: str, linear: float, share: float) -> float:
         component[...] = np.where(state.mass > 0.0, NOISE * random.normal(size=component[:1].shape), 0.0)
         component[fixed] = 0.0
     engine.given.handle.update(courant=1.0)
-    chosen = time_step.chosen
-    monkeypatch.setattr(time_step, "chosen", lambda cycle: (share / STABLE * chosen(cycle)[0], ""))
+    choose = Cycle.choose_step
+
+    def shorter(cycle):
+        choose(cycle)
+        dt = share / STABLE * cycle.dt
+        cycle.given.set(dt=dt, time=cycle.time + dt)
+
+    monkeypatch.setattr(Cycle, "choose_step", shorter)
     left = []
     for _ in range(CYCLES):
         engine.advance()
