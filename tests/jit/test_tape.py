@@ -17,7 +17,8 @@ def conductor(parts: int = 1) -> Conductor:
     given.handle.update(
         parts=np.linspace(2, 10, parts + 1).astype(np.int64), i0=2, i1=6, u=u, v=v, grows=True, asks=0, cycle=0, dt=1.0,
         row_moving=np.zeros((13, 2), dtype=np.int64), moving=np.zeros(4, dtype=np.int64),
-        gate=np.zeros(jit.GATE, dtype=np.int64), time=0.0, reached=0.0, until=np.inf, last_cycle=3, lengths=np.zeros(8), grown=np.zeros(8, dtype=np.bool_), limited_by=0,
+        gate=np.zeros(jit.GATE, dtype=np.int64), time=0.0, reached=0.0, until=np.inf, last_cycle=3,
+        lengths=np.zeros(8), grown=np.zeros(8, dtype=np.bool_), limited_by=0,
         dt_min=1e-9, mesh_speed=0.0, advance=0.0)
     return given
 
