@@ -28,12 +28,11 @@ from hydro2d.files.locks import locked
 from hydro2d.files.whole import write_text
 from hydro2d.measure.outcome import AT_LEAST, AT_MOST, COMPUTED, CUT, EXACT, NONE, Outcome, rested
 from hydro2d.measure.regime import LEFT, REGIMES
-from hydro2d.measure.result import is_number
 from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.plan.planned import Plan, Planned
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case
 
 #: statuses of runs that have a row
@@ -105,10 +104,9 @@ class Wanted:
 
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
-        summary = case.summary
-        entries = {**results(summary), **origin(summary), SETUP: self.setup}
-        numbers = flatten(summary) if self.more else {}
-        entries |= {name: value if is_number(value := numbers.get(name)) else None for name in self.more if name not in entries}
+        entries = {**results(case.summary), **origin(case.summary), SETUP: self.setup}
+        known = numbers(case.summary) if self.more else {}
+        entries |= {name: known.get(name) for name in self.more if name not in entries}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 

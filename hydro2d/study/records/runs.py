@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from hydro2d.deck import deck as decks
 from hydro2d.files.csv_tables import flag, number, whole
-from hydro2d.measure.result import is_number, unit
+from hydro2d.measure.result import unit
 from hydro2d.output.directory import STUDY
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.planned import short
 from hydro2d.study.records import keeping, study_directory
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS, SETUP
 from hydro2d.study.records.study_directory import Case, Study
 
@@ -94,7 +94,7 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     if summary.get(SETUP) is None and case.deck:  # of version 0.3
         deck = decks.of_tables(case.deck)
         summary = summary | {SETUP: deck.setup, CELLS: deck.cells_across}
-    numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
+    known = numbers(summary)
     return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
-            **{name: value for name, value in numbers.items() if name.startswith("derived.")},
-            **{name: numbers.get(name) for name in more}, **keeping.origin(summary)}
+            **{name: value for name, value in known.items() if name.startswith("derived.")},
+            **{name: known.get(name) for name in more}, **keeping.origin(summary)}

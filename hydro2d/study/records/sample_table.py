@@ -14,13 +14,12 @@ from hydro2d.files import csv_tables
 from hydro2d.files.csv_tables import Column, number, one_of, whole
 from hydro2d.files.strange import own
 from hydro2d.files.whole import write_text
-from hydro2d.measure.result import is_number
 from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.plan.sampling import Points
 from hydro2d.study.records import keeping
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.responses import OF_BODY
 from hydro2d.study.records.study_directory import STATUSES, Case, Study
@@ -84,12 +83,12 @@ def of_run(case: Case, more: Sequence[str] = ()) -> dict[str, object]:
     summary = case.summary
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
     row[PERFORATED] = SAID.get(str(row[PERFORATED]))
-    numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
-    others = [name for name in numbers if name.startswith("derived.")]
+    known = numbers(summary)
+    others = [name for name in known if name.startswith("derived.")]
     if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
     row = {STATUS: case.status} | row
-    return row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}
+    return row | {name: known.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}
 
 
 def of_kept(kept: keeping.Row, more: Sequence[str]) -> keeping.Row:

@@ -163,7 +163,9 @@ def _place(curve: Curve, number: int) -> tuple:
 
 def write_csv(divergence: Divergence, path: Path) -> None:
     """Writes the rows. Raises OSError."""
-    write_text(path, to_csv(divergence.rows()))
+    import pandas
+
+    write_text(path, to_csv(pandas.DataFrame(divergence.rows(), dtype=object)))
 
 
 def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Divergence:

@@ -14,13 +14,12 @@ import numpy as np
 
 from hydro2d.base.errors import unknown
 from hydro2d.measure.regime import REGIMES
-from hydro2d.measure.result import is_number
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
 from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.sample_table import FINAL, NO, PERFORATED, REGIME, STATUS, YES
 from hydro2d.study.records.study_directory import DONE, Study
@@ -203,9 +202,8 @@ class Samples:
         """The numbers of the summaries of the runs by dotted name."""
         import pandas
 
-        numbers = [{key: value for key, value in flatten(each).items()
-                    if is_number(value) and not key.startswith("provenance.")} for each in self._summaries]
-        return pandas.DataFrame(numbers, self.table.index if numbers else None, dtype=float)
+        known = [numbers({key: value for key, value in each.items() if key != "provenance"}) for each in self._summaries]
+        return pandas.DataFrame(known, self.table.index if known else None, dtype=float)
 
     @property
     def _known(self) -> set[str]:

@@ -26,8 +26,10 @@ COLUMNS, SIZE, POINTS, APART = 3, (5.2, 3.6), 300, 0.035
 def write(study: Study, results: Sequence[Transitions]) -> list[Path]:
     """Writes both files into the directory of a study and returns them. Raises OSError, FigureError."""
     files = [own(study.directory / name) for name in (CSV, PICTURE)]
+    import pandas
+
     tables = [_table(study, each) for each in results]
-    write_text(files[0], table.to_csv([row for each in tables for row in each.to_dict("records")]))
+    write_text(files[0], table.to_csv(pandas.concat(tables)))
     figures.save_figure(draw(results), files[1])
     return files
 
