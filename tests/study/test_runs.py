@@ -96,6 +96,8 @@ def test_every_way_to_a_number_gives_the_same(study):
         assert same(by_study.loc[name, "rod_residual_velocity_m_s"], outcome["residual_velocity_m_s"])
         assert same(by_study.loc[name, "rod_length_ratio"], outcome["length_ratio"])
         assert same(one.loc[(name, 0), "crater.mean_diameter_m"], summary["crater"]["mean_diameter_m"])
+    for name in ("thickness", "row", "body.rod.length [mm]", "cells_across"):
+        assert one[name].tolist() == kept[name].tolist(), name
     assert {bool(summary["outcome"]["perforated"]) for summary in summaries.values()} == {True, False}
     assert [*one.columns[-len(keeping.ORIGIN) :]] == [*kept.columns[-len(keeping.ORIGIN) :]]
     assert set(one.columns) - set(kept.columns) == {"derived.L/L0"}  # which the study does not ask for
@@ -128,6 +130,18 @@ def test_the_table_has_units_and_missing_results(tmp_path):
     units = table.attrs["units"]
     assert (units["depth_m"], units["residual_velocity_m_s"], units["length_ratio"]) == ("m", "m/s", "1")
     assert "status" not in units
+
+
+def test_labels_are_numbers_wherever_they_come_from_unless_one_is_a_word(tmp_path):
+    fake.write_study(tmp_path / "study", {"friction": {"0.0": (), "0.1": ()}, "law": {"a": (), "2": ()}})
+    heads = ["friction", "law", "cells_across", "member", *keeping.RESULTS, *keeping.ORIGIN]
+    rows = [[friction, law, "5", "0", "done"] + [""] * (len(heads) - 5) for friction in ("0.0", "0.1") for law in ("a", "2")]
+    (tmp_path / "kept.csv").write_text("\n".join(map(",".join, [heads, *rows])) + "\n")
+    for place in ("study", "kept.csv"):
+        table = hydro2d.runs(tmp_path / place)
+        assert table["friction"].tolist() == [0.0, 0.0, 0.1, 0.1]
+        assert table["law"].tolist() == ["a", "2"] * 2
+        assert table.groupby("friction")["status"].count().tolist() == [2, 2]
 
 
 def test_the_set_up_of_a_run_is_that_of_its_deck():

@@ -171,6 +171,8 @@ def test_kept_rows_replace_runs(tmp_path):
     for row, kept in zip(table, rows(again), strict=True):
         assert float(kept["depth_m"]) == pytest.approx(float(row["depth_m"]), rel=1e-5)
         assert (kept["row"], kept["regime"], kept["status"]) == (row["row"], row["regime"], "done")
+    assert ",-" in (text_of_kept := (again / sample_table.FILE).read_text())
+    assert "'-" not in text_of_kept, "a number is no formula"
     assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
 
 

@@ -55,8 +55,7 @@ def _table(sample: Points, axes: Sequence[str], cases: Sequence[Case], kept: Map
     kept : state and results of cases without a run, by name
     """
     results = _text([of_run(case, sample.results) if case.status in keeping.ENDED else
-                     kept.get(case.name, {STATUS: case.status})
-                     for case in cases], [case.name for case in cases])
+                     kept.get(case.name, {STATUS: case.status}) for case in cases], [case.name for case in cases])
     results = results.loc[:, [name in sample.results or any(column) for name, column in results.items()]]
     return _labels(sample, axes, cases).join(results)
 
@@ -121,7 +120,8 @@ def read(study: Study) -> tuple[pandas.DataFrame, dict[str, str]]:
     labels = _labels(sample, axes, study.cases)
     inputs = [each.head for each in sample.inputs]
     heads = [name for name in labels if name not in inputs]
-    runs = {tuple(row): name for name, row in zip(labels.index, labels[heads].to_numpy(), strict=True)}
+    about = labels.to_dict("index")
+    runs = {tuple(row[head] for head in heads): name for name, row in about.items()}
     lines: dict[str, csv_tables.Row] = {}
     for line in csv_tables.read(file, _columns(sample, heads), StudyError, REMEDY, others=_other):
         case = runs.get(tuple(line[head] for head in heads))
@@ -129,9 +129,9 @@ def read(study: Study) -> tuple[pandas.DataFrame, dict[str, str]]:
             of = "of no run of this study" if case is None else f"of the same run as line {lines[case].line}"
             raise StudyError(f"{file}:{line.line}: is {of}; {REMEDY}")
         for head in inputs:
-            if keeping.differ(line[head], labels.loc[case, head]):
+            if keeping.differ(line[head], about[case][head]):
                 raise StudyError(f'{file}:{line.line}: column "{head}": is {line[head]}, and the run of this line has '
-                                 f"{labels.loc[case, head]}; {REMEDY}")
+                                 f"{about[case][head]}; {REMEDY}")
         lines[case] = line
     if len(lines) != len(study.cases):
         raise StudyError(f"{file} is not of this study: it has {len(lines)} rows, and there are {len(study.cases)} runs; "
@@ -139,9 +139,10 @@ def read(study: Study) -> tuple[pandas.DataFrame, dict[str, str]]:
     ended = {name: {head: text for head, text in line.items() if head not in labels}
              for name, line in lines.items() if line[STATUS] in keeping.ENDED}
     table = _table(sample, axes, study.cases, ended)
-    wrong = {name: f'{file}:{lines[name].line}: column "{head}": "{text}" is ignored: the run has "{table.loc[name, head]}"'
+    made = table.to_dict("index")
+    wrong = {name: f'{file}:{lines[name].line}: column "{head}": "{text}" is ignored: the run has "{made[name][head]}"'
              for name, row in ended.items() for head, text in row.items()
-             if head in table and keeping.differ(text, table.loc[name, head])}
+             if head in table and keeping.differ(text, made[name][head])}
     return table, wrong
 
 
