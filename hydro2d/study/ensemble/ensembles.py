@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from hydro2d.measure.outcome import AT_LEAST
 from hydro2d.study.ensemble import agreement
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson
 from hydro2d.study.records.experiments import Measurement
@@ -53,7 +54,8 @@ class Ensemble:
     @cached_property
     def bound(self) -> float | None:
         """The smallest depth that is only a lower bound, because a member perforated or left the mesh, m."""
-        return min((each.depth for each in self.ended if each.at_least and each.depth is not None), default=None)
+        depths = (each.outcome.depth_m for each in self.ended if each.outcome.depth_is == AT_LEAST)
+        return min((depth for depth in depths if depth is not None), default=None)
 
     @cached_property
     def regimes(self) -> dict[str, Share]:

@@ -18,7 +18,7 @@ from hydro2d.files import checksums
 from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
 from hydro2d.measure import outcome
-from hydro2d.measure.outcome import AT_LEAST, Outcome
+from hydro2d.measure.outcome import Outcome
 from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.regime import LEFT, REGIMES
 from hydro2d.measure.result import is_number
@@ -214,16 +214,6 @@ class Record:
     def left(self) -> bool:
         """Whether the rod left the mesh."""
         return self.value("regime") == LEFT
-
-    @property
-    def at_least(self) -> bool:
-        """Whether `depth` is a lower bound, because the rod perforated the target or left the mesh."""
-        return self.outcome.depth_is == AT_LEAST
-
-    @property
-    def depth(self) -> float | None:
-        """Penetration depth, m, see `Outcome.depth_m`."""
-        return self.outcome.depth_m
 
     @property
     def experience(self) -> list[str]:

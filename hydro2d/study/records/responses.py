@@ -111,7 +111,7 @@ def title(name: str) -> str:
 
 
 def raw(record: Record, name: str) -> float | None:
-    """A number of a run in SI. Some depths are bounds (`Record.at_least`); a stopped projectile has zero residual velocity."""
+    """A number of a run in SI. Some depths are bounds (`Outcome.depth_is`); a stopped projectile has zero residual velocity."""
     number = record.outcome[OF_OUTCOME[name]] if name in OF_OUTCOME else record.numbers.get(name)
     return number if number is not None and math.isfinite(number) else None
 

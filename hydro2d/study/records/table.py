@@ -72,7 +72,7 @@ def _compared(record: Record, measurement: Measurement | None) -> dict[str, obje
     """The experiment and the error; unfinished runs have no error."""
     left, measured = record.outcome.residual_velocity_m_s, record.measured_residual
     error, kind = None, None
-    if measurement is not None and not record.unfinished and record.depth is not None:
+    if measurement is not None and not record.unfinished and record.outcome.depth_m is not None:
         error, kind = measurement.error(record.outcome)
     return {
         "experiment_depth_m": measurement and measurement.depth, "experiment_is": measurement and measurement.qualifier,

@@ -12,7 +12,7 @@ from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_json
-from hydro2d.measure.regime import LEFT
+from hydro2d.measure.outcome import AT_LEAST
 from hydro2d.penetration.model import InputError
 from hydro2d.study.outcomes import perforation
 from hydro2d.study.outcomes.base import FALL, LIMIT, Verdict
@@ -58,13 +58,14 @@ def judge(record: Record, of: str = Regime.name, depth: float | None = None) -> 
 def judged(records: Sequence[Record], search: Interval) -> pandas.DataFrame:
     """The runs of a combination in the order of the search, SI: ``regime`` is the outcome that the search asks for.
 
-    The columns are those of transition.json; ``regime`` is None with a ``reason`` where it is not known.
+    The columns are those of transition.json, and ``depth_is``; ``regime`` is None with a ``reason`` where it is not known.
     """
     import pandas
 
     return pandas.DataFrame([{
         "case": each.case.name, "velocity_m_s": _speed(each), "status": each.case.status,
-        **judge(each, search.of, search.depth)._asdict(), "depth_m": each.depth, "perforated": each.perforated,
+        **judge(each, search.of, search.depth)._asdict(), "depth_m": each.outcome.depth_m,
+        "depth_is": each.outcome.depth_is, "perforated": each.perforated,
         **{name: each.case.summary.get(name) for name in RESULTS},
         "residual_velocity_m_s": each.outcome.residual_velocity_m_s, "rod_first_mass_kg": each.first.get("rod_mass_kg"),
         "stop_reason": each.case.summary.get("stop_reason"),
@@ -88,8 +89,7 @@ def _share(value: float | None, first: float | None) -> str:
 
 
 def _depth(run) -> str:
-    at_least = run.perforated or run.regime == LEFT
-    return f"{'at least ' * at_least}{100 * run.depth_m:.2f} cm"
+    return f"{'at least ' * (run.depth_is == AT_LEAST)}{100 * run.depth_m:.2f} cm"
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class Transitions:
                              "settled": self.settled.get(each.name)} for each in self.brackets],
             "estimate": self.estimate and self.estimate.data(),
             "notes": self.notes,
-            "runs": self.runs.to_dict("records"),
+            "runs": self.runs.drop(columns="depth_is").to_dict("records"),
             "comparison": self.comparison and self.comparison.data(),
         }
 
