@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from hydro2d.solver.simulation import Simulation
     from hydro2d.study.ensemble.chance import bias_and_scatter, wilson
     from hydro2d.study.plan.definition import StudyError
-    from hydro2d.study.records.keeping import KeptRow, kept_rows, method_note
+    from hydro2d.study.records.keeping import method_note
     from hydro2d.study.records.runs import runs
     from hydro2d.study.records.study_directory import Case
     from hydro2d.study.samples.kept import kept_samples
@@ -63,9 +63,7 @@ _PLACES = {
     "Samples": "hydro2d.study.samples.results",
     "Objective": "hydro2d.study.samples.objective",
     "runs": "hydro2d.study.records.runs",
-    "kept_rows": "hydro2d.study.records.keeping",
     "kept_samples": "hydro2d.study.samples.kept",
-    "KeptRow": "hydro2d.study.records.keeping",
     "method_note": "hydro2d.study.records.keeping",
     "penetration_model": "hydro2d.api",
     "penetration_models": "hydro2d.api",
@@ -97,7 +95,6 @@ __all__ = [
     "Error",
     "Experience",
     "Impact",
-    "KeptRow",
     "Objective",
     "Results",
     "ResultsError",
@@ -112,7 +109,6 @@ __all__ = [
     "fit_residual_velocity",
     "fit_transition",
     "impact_of",
-    "kept_rows",
     "kept_samples",
     "method_note",
     "new_figure",

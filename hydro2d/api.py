@@ -25,6 +25,7 @@ from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.planned import Plan
 from hydro2d.study.records import study_directory
+from hydro2d.study.records.table import in_files
 from hydro2d.study.run import cluster
 from hydro2d.study.run import sweep as sweeps
 from hydro2d.study.run.choice import Choice
@@ -115,12 +116,9 @@ class Study(study_directory.Study):
             ``depth_high_m``), and the fraction of each regime with a 90 % Wilson interval (``rigid_fraction``,
             ``rigid_fraction_low``, ``rigid_fraction_high``); ``as_experiment_fraction`` is that of the experiment's outcome
         """
-        import pandas
-
         collected = contents.collect(self)
-        repeated = self.ensembles and not members
-        return pandas.DataFrame(collected.rows_of_ensembles() if repeated else collected.rows).set_index("case")
-
+        found = collected.table_of_ensembles() if self.ensembles and not members else collected.table
+        return found.set_axis(in_files(found), axis="columns").set_index("case").infer_objects()
 
     def samples(self, at: Mapping[str, str] | None = None) -> Samples:
         """The runs of a study with [sample] as a table of inputs and results, with spreads, fractions and Sobol indices.

@@ -176,9 +176,9 @@ def test_a_fit_needs_as_many_shots_as_constants():
         hydro2d.fit_residual_velocity(speeds[:2], left[:2])
 
 
-def test_kept_rows_of_nothing_are_refused(tmp_path):
-    with pytest.raises(hydro2d.StudyError, match="is not a study directory"):
-        hydro2d.kept_rows(tmp_path / "rows.csv")
+def test_runs_of_nothing_are_refused(tmp_path):
+    with pytest.raises(hydro2d.StudyError, match="there is no such directory"):
+        hydro2d.runs(tmp_path / "rows.csv")
 
 
 # ---------------------------------------------------------------------------------------------------- simulations

@@ -39,12 +39,11 @@ def calibrated(path: str) -> float:
 
 
 def studied(deck: hydro2d.Deck) -> list[float]:
-    """Models, fits and kept rows."""
-    rows: list[hydro2d.KeptRow] = hydro2d.kept_rows("runs/study")
-    labels: list[dict[str, str]] = [row.labels for row in rows]
-    print(labels, hydro2d.method_note(row["method"] for row in rows), hydro2d.wilson(3, len(rows)).words)
-    speeds: list[float] = [hydro2d.to_si(row["velocity"], "m/s") for row in rows]
-    fit = hydro2d.fit_transition(speeds, [row["regime"] == "eroding" for row in rows])
+    """Models, fits and a table of runs."""
+    runs: pandas.DataFrame = hydro2d.runs("runs/study", results=["crater.mean_diameter_m"])
+    print(hydro2d.method_note(runs["method"]), hydro2d.wilson(3, len(runs)).words)
+    speeds: list[float] = [hydro2d.to_si(velocity, "m/s") for velocity in runs["velocity"]]
+    fit = hydro2d.fit_transition(speeds, list(runs["regime"] == "eroding"))
     limit: float = hydro2d.fit_residual_velocity([900.0, 800.0, 700.0], [500.0, 350.0, 100.0]).limit_velocity
     model = hydro2d.penetration_model("tate", deck, {"target.strength": 0.4e9})
     print(model.rows(speeds)[0]["depth"], deck.body_named("rod").name)

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import csv
 import functools
-import types
-import typing
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
+
+from pydantic import TypeAdapter
 
 from hydro2d.deck import deck as decks
 from hydro2d.deck.shapes.body import Body
@@ -160,18 +160,11 @@ def table() -> tuple[Experience, ...]:
 
 def read(row: Mapping[str, str]) -> Experience:
     """A row of the file; an empty text is a value that is not known. Raises KeyError for a missing column, ValueError."""
-    types_of = typing.get_type_hints(Experience)
-    return Experience(**{field.name: _value(row[field.name], types_of[field.name]) for field in fields(Experience)})
+    texts = {field.name: row[field.name] for field in fields(Experience)}
+    return _ROW.validate_python({name: text for name, text in texts.items() if text or name == "ended"})
 
 
-def _value(text: str, kind_of: object) -> object:
-    allowed = typing.get_args(kind_of) or (kind_of,)
-    if types.NoneType in allowed and not text:
-        return None
-    of = allowed[0]
-    if of is bool:
-        return {"yes": True, "no": False}[text]
-    return of(text)  # type: ignore[operator]
+_ROW = TypeAdapter(Experience)
 
 
 def substance(material: Material) -> str:

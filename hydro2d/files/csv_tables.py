@@ -13,7 +13,6 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 from hydro2d.base.errors import Error, nearest, unknown
 from hydro2d.base.formats import of_cell, one_line
@@ -91,9 +90,6 @@ class Row(dict[str, str]):
     line = 0
 
 
-R = TypeVar("R", bound=Row)
-
-
 def lines(path: Path, error: type[Error]) -> list[tuple[int, list[str]]]:
     """The lines of a table that have an entry: their numbers in the file, and their cells without spaces around them.
 
@@ -117,7 +113,7 @@ def lines(path: Path, error: type[Error]) -> list[tuple[int, list[str]]]:
 
 
 def read(path: Path, columns: Iterable[Column], error: type[Error], remedy: str, *,
-         others: Callable[[str], Column | None] = lambda head: None, of: type[R] = Row) -> list[R]:
+         others: Callable[[str], Column | None] = lambda head: None) -> list[Row]:
     """The rows of a table, in the order of the file; columns that it need not have and has not are left out.
 
     columns : those with known heads;  others : the column of any other head, None if there must be no such column
@@ -129,7 +125,7 @@ def read(path: Path, columns: Iterable[Column], error: type[Error], remedy: str,
     try:
         chosen = _chosen(found[0][1] if found else [], {column.name: column for column in columns}, others)
         for at, cells in found[1:]:
-            rows.append(_row(chosen, cells, of))
+            rows.append(_row(chosen, cells))
             rows[-1].line = at
     except ValueError as wrong:
         raise error(one_line(f"{path}:{at}: {wrong}; {remedy}")) from None
@@ -163,11 +159,11 @@ def _chosen(heads: Sequence[str], declared: dict[str, Column], others: Callable[
     return [*columns.values(), *[None] * (len(heads) - len(names))]
 
 
-def _row(columns: Sequence[Column | None], cells: Sequence[str], of: type[R]) -> R:
+def _row(columns: Sequence[Column | None], cells: Sequence[str]) -> Row:
     """A row of a table. Raises ValueError."""
     if len(cells) != len(columns):
         raise ValueError(f"has {len(cells)} cells, and the line of heads {len(columns)}")
-    row = of()
+    row = Row()
     for column, text in zip(columns, map(of_cell, cells), strict=True):
         if column is None and text:
             raise ValueError(f'"{text}" is in a column without a head')

@@ -5,11 +5,9 @@ A table is in long form: each row belongs to one run, and in a line-out to one t
 
 from __future__ import annotations
 
-import csv
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 from hydro2d.base.errors import unknown
 from hydro2d.base.formats import cell, shown
@@ -21,15 +19,11 @@ from hydro2d.results.figures import HISTORIES
 from hydro2d.results.line_figures import Line
 from hydro2d.results.scales import FigureError
 
+if TYPE_CHECKING:
+    import pandas
+
 #: file ending of a table
 ENDING = ".csv"
-
-
-class Table(NamedTuple):
-    """Heads with units, and rows of names and numbers; NaN where a field has no value."""
-
-    heads: list[str]
-    rows: list[tuple]
 
 
 def head(title: str, unit: str) -> str:
@@ -38,56 +32,56 @@ def head(title: str, unit: str) -> str:
     return f"{shown(title)} [{plain}]" if plain not in ("", "1") else shown(title)
 
 
-def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[float | None] = (None,)) -> Table:
+def line_outs(runs: list, field: str, line: Line | None = None, times: Sequence[float | None] = (None,)) -> pandas.DataFrame:
     """A field along a line: a row for each run (results.Results), time in s (None: the last dump) and cell that it crosses.
 
     Raises FigureError as `line_figures.line_outs` does.
     """
-    rows, heads, names = [], [], ()
+    import pandas
+
+    parts = []
     for curve in line_figures.curves(runs, field, line, times):
-        names = ("r", "z") if curve.line.label in "rz" else (curve.line.label, "r", "z")
-        heads = ["run", head("t", "µs"), *(head(name, "mm") for name in names), head(curve.shown.title, curve.shown.unit)]
         places = {curve.line.label: curve.along, "r": curve.r, "z": curve.z}
-        columns = [(places[name] * 1e3).tolist() for name in names]
-        rows += [(curve.run.label, curve.time * 1e6, *row) for row in zip(*columns, curve.values.tolist(), strict=True)]
-    return Table(heads, rows)
+        names = ("r", "z") if curve.line.label in "rz" else places
+        parts.append(pandas.DataFrame({"run": curve.run.label, head("t", "µs"): curve.time * 1e6,
+                                       **{head(name, "mm"): places[name] * 1e3 for name in names},
+                                       head(curve.shown.title, curve.shown.unit): curve.values}))
+    return pandas.concat(parts)
 
 
-def histories(runs: list, quantities: Sequence[str] = HISTORIES) -> Table:
+def histories(runs: list, quantities: Sequence[str] = HISTORIES) -> pandas.DataFrame:
     """Quantities against time, a row for each run (results.Results) and row of its history. Raises FigureError."""
-    heads, rows = ["run", head("t", "µs")], []
-    units = [reader_unit(history.unit(name)) for name in quantities]
-    heads += [head(history.spoken(name), unit) for name, (unit, _) in zip(quantities, units, strict=True)]
+    import pandas
+
+    parts = []
     for run in runs:
+        part = {"run": run.label, head("t", "µs"): run.history["time"] * 1e6}
         for name in quantities:
             if name not in run.history:
                 raise FigureError(f"{run.directory}: {unknown('quantity', name, run.history)}")
-        columns = [(run.history["time"] * 1e6).tolist()]
-        columns += [(run.history[name] * scale).tolist() for name, (_, scale) in zip(quantities, units, strict=True)]
-        rows += [(run.label, *row) for row in zip(*columns, strict=True)]
-    return Table(heads, rows)
+            unit, scale = reader_unit(history.unit(name))
+            part[head(history.spoken(name), unit)] = run.history[name] * scale
+        parts.append(pandas.DataFrame(part))
+    return pandas.concat(parts)
 
 
-def craters(runs: list) -> Table:
+def craters(runs: list) -> pandas.DataFrame:
     """The holes at the end: a row for each run (results.Results), target and place. Raises FigureError if no run has one."""
-    heads = ["run", "target", head("depth below the original surface", "mm"), head("radius of the hole", "mm")]
-    rows = [(run.label, target, *row) for run in runs for target, depth, radius in figures.holes(run)
-            for row in zip(depth.tolist(), radius.tolist(), strict=True)]
-    if not rows:
+    import pandas
+
+    parts = [pandas.DataFrame({"run": run.label, "target": target, head("depth below the original surface", "mm"): depth,
+                               head("radius of the hole", "mm"): radius})
+             for run in runs for target, depth, radius in figures.holes(run)]
+    if not any(map(len, parts)):
         raise FigureError("no run has a hole to draw")
-    return Table(heads, rows)
+    return pandas.concat(parts)
 
 
-def _cells(row: Iterable) -> list[str]:
-    """A row as written to a file: numbers with ten digits, NaN as an empty cell."""
-    return [cell(shown(value)) if isinstance(value, str) else "" if math.isnan(value) else f"{value:.10g}" for value in row]
-
-
-def save(table: Table, path: Path) -> None:
-    """Writes a table as CSV. Raises FigureError."""
+def save(table: pandas.DataFrame, path: Path) -> None:
+    """Writes a table as CSV, numbers with ten digits. Raises FigureError."""
     if not path.parent.is_dir():
         raise FigureError(f"{path.parent}: there is no such directory")
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(cell(head) for head in table.heads)
-        writer.writerows(_cells(row) for row in table.rows)
+    words = {name: column.map(lambda text: cell(shown(text))) for name, column in table.items() if name in ("run", "target")}
+    with replacing(path) as temporary:
+        table.assign(**words).to_csv(temporary, index=False, header=list(map(cell, table)), float_format="%.10g",
+                                     lineterminator="\n")

@@ -61,7 +61,7 @@ def _holes() -> list[str]:
 
 
 def _transitions() -> list[str]:
-    return transitions.table(hydro2d.kept_rows(transitions.FILE))
+    return transitions.table(hydro2d.runs(transitions.FILE))
 
 
 def _of_advection(make: Callable[[findings.Runs], list[str]],

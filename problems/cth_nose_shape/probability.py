@@ -34,6 +34,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas
 
 import hydro2d
 from problems.cth_nose_shape import rigid_rod
@@ -79,18 +80,18 @@ def samples(cells: float = USUAL_CELLS, nose: str = rigid_rod.NOSES["hemi"]) -> 
 
 def held(sample: hydro2d.Samples) -> np.ndarray:
     """Whether two thirds of the length of the rod are left, bool[runs], of runs that are done."""
-    return sample.columns["length_ratio"][sample.ended] >= hydro2d.LEAST_KEPT_LENGTH
+    return sample.table["length_ratio"][sample.ended].to_numpy() >= hydro2d.LEAST_KEPT_LENGTH
 
 
 def reach(sample: hydro2d.Samples) -> np.ndarray:
     """Depths in cm, float64[runs], of runs that are done; the thickness of the plate for rods that perforate."""
-    through = sample.columns["perforated"][sample.ended] == "yes"
-    return np.where(through, PLATE, 1e2 * sample.columns["depth_m"][sample.ended])
+    done = sample.table[sample.ended]
+    return np.where(done["perforated"] == "yes", PLATE, 1e2 * done["depth_m"])
 
 
 def column(sample: hydro2d.Samples, name: str) -> np.ndarray:
     """An input of the runs that are done."""
-    return sample.columns[name][sample.ended]
+    return sample.table[name][sample.ended].to_numpy()
 
 
 # ---------------------------------------------------------------------------------------------------- the logistic function
@@ -364,12 +365,12 @@ def foretold(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
 
     An outcome is foretold if the function of the other half calls it the more probable one.
     """
-    last = max(int(sample.columns["row"].max()) for sample in by_shot.values())
+    last = max(int(sample.table["row"].max()) for sample in by_shot.values())
     halves_of = {f"1 to {last // 2}": (0, last // 2), f"{last // 2 + 1} to {last}": (last // 2, last)}
     lines = ["| rows | all outcomes together | foretold of the other rows | probability of what happened: geometric mean |",
              "|---|---|---|---|"]
     for words, (first, end) in halves_of.items():
-        known, others = ({shot: _rows(sample, (sample.columns["row"] > first) & (sample.columns["row"] <= end), within)
+        known, others = ({shot: _rows(sample, sample.table["row"].between(first + 1, end), within)
                           for shot, sample in by_shot.items()} for within in (True, False))
         inference = inferred(known)
         happened = np.concatenate([_probabilities(others, alloy, inference.numbers[alloy]) for alloy in ALLOYS])
@@ -378,10 +379,9 @@ def foretold(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     return lines
 
 
-def _rows(sample: hydro2d.Samples, chosen: np.ndarray, within: bool) -> hydro2d.Samples:
+def _rows(sample: hydro2d.Samples, chosen: pandas.Series, within: bool) -> hydro2d.Samples:
     """The chosen rows of a sample, bool[n], or the others."""
-    columns = {name: values[chosen == within] for name, values in sample.columns.items()}
-    return hydro2d.Samples(sample.title, sample.inputs, columns, labels=sample.labels)
+    return hydro2d.Samples(sample.title, sample.inputs, sample.table[chosen == within], labels=sample.labels)
 
 
 def _probabilities(by_shot: dict[Shot, hydro2d.Samples], alloy: str, numbers: np.ndarray) -> np.ndarray:

@@ -21,6 +21,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import pandas
+
 import hydro2d
 from problems import kept
 
@@ -161,19 +163,25 @@ def read(path: Path, cells: float | None = None) -> list[Result]:
 
     Raises hydro2d.Error, OSError.
     """
-    found = [_of(row) for row in hydro2d.kept_rows(path) if row["status"] == "done"]
-    return [run for run in found if cells is None or float(run.labels[CELLS]) == cells]
+    table = hydro2d.runs(path)
+    done = table[(table["status"] == "done") & ((table[CELLS] == cells) if cells is not None else True)]
+    axes = done.loc[:, : "status"].columns[:-1]
+    return [_of({axis: _label(run[axis]) for axis in axes if pandas.notna(run[axis])}, member, run)
+            for (_, member), run in done.iterrows()]
 
 
-def _of(row: hydro2d.KeptRow) -> Result:
+def _label(value: str | float) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def _of(labels: dict[str, str], member: int, run: pandas.Series) -> Result:
     def number(name: str, factor: float = 1.0) -> float | None:
-        return round(factor * float(row[name]), 9) if row[name] else None
+        return None if pandas.isna(run[name]) else round(factor * run[name], 9)
 
-    through = row["perforated"] == "True"
-    depth, residual = (None, number("residual_velocity_m_s")) if through else (number("depth_m", 1e2), None)
-    loss = round(100.0 * (1.0 - float(row["length_ratio"])), 9)
-    return Result(row.labels, int(row["member"]), depth, loss, residual, row["regime"],
-                  number("hole_m3", 1e6), row["method"], row["trustworthy"] != "False")
+    depth, residual = (None, number("residual_velocity_m_s")) if run["perforated"] is True else (number("depth_m", 1e2), None)
+    loss = round(100.0 * (1.0 - run["length_ratio"]), 9)
+    return Result(labels, member, depth, loss, residual, run["regime"], number("hole_m3", 1e6), run["method"],
+                  run["trustworthy"] is not False)
 
 
 def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:

@@ -200,13 +200,12 @@ def weldox() -> list[Shot]:
     folder, compared = PROBLEMS / "perforation", []
     measured = {(row["nose"], float(row["striking_m_s"])): float(row["residual_m_s"])
                 for row in kept.rows(folder / "weldox_460e.csv", ("nose", "striking_m_s", "residual_m_s"))}
-    for row in hydro2d.kept_rows(folder / "results" / "weldox.csv"):
-        velocity = float(row["velocity"].split()[0])
-        left = measured[row["nose"], velocity]
-        through = row["perforated"] == "True"
+    for _, run in hydro2d.runs(folder / "results" / "weldox.csv").iterrows():
+        velocity, through = hydro2d.to_si(run["velocity"], "m/s"), bool(run["perforated"])
+        left = measured[run["nose"], velocity]
         what, about = impact("perforation/weldox_hemispherical.toml"), {
-            "velocity": velocity, "cells": (float(row[rigid_rod.CELLS]),)}
-        ratios = (float(row["residual_velocity_m_s"]) / left,) if through and left else ()
+            "velocity": velocity, "cells": (run[rigid_rod.CELLS],)}
+        ratios = (run["residual_velocity_m_s"] / left,) if through and left else ()
         compared.append(Shot(WELDOX, RESIDUAL, what, "", ratios, missed=left > 0.0 and not through, **about))
         compared.append(Shot(WELDOX, PERFORATION, what, "", (), right=through == (left > 0.0), **about))
     return compared
@@ -430,10 +429,10 @@ def notes() -> list[str]:
     """Lines below the tables: runs with a fault in the audit, and of an older version of the method, of files that tell."""
     folders = ("cth_nose_shape/results/twelve_shots", "validation/results/eroded_heads", "validation/results/rigid_steel_rods",
                "validation/results/steel_rods_fitted", "perforation/results/weldox")
-    told = [each for name in folders for each in hydro2d.kept_rows(PROBLEMS / f"{name}.csv")]
-    doubtful = sum(each["trustworthy"] == "False" for each in told)
+    told = hydro2d.runs(*(PROBLEMS / f"{name}.csv" for name in folders))
+    doubtful = (~told["trustworthy"]).sum()
     faults = f"{doubtful} of {len(told)} runs of rods had a fault in the audit, such as a cell that is too cold."
-    method = hydro2d.method_note(each["method"] for each in told)
+    method = hydro2d.method_note(told["method"])
     return [line for each in (faults if doubtful else "", method) if each for line in ("", each)]
 
 

@@ -3,6 +3,7 @@
 import functools
 
 import numpy as np
+import pandas
 import pytest
 
 import hydro2d
@@ -39,7 +40,7 @@ def made_up(shot, number=64, seed=0, held_longer=1.0):
     lost = np.log((shot.velocity + columns[VELOCITY]) / (held_longer * middle)) + CHANCE * generator.logistic(size=number) > 0.0
     columns |= {"row": np.arange(1.0, number + 1), "status": np.full(number, "done"), "perforated": np.full(number, "no"),
                 "depth_m": np.where(lost, 0.2, 0.4), "length_ratio": np.where(lost, 0.3, 0.95)}
-    return hydro2d.Samples(str(shot), INPUTS, columns)
+    return hydro2d.Samples(str(shot), INPUTS, pandas.DataFrame(columns))
 
 
 @functools.cache
@@ -118,7 +119,7 @@ def test_the_tables(monkeypatch):
     by_shot = {shot: made_up(shot) for shot in SHOTS}
     lines = probability.outcomes(by_shot)
     shot = SHOTS[0]
-    right = (by_shot[shot].columns["length_ratio"] > 0.5) == rigid_rod.experiments()[shot].rigid
+    right = (by_shot[shot].table["length_ratio"] > 0.5) == rigid_rod.experiments()[shot].rigid
     assert f"{right.sum()} of 64" in lines[2]
     assert len(lines) == 2 + len(SHOTS)
     inference = inferred()
@@ -137,7 +138,7 @@ def test_each_half_of_the_rows_foretells_the_other():
     assert rows == 48 * len(SHOTS)
     assert 0.85 < right / rows < 1.0, "chance is left"
     for sample in by_shot.values():
-        sample.columns["length_ratio"][48:] = 1.3 - sample.columns["length_ratio"][48:]
+        sample.table.loc[48:, "length_ratio"] = 1.3 - sample.table["length_ratio"]
     wrong = probability.foretold(by_shot)[2]
     assert int(wrong.split(" | ")[2].split(" of ")[0]) == rows - right, "all others end the other way"
 
@@ -150,7 +151,7 @@ def test_the_velocity_by_law_and_what_moves_it():
     middle = float(weak.split(" | ")[1].partition(" m/s")[0])
     assert middle == pytest.approx(HALF["weak"], rel=0.02)
     for sample in by_shot.values():
-        sample.columns["length_ratio"][sample.columns[LAW] == "weak"] = 0.3
+        sample.table.loc[sample.table[LAW] == "weak", "length_ratio"] = 0.3
     assert probability.halves_by_law(by_shot, inference)[3] == "| weak | below 1086 m/s | below 1038 m/s |"
     for line, alloy in zip(probability.slopes(inference)[2:], rigid_rod.ALLOYS, strict=True):
         one, *cells = line.strip("| ").split(" | ")
@@ -163,8 +164,8 @@ def test_the_velocity_by_law_and_what_moves_it():
 
 def test_what_perforates_reaches_as_far_as_the_plate():
     sample = made_up(Shot("hemispherical", "5083", 1086.0))
-    sample.columns["perforated"] = np.full(64, "yes")
-    sample.columns["status"][:3] = "left"
+    sample.table["perforated"] = "yes"
+    sample.table.loc[:2, "status"] = "left"
     assert set(probability.reach(sample)) == {rigid_rod.PLATE}
     assert len(probability.reach(sample)) == len(probability.held(sample)) == 61
 
@@ -191,12 +192,12 @@ def test_points_on_two_meshes_are_compared_row_by_row():
     shot, other = SHOTS[:2]
     coarse, fine = {each: made_up(each) for each in (shot, other)}, {shot: made_up(shot), other: made_up(other)}
     for name, values in {"status": "left", "length_ratio": 0.1, "depth_m": 0.5}.items():
-        fine[shot].columns[name][:2] = values
+        fine[shot].table.loc[:1, name] = values
     for sample in fine.values():
-        sample.columns = {name: values[2::-1] for name, values in sample.columns.items()}
-    fine[shot].columns["length_ratio"][0] = coarse[shot].columns["length_ratio"][2]
-    fine[shot].columns["depth_m"][0] = coarse[shot].columns["depth_m"][2] + 0.01
-    fine[other].columns["length_ratio"][1] = 1.0 - coarse[other].columns["length_ratio"][1]
+        sample.table = sample.table.iloc[2::-1].reset_index(drop=True)
+    fine[shot].table.loc[0, "length_ratio"] = coarse[shot].table.loc[2, "length_ratio"]
+    fine[shot].table.loc[0, "depth_m"] = coarse[shot].table.loc[2, "depth_m"] + 0.01
+    fine[other].table.loc[1, "length_ratio"] = 1.0 - coarse[other].table.loc[1, "length_ratio"]
     lines = probability.compared(coarse, fine)
     assert [line.split(" | ")[1] for line in lines[2:]] == ["1", "3", "4"]
     assert [line.split(" | ")[4] for line in lines[2:4]] == ["1", "2"]
@@ -206,8 +207,8 @@ def test_points_on_two_meshes_are_compared_row_by_row():
 
 def test_ogival_rods_hold_with_the_strong_laws_at_the_worst_corner():
     """As the page says; so the outcomes of the hemispherical shots are those of all twelve."""
-    rows = hydro2d.kept_rows(probability.HERE / "results" / "uncertain_ogival.csv")
-    kept = {(row["shot"][6:10], row["law"]): round(100.0 * float(row["length_ratio"]), 1) for row in rows}
+    runs = hydro2d.runs(probability.HERE / "results" / "uncertain_ogival.csv")
+    kept = {(run["shot"][6:10], run["law"]): round(100.0 * run["length_ratio"], 1) for _, run in runs.iterrows()}
     assert kept == {
         ("5083", "Steinberg-Guinan"): 98.6, ("5083", "JC-sintered"): 98.6, ("5083", "JC-90W"): 97.8, ("5083", "JC-Y925"): 96.0,
         ("7039", "Steinberg-Guinan"): 92.7, ("7039", "JC-sintered"): 94.0, ("7039", "JC-90W"): 20.1, ("7039", "JC-Y925"): 61.8,

@@ -144,7 +144,7 @@ def test_kept_rows_are_those_of_their_study(file):
     plan = cases.plan(file.parent.parent / f"{file.stem}.toml", quiet=True)
     assert plan.keep.resolve() == file.resolve()
     rows = keeping.read(file)
-    assert len({(*each.labels.items(), each["member"]) for each in rows}) == len(rows) > 0
+    assert len({(*keeping.labels(each).items(), each["member"]) for each in rows}) == len(rows) > 0
     planned = [case.values for case in plan.cases]
     assert [each for each in rows if {name: each[name] for name in planned[0]} not in planned] == []
 

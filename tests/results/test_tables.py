@@ -49,10 +49,9 @@ def test_a_line_out_has_the_numbers_of_the_picture(run, tmp_path):
 
 def test_a_line_across_has_its_distance_and_units_are_plain_letters(run):
     table = tables.line_outs([run], "density", Line(0.0, -5e-3, 4e-3, 5e-3))
-    assert table.heads == ["run", "t [us]", "distance [mm]", "r [mm]", "z [mm]", "Density [g/cm^3]"]
-    for _, _, distance, r, z, _ in table.rows:
-        assert distance == pytest.approx(np.hypot(r, z + 5.0))
-    assert tables.line_outs([run], "plastic_strain").heads[-1] == "Plastic Strain"
+    assert [*table] == ["run", "t [us]", "distance [mm]", "r [mm]", "z [mm]", "Density [g/cm^3]"]
+    np.testing.assert_allclose(table["distance [mm]"], np.hypot(table["r [mm]"], table["z [mm]"] + 5.0))
+    assert [*tables.line_outs([run], "plastic_strain")][-1] == "Plastic Strain"
 
 
 def test_a_history_has_the_numbers_of_the_picture(run, tmp_path):
@@ -75,11 +74,10 @@ def test_a_hole_has_the_numbers_of_the_picture(run, monkeypatch):
     holes = {"plate": (np.array([0.0, 1e-3, 3e-3]), np.array([5e-3, 4e-3, 0.0])), "whole": (np.zeros(0), np.zeros(0))}
     monkeypatch.setattr(Results, "craters", holes)
     table = tables.craters([run])
-    assert [row[1:] for row in table.rows] == [("plate", 0.0, 5.0), ("plate", 1.0, 4.0), ("plate", 3.0, 0.0)]
-    assert table.heads == ["run", "target", "depth below the original surface [mm]", "radius of the hole [mm]"]
+    assert table.iloc[:, 1:].to_numpy().tolist() == [["plate", 0.0, 5.0], ["plate", 1.0, 4.0], ["plate", 3.0, 0.0]]
+    assert [*table] == ["run", "target", "depth below the original surface [mm]", "radius of the hole [mm]"]
     (curve, *_) = figures.craters([run]).axes[0].lines
-    upper = curve.get_xydata()[: len(table.rows)]
-    np.testing.assert_allclose([row[2:] for row in table.rows], upper)
+    np.testing.assert_allclose(table.iloc[:, 2:], curve.get_xydata()[: len(table)])
 
 
 def test_requests_without_a_table_are_refused(run, tmp_path, capsys):

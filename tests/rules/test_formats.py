@@ -72,7 +72,7 @@ READ = {
                       "study.records.record._read_deck: verified_text",
                       "study.records.study_directory.Case.deck: tomllib.loads",
                       "study.records.study_directory._text: verified_text", "study.run.case._can_continue: verified_text",
-                      "study.records.keeping._of_directory: read_text", "files.checksums.verified_text: verified"},
+                      "files.checksums.verified_text: verified"},
     "summary": {"files.whole.read_json: json.loads", "files.whole.read_json: verified_text"},
     "series": {"output.vtk.read_series: ElementTree.fromstring", "output.vtk.read_series: verified"},
     "dump": {"output.vtk._read: SetFileName", "output.foreign.check_vtk: open", "output.foreign._check_blocks: open"},

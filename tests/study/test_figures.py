@@ -117,7 +117,7 @@ def test_unfinished_runs_are_open_and_bounds_stand_in_a_triangle(tmp_path):
     assert CUT in traces["unfinished"].text[0]
     assert "open: unfinished, as far as it went" in traces
     assert list(next(trace for trace in traces.values() if trace.meta == "bound").x) == [1296]
-    assert [row["depth_error_m"] is None for row in collected.rows] == [False, True, False]
+    assert [error is None for error in collected.table["depth_error_m"]] == [False, True, False]
 
 
 def test_words_stand_below_in_the_order_of_the_study(contents, panel):

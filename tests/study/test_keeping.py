@@ -243,7 +243,7 @@ def test_a_table_says_that_it_mixes_versions():
 
 
 def test_a_label_that_a_spreadsheet_would_compute(tmp_path):
-    assert [keeping._safe(text) for text in ("=1+1", "-180 m/s", "-1.5", "a")] == ["'=1+1", "'-180 m/s", "-1.5", "a"]
+    assert [keeping.safe(text) for text in ("=1+1", "-180 m/s", "-1.5", "a")] == ["'=1+1", "'-180 m/s", "-1.5", "a"]
 
 
 @pytest.mark.thorough

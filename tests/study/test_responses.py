@@ -264,10 +264,10 @@ def test_measured_residual_velocities_are_drawn_with_those_of_the_runs(tmp_path)
         through = {"rod_residual_velocity_m_s": left, "exit_time_s": 1e-5, "stop_reason": "perforation of plate"}
         fake.write_run(runs / f"{velocity}", velocity, 0.003, text=fake.resolved(SPHERE, *shot), **(through if left else {}))
     contents = collect(study_directory.load(runs))
-    rows = {row["velocity_m_s"]: (row["experiment_residual_m_s"], row["residual_error_m_s"]) for row in contents.rows}
+    rows = {run.velocity_m_s: (run.experiment_residual_m_s, run.residual_error_m_s) for run in contents.table.itertuples()}
     assert rows == {600: (470.0, 30.0), 900: (835.0, -15.0), 400: (0.0, 0.0), 700: (None, None)}
     choice = chosen(contents)
-    columns = table.columns_of_results(contents.study, contents.rows, choice)
+    columns = table.columns_of_results(contents.study, contents.table, choice)
     heads = [column.head for column in columns]
     assert heads[heads.index("Residual velocity [m/s]") :][1:3] == ["Experiment [m/s]", "Error [m/s]"]
     chart = next(each for each in panels.draw(contents, choice) if each.heading.startswith("Residual"))

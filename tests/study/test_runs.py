@@ -73,8 +73,7 @@ def test_every_way_to_a_number_gives_the_same(study):
     kept = hydro2d.runs(study / "kept.csv")
     opened = hydro2d.open_study(out)
     by_study, samples = opened.table(), [opened.samples({"thickness": each}) for each in ("3 mm", "30 mm")]
-    rows = {name: row for each in samples for row, name in enumerate(each._names)}
-    of = {name: each for each in samples for name in each._names}
+    of = {name: each for each in samples for name in each.table.index}
     assert call(["report", str(out)]) == 0
     with (out / "report" / "cases.csv").open() as file:
         report = {row["case"]: row for row in csv.DictReader(file)}
@@ -91,13 +90,14 @@ def test_every_way_to_a_number_gives_the_same(study):
             if key in by_study:
                 assert same(by_study.loc[name, key], outcome[key]), where
                 assert same(report[name][key], outcome[key]), where
-            column = of[name].columns.get(key)
-            if column is not None:
-                value = {"yes": True, "no": False}.get(str(column[rows[name]]), column[rows[name]])
-                assert same(value, outcome[key]), where
+            if key in of[name].table:
+                value = of[name].table.loc[name, key]
+                assert same({"yes": True, "no": False}.get(str(value), value), outcome[key]), where
         assert same(by_study.loc[name, "rod_residual_velocity_m_s"], outcome["residual_velocity_m_s"])
         assert same(by_study.loc[name, "rod_length_ratio"], outcome["length_ratio"])
         assert same(one.loc[(name, 0), "crater.mean_diameter_m"], summary["crater"]["mean_diameter_m"])
+    for name in ("thickness", "row", "body.rod.length [mm]", "cells_across"):
+        assert one[name].tolist() == kept[name].tolist(), name
     assert {bool(summary["outcome"]["perforated"]) for summary in summaries.values()} == {True, False}
     assert [*one.columns[-len(keeping.ORIGIN) :]] == [*kept.columns[-len(keeping.ORIGIN) :]]
     assert set(one.columns) - set(kept.columns) == {"derived.L/L0"}  # which the study does not ask for
@@ -107,7 +107,7 @@ def test_every_way_to_a_number_gives_the_same(study):
 @pytest.mark.thorough
 def test_a_plate_that_is_perforated_has_its_thickness_as_depth_everywhere(study, capsys):
     samples = hydro2d.open_study(study / "out").samples({"thickness": "3 mm"})
-    assert set(samples.columns["depth_m"]) == {0.003}
+    assert set(samples.table["depth_m"]) == {0.003}
     assert samples.fractions("depth_m > 0.005")["no"].share.fraction == 1.0
     call(["sweep", str(study / "out"), "--status"])
     assert "0.30 cm" in capsys.readouterr().out
@@ -130,6 +130,18 @@ def test_the_table_has_units_and_missing_results(tmp_path):
     units = table.attrs["units"]
     assert (units["depth_m"], units["residual_velocity_m_s"], units["length_ratio"]) == ("m", "m/s", "1")
     assert "status" not in units
+
+
+def test_labels_are_numbers_wherever_they_come_from_unless_one_is_a_word(tmp_path):
+    fake.write_study(tmp_path / "study", {"friction": {"0.0": (), "0.1": ()}, "law": {"a": (), "2": ()}})
+    heads = ["friction", "law", "cells_across", "member", *keeping.RESULTS, *keeping.ORIGIN]
+    rows = [[friction, law, "5", "0", "done"] + [""] * (len(heads) - 5) for friction in ("0.0", "0.1") for law in ("a", "2")]
+    (tmp_path / "kept.csv").write_text("\n".join(map(",".join, [heads, *rows])) + "\n")
+    for place in ("study", "kept.csv"):
+        table = hydro2d.runs(tmp_path / place)
+        assert table["friction"].tolist() == [0.0, 0.0, 0.1, 0.1]
+        assert table["law"].tolist() == ["a", "2"] * 2
+        assert table.groupby("friction")["status"].count().tolist() == [2, 2]
 
 
 def test_the_set_up_of_a_run_is_that_of_its_deck():

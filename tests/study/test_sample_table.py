@@ -105,7 +105,7 @@ def test_stopped_and_continued_by_one_worker_and_by_several(whole, tmp_path):
 def test_failed_rows_are_counted(tmp_path):
     directory, _ = swept(tmp_path, failing)
     samples = hydro2d.open_study(directory).samples()
-    failed = int((samples.columns["status"] == "failed").sum())
+    failed = int((samples.table["status"] == "failed").sum())
     assert 0 < failed < 4
     eroding = samples.fractions("regime")["eroding"]
     assert eroding.share.trials == 14 - failed
@@ -171,6 +171,8 @@ def test_kept_rows_replace_runs(tmp_path):
     for row, kept in zip(table, rows(again), strict=True):
         assert float(kept["depth_m"]) == pytest.approx(float(row["depth_m"]), rel=1e-5)
         assert (kept["row"], kept["regime"], kept["status"]) == (row["row"], row["regime"], "done")
+    assert ",-" in (text_of_kept := (again / sample_table.FILE).read_text())
+    assert "'-" not in text_of_kept, "a number is no formula"
     assert hydro2d.open_study(again).samples().fractions("regime").keys() == {row["regime"] for row in table}
 
 
@@ -182,10 +184,10 @@ def test_words_that_begin_with_a_minus_come_back(tmp_path):
     assert "'+1100" in (tmp_path / "kept.csv").read_text()
     (kept,), whole = hydro2d.kept_samples(next(tmp_path.glob("*.toml"))), hydro2d.open_study(directory).samples()
     for samples in (kept, whole):
-        assert set(samples.columns["body.rod.velocity"]) == {"1000 m/s", "+1100 m/s"}
+        assert set(samples.table["body.rod.velocity"]) == {"1000 m/s", "+1100 m/s"}
         assert samples.cube(np.arange(1, 15)).shape == (14, 2)
-    assert {row["body.rod.velocity"] for row in hydro2d.kept_rows(directory)} == {"1000 m/s", "+1100 m/s"}
-    assert set(kept.columns["method"]) == {hydro2d.kept_rows(directory)[0]["method"]}
+    assert set(hydro2d.runs(directory)["body.rod.velocity"]) == {"1000 m/s", "+1100 m/s"}
+    assert set(kept.table["method"]) == set(hydro2d.runs(directory)["method"])
 
 
 def test_rows_without_a_new_column_are_made_again(tmp_path):
@@ -213,9 +215,9 @@ def test_kept_inputs_are_numbers_even_below_zero(tmp_path):
 
 def test_values_of_inputs_for_the_surrogate(whole):
     samples = hydro2d.open_study(whole).samples()
-    velocity, factor = (samples.columns[name] for name in samples.heads)
+    velocity, factor = (samples.table[name] for name in samples.heads)
     cube = samples.points({"body.rod.strength_factor": factor, samples.heads[0]: velocity})
-    assert cube == pytest.approx(samples.cube(samples.columns["row"]))
+    assert cube == pytest.approx(samples.cube(samples.table["row"]))
     with pytest.raises(StudyError, match=r'unknown input "velocity"'):
         samples.points({"velocity": [1100.0]})
     with pytest.raises(StudyError, match=r"there are no values of body\.rod\.strength_factor"):
@@ -229,10 +231,10 @@ def test_samples_from_kept_rows(tmp_path):
     (samples,) = hydro2d.kept_samples(study)
     whole = hydro2d.open_study(directory).samples()
     assert len(samples) == whole.ended.sum() < len(whole), "failed runs are not kept"
-    assert samples.labels == {"cells_across": hydro2d.kept_rows(tmp_path / "kept.csv")[0]["cells_across"]}
+    assert samples.labels == {"cells_across": f"{hydro2d.runs(tmp_path / 'kept.csv')['cells_across'].iloc[0]:g}"}
     there = whole.ended
     for name in ("row", *whole.heads):
-        assert samples.columns[name].tolist() == whole.columns[name][there].tolist()
+        assert samples.table[name].tolist() == whole.table[name][there].tolist()
     assert samples.values("depth_m") == pytest.approx(whole.values("depth_m")[there], rel=1e-5), "kept with six digits"
     assert samples.values("regime = eroding").tolist() == whole.values("regime = eroding")[there].tolist()
     (tmp_path / "kept.csv").write_text((tmp_path / "kept.csv").read_text().replace("strength_factor", "factor"))

@@ -5,6 +5,7 @@ import csv
 import io
 import json
 
+import pandas
 import pytest
 
 from hydro2d.measure.summary import Summary
@@ -56,7 +57,7 @@ def test_a_report_of_any_summary(place, path):
             choice = responses.choose(study, contents.records)
             drawn = list(panels.draw(contents, choice)) if wrong in DRAWN else []  # they take a fifth of a second each
             assert "<html" in page(contents, choice, drawn, [])
-            assert table.to_csv(contents.rows).count("\n") == 2
+            assert table.to_csv(contents.table).count("\n") == 2
             assert reading.Results(place)._repr_html_()
     finally:
         (place / "summary.json").write_text(text)
@@ -79,6 +80,6 @@ def test_a_sound_summary_stays_as_it_is():
 def test_no_word_becomes_a_formula():
     """A spreadsheet runs text that begins with one of these."""
     words = ["=cmd|' /C calc'!A0", "+1", "-1+1", "@SUM(A1)", "\t=1", "plain", None, -3.5]
-    text = table.to_csv([{"case": word} for word in words])
+    text = table.to_csv(pandas.DataFrame({"case": words}, dtype=object))
     cells = [row["case"] for row in csv.DictReader(io.StringIO(text))]
     assert cells == ["'=cmd|' /C calc'!A0", "'+1", "'-1+1", "'@SUM(A1)", "'\t=1", "plain", "", "-3.5"]

@@ -1,6 +1,7 @@
 """Surrogates and Sobol indices against functions whose indices are known; fractions against a known probability."""
 
 import numpy as np
+import pandas
 import pytest
 from scipy.stats import qmc
 
@@ -23,7 +24,7 @@ def sample(inputs, function, rows, seed):
     cube = qmc.Sobol(len(inputs), seed=np.random.default_rng(seed)).random(rows)
     values = {each.head: np.array(each.values(points)) for each, points in zip(inputs, cube.T, strict=True)}
     columns = {"row": np.arange(1.0, rows + 1), **values, "status": np.full(rows, "done"), "y": function(*values.values())}
-    return Samples("a function", inputs, columns)
+    return Samples("a function", inputs, pandas.DataFrame(columns))
 
 
 def ishigami(x1, x2, x3):
@@ -131,9 +132,8 @@ def test_refusals():
 def test_runs_that_are_cut_off_or_not_trusted_are_counted():
     samples = sample(ANGLES[:1], lambda x1: x1, 8, 0)
     assert samples.doubts == []
-    samples.columns |= {"stop_reason": np.array(["end time"] * 3 + ["speed of rod below 5 m/s"] * 5), "depth_m": np.ones(8),
-                        "final": np.array(["True"] + ["False"] * 2 + ["True"] * 5),
-                        "trustworthy": np.array(["True"] * 6 + ["False"] * 2)}
+    samples.table = samples.table.assign(depth_m=1.0, final=["True"] + ["False"] * 2 + ["True"] * 5,
+                                         trustworthy=["True"] * 6 + ["False"] * 2)
     poor, cut = samples.doubts
     assert poor.startswith("2 of 8 runs are not trustworthy")
     assert cut.startswith("2 of 8 runs ended at their end time or number of cycles")
@@ -209,12 +209,12 @@ def test_a_known_probability_is_in_its_interval():
     for seed in range(10):
         generator = np.random.default_rng(seed)
         strength = generator.random(200)
-        columns = {"row": np.arange(1.0, 201), "x": strength, "status": np.full(200, "done"),
-                   "perforated": np.where(strength < 0.1, "yes", "no")}
-        share = Samples("", (), columns).fractions("perforated")["yes"].share
+        table = pandas.DataFrame({"row": np.arange(1.0, 201), "x": strength, "status": "done",
+                                  "perforated": np.where(strength < 0.1, "yes", "no")})
+        share = Samples("", (), table).fractions("perforated")["yes"].share
         hits += share.low <= 0.1 <= share.high
-        columns["status"] = np.where(generator.random(200) < 0.1, "failed", "done")
-        among = Samples("", (), columns).fractions("perforated")["yes"]
+        table["status"] = np.where(generator.random(200) < 0.1, "failed", "done")
+        among = Samples("", (), table).fractions("perforated")["yes"]
         bounds += among.low <= np.mean(strength < 0.1) <= among.high
     assert hits >= 9
     assert bounds == 10

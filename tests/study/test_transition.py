@@ -328,7 +328,7 @@ def test_a_rod_that_left_the_mesh_has_no_regime(tmp_path):
     assert "left the mesh; stop.perforation = true" in runs[1500]["reason"]
 
 
-def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
+def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path, capsys):
     def out(velocity, deck):
         gone = {"depth": 0.3, "rod_mass_kg": 0.0, "regime": "left the mesh", "rod_residual_velocity_m_s": 700.0}
         return gone if velocity > 1400 else usual(velocity, deck)
@@ -338,6 +338,8 @@ def test_a_rod_that_left_a_short_mesh_has_no_regime_either(tmp_path):
     assert brackets(result)[0]["to eroding"] == (1300, 1350)
     runs = {run["velocity_m_s"]: run for run in result["combinations"][0]["runs"]}
     assert (runs[1500]["regime"], runs[1500]["reason"]) == (None, "the projectile left the mesh before it came to rest")
+    assert "1500 m/s  done" in (said := capsys.readouterr().out)
+    assert "at least 30.00 cm" in said
 
 
 def test_a_run_that_was_cut_short_is_reported(tmp_path, capsys):

@@ -224,16 +224,15 @@ def of_samples(folder):
 
 
 def of_kept(folder):
-    rows = hydro2d.kept_rows(folder / "kept.csv")
-    by_run = sorted((row["friction"], row["row"], row[VELOCITY], row[MATERIAL], row["status"], row["regime"],
-                     row["trustworthy"], f"{float(row['depth_m'] or -1):.6g}") for row in rows)
+    runs = hydro2d.runs(folder / "kept.csv").sort_values(["friction", "row"])
+    by_run = runs[["friction", "row", VELOCITY, MATERIAL, "status", "regime", "trustworthy", "depth_m"]].to_csv(index=False)
     return [by_run, *sorted((plain(each) for each in hydro2d.kept_samples(folder / "search.toml")), key=str)]
 
 
 def plain(samples):
     names = ("row", VELOCITY, MATERIAL, "body.rod.strength_factor", "status", "regime", "perforated", "trustworthy")
     depths = [f"{depth:.6g}" for depth in samples.values("depth_m")]
-    return samples.labels, [samples.columns[name].tolist() for name in names if name in samples.columns], depths
+    return samples.labels, [samples.table[name].astype(str).tolist() for name in names if name in samples.table], depths
 
 
 def write(file, edit):
@@ -289,12 +288,12 @@ def test_samples_that_no_sweep_wrote_are_refused(name, made, folder):
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", REFUSED | REFUSED_KEPT)
 def test_kept_rows_that_no_sweep_wrote_are_refused(name, made, folder):
-    """Columns of the sample mean nothing to `kept_rows`, which gives their text. A sweep knows inputs from the set-up."""
+    """Columns of the sample mean nothing to `runs`, which knows no study. A sweep knows inputs from the set-up."""
     edit, said = (REFUSED | REFUSED_KEPT)[name]
     file = folder / "kept.csv"
     write(file, edit)
     before = file.read_bytes()
-    readers = [lambda: hydro2d.kept_samples(folder / "search.toml"), lambda: hydro2d.kept_rows(file)]
+    readers = [lambda: hydro2d.kept_samples(folder / "search.toml"), lambda: hydro2d.runs(file)]
     refused(folder, file, said, () if name in CORRECTED else ("check", "sweep"), readers[: 1 if name in OF_THE_SAMPLE else 2])
     assert file.read_bytes() == before, "the file is as it was"
     if name in CORRECTED:
@@ -347,7 +346,7 @@ def test_two_depths_of_one_set_up_are_refused(folder):
     write(folder / "kept.csv", lambda text: text + entry("friction", "0.3")(at(LINE, lambda line: [deeper(text)])(text))
           .splitlines()[LINE - 1])
     refused(folder, folder / "kept.csv", "for the same set-up; remove the line that is wrong", ("check", "sweep"),
-            [lambda: hydro2d.kept_rows(folder / "kept.csv")])
+            [lambda: hydro2d.runs(folder / "kept.csv")])
 
 
 def places(value, place=()):

@@ -30,9 +30,9 @@ def pair(record: Record, measurement: Measurement | None) -> tuple[str, str] | N
     if record.measured_residual is not None:
         return PERFORATED if record.perforated else STOPPED, PERFORATED if record.measured_residual > 0.0 else STOPPED
     limit = _limit(record)
-    if limit is None or measurement is None or record.depth is None:
+    if limit is None or measurement is None or record.outcome.depth_m is None:
         return None
-    run, shot = (DEEPER if depth > limit else NOT_DEEPER for depth in (record.depth, measurement.depth))
+    run, shot = (DEEPER if depth > limit else NOT_DEEPER for depth in (record.outcome.depth_m, measurement.depth))
     return run, shot
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from hydro2d.study.ensemble.ensembles import Ensemble, grouped, rows
+from hydro2d.study.ensemble.ensembles import Ensemble, cases, grouped
 from hydro2d.study.records import experiments, record, table
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record, Setup
@@ -13,12 +14,15 @@ from hydro2d.study.records.responses import Choice
 from hydro2d.study.records.study_directory import Study
 from hydro2d.study.search import regimes
 
+if TYPE_CHECKING:
+    import pandas
+
 
 @dataclass
 class Contents:
     """The cases of a study, as read.
 
-    groups, measurements : by setup;  belonging : the measurement of each case by its name;  rows : of the table, in SI
+    groups, measurements : by setup;  belonging : the measurement of each case by its name;  table : a row for each case, in SI
     notes : on data that could not be used
     """
 
@@ -27,7 +31,7 @@ class Contents:
     groups: dict[Setup, list[Record]]
     measurements: dict[Setup, list[Measurement]]
     belonging: dict[str, Measurement]
-    rows: list[table.Row]
+    table: pandas.DataFrame
     notes: list[str]
 
     @property
@@ -40,9 +44,9 @@ class Contents:
         """The results of a search, one for each combination of the axes; empty for any other study."""
         return regimes.of_study(self.study, self.records) if self.study.search else []
 
-    def rows_of_ensembles(self, choice: Choice | None = None) -> list[table.Row]:
+    def table_of_ensembles(self, choice: Choice | None = None) -> pandas.DataFrame:
         """One row for each ensemble; ``choice``: drawn responses, whose columns are added."""
-        return rows(self.study, self.ensembles, self.rows, choice)
+        return cases(self.study, self.ensembles, self.table, choice)
 
 
 def collect(study: Study, trust: bool = False) -> Contents:
@@ -67,7 +71,7 @@ def collect(study: Study, trust: bool = False) -> Contents:
             elif _key(each) in unplaced and not any(experiments.same_depth(each, entry) for entry in known[setup]):
                 lost.add(_key(each))
     notes += [_said(key, unplaced[key]) for key in unplaced if key in lost]
-    return Contents(study, records, groups, known, belonging, table.rows(study, records, belonging), notes)
+    return Contents(study, records, groups, known, belonging, table.cases(study, records, belonging), notes)
 
 
 def _key(each: Record) -> tuple:

@@ -21,8 +21,7 @@ from hydro2d.study.plan.cases import plan_of
 from hydro2d.study.plan.definition import Overrides, StudyError
 from hydro2d.study.plan.planned import Plan
 from hydro2d.study.records import responses
-from hydro2d.study.records.responses import DEPTH, Response, raw
-from hydro2d.study.records.table import LENGTH_RATIO
+from hydro2d.study.records.responses import DEPTH, LENGTH_RATIO, Response, raw
 from hydro2d.study.run.monitor import lines
 
 FILE, AXIS = "convergence.json", "cells"

@@ -6,15 +6,20 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
+from hydro2d.measure.outcome import AT_LEAST
 from hydro2d.study.ensemble import agreement
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record
-from hydro2d.study.records.responses import DEPTH, Choice, Response, raw, response
+from hydro2d.study.records.responses import DEPTH, LENGTH_RATIO, Choice, Response, raw, response
 from hydro2d.study.records.study_directory import DONE, Study
-from hydro2d.study.records.table import LENGTH_RATIO, RESULTS, Row
+from hydro2d.study.records.table import SPREAD, in_files
 from hydro2d.study.run.monitor import lines
+
+if TYPE_CHECKING:
+    import pandas
 
 FILE = "ensembles.csv"
 #: columns of a run that are not those of its ensemble
@@ -49,7 +54,8 @@ class Ensemble:
     @cached_property
     def bound(self) -> float | None:
         """The smallest depth that is only a lower bound, because a member perforated or left the mesh, m."""
-        return min((each.depth for each in self.ended if each.at_least and each.depth is not None), default=None)
+        depths = (each.outcome.depth_m for each in self.ended if each.outcome.depth_is == AT_LEAST)
+        return min((depth for depth in depths if depth is not None), default=None)
 
     @cached_property
     def regimes(self) -> dict[str, Share]:
@@ -78,33 +84,36 @@ def score(ensembles: Sequence[Ensemble]) -> agreement.Score | None:
     return agreement.score([each.outcome[1] for each in ensembles if each.outcome])
 
 
-def rows(study: Study, ensembles: Sequence[Ensemble], runs: Sequence[Row], choice: Choice | None = None) -> list[Row]:
+def cases(study: Study, ensembles: Sequence[Ensemble], runs: pandas.DataFrame,
+          choice: Choice | None = None) -> pandas.DataFrame:
     """One row for each ensemble: the values that its members share, then medians, ends of the spreads, shares of the regimes.
 
-    runs : the rows of the runs;  choice : drawn responses, whose columns are added
+    runs : the table of the runs;  choice : drawn responses, whose columns are added
     """
-    of_case = {row["case"]: row for row in runs}
+    import pandas
+
     left_out = {*OF_RUNS, *(name for each in study.ensembles for name in each.by)}
-    kept = [name for name in (runs[0] if runs else ()) if not (name in left_out or name.startswith("sink_"))]
-    names = [*RESULTS, *(y.name for y in choice.y if y.name not in (DEPTH, *RESULTS))] if choice else RESULTS
+    kept = [name for name in runs if not (name in left_out or name.startswith("sink_"))]
+    shared = runs.loc[[each.members[0].case.name for each in ensembles], kept]
+    names = [*SPREAD, *(y.name for y in choice.y if y.name != DEPTH and y.name not in in_files(SPREAD))] if choice else SPREAD
     regimes = sorted({regime for each in ensembles for regime in each.regimes})
-    return [_row(each, {name: of_case[each.members[0].case.name][name] for name in kept}, names, regimes) for each in ensembles]
+    own = pandas.DataFrame([_row(each, names, regimes) for each in ensembles], shared.index, dtype=object)
+    return shared.assign(**own)
 
 
-def _row(each: Ensemble, shared: Row, names: Sequence[str], regimes: Sequence[str]) -> Row:
+def _row(each: Ensemble, names: Sequence[str], regimes: Sequence[str]) -> dict[str, object]:
     statuses = Counter(record.case.status for record in each.members)
     done = f"{statuses.pop(DONE, 0)} of {len(each.members)} done"
-    row = shared | {
+    row: dict[str, object] = {
         "case": each.name, "status": ", ".join([done, *(f"{number} {status}" for status, number in statuses.items())]),
         "message": "; ".join(dict.fromkeys(record.case.message for record in each.members if record.case.message)),
         "members": len(each.members), "ended": len(each.ended), "cut": each.cut, "regime": next(iter(each.regimes), None),
     }
     for name in names:
-        column, values = ("depth_m" if name == DEPTH else name), each.spread(name)
-        stem, unit = _stem(column)
-        row |= zip((column, f"{stem}_low{unit}", f"{stem}_high{unit}"), values[:3] if values else (None,) * 3, strict=True)
-    if row["depth_m"] is not None:
-        row["depth_is"] = "at least" if each.bound is not None and row["depth_m"] >= each.bound else "computed"
+        (stem, unit), values = _stem(name), each.spread(name)
+        row |= zip((name, f"{stem}_low{unit}", f"{stem}_high{unit}"), values[:3] if values else (None,) * 3, strict=True)
+    depth = each.spread(DEPTH)
+    row["depth_is"] = depth and ("at least" if each.bound is not None and depth.median >= each.bound else "computed")
     for regime in regimes:
         none = wilson(0, len(each.ended)) if each.ended else None
         row |= _share(regime.replace(" ", "_"), each.regimes.get(regime, none))
@@ -118,7 +127,7 @@ def _stem(column: str) -> tuple[str, str]:
     return column.removesuffix(unit), unit
 
 
-def _share(name: str, share: Share | None) -> Row:
+def _share(name: str, share: Share | None) -> dict[str, object]:
     return {f"{name}_fraction": share and share.fraction, f"{name}_fraction_low": share and share.low,
             f"{name}_fraction_high": share and share.high}
 

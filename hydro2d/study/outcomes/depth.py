@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hydro2d.measure.outcome import AT_LEAST
 from hydro2d.study.outcomes.base import Outcome, Verdict
 
 SHALLOW, DEEP = "shallower", "deeper"
@@ -19,11 +20,12 @@ class Deeper(Outcome):
 
     @classmethod
     def judge(cls, record, depth):
-        if record.depth is None:
+        reached = record.outcome.depth_m
+        if reached is None:
             return Verdict(None, "it has no depth")
-        if record.depth < depth and record.at_least:
+        if reached < depth and record.outcome.depth_is == AT_LEAST:
             return Verdict(None, f"the projectile left the target or the mesh before a depth of {100 * depth:g} cm")
-        return Verdict(DEEP if record.depth >= depth else SHALLOW)
+        return Verdict(DEEP if reached >= depth else SHALLOW)
 
 
 class Shallower(Deeper):

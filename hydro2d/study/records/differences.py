@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from hydro2d.measure.result import is_number
+
 #: keys that are particular to each run
 OWN = ("name", "output.directory")
 #: sections whose tables have names
@@ -24,6 +26,11 @@ def flatten(value, prefix: str = "") -> dict[str, object]:
         if not (prefix and key == "name"):
             flat.update(flatten(entry, f"{prefix}.{key}" if prefix else str(key)))
     return flat
+
+
+def numbers(table: Mapping) -> dict[str, float]:
+    """The finite numbers of nested tables by dotted key."""
+    return {name: value for name, value in flatten(table).items() if is_number(value)}
 
 
 def text(value, exact: bool = False) -> str:

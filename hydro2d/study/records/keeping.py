@@ -25,17 +25,14 @@ from hydro2d.deck.identity import LETTERS
 from hydro2d.files import csv_tables
 from hydro2d.files.csv_tables import Column, flag, like, number, one_of, whole
 from hydro2d.files.locks import locked
-from hydro2d.files.whole import read_text, write_text
+from hydro2d.files.whole import write_text
 from hydro2d.measure.outcome import AT_LEAST, AT_MOST, COMPUTED, CUT, EXACT, NONE, Outcome, rested
 from hydro2d.measure.regime import LEFT, REGIMES
-from hydro2d.measure.result import is_number
-from hydro2d.output.directory import DECK
 from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.plan.planned import Plan, Planned
-from hydro2d.study.records import study_directory
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.study_directory import DONE, UNPHYSICAL, Case
 
 #: statuses of runs that have a row
@@ -78,22 +75,6 @@ PATIENCE = 60.0
 Row = dict[str, str]
 
 
-class KeptRow(csv_tables.Row):
-    """A run of a study in a few numbers: a row of a file of kept rows, the text of each column by its name.
-
-    The columns are those of a file that a study keeps: the labels of the case on the axes, ``cells_across`` the projectile,
-    ``member`` of the ensemble, ``status``, the results in SI units, and ``setup``, ``method``, ``commit`` and ``date``; of a
-    sample also its inputs, after the labels, and the results that it names. The text of a result that the run does not have is
-    empty.
-    """
-
-    @property
-    def labels(self) -> dict[str, str]:
-        """The labels of the case by axis, the inputs of a sample, and ``cells_across``, without those that are empty."""
-        others = {MEMBER, *RESULTS, *ORIGIN}
-        return {name: text for name, text in self.items() if text and name not in others}
-
-
 @dataclass(frozen=True)
 class Wanted:
     """A case of a plan, with the entries that its row must have to be up to date.
@@ -123,10 +104,9 @@ class Wanted:
 
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
-        summary = case.summary
-        entries = {**results(summary), **origin(summary), SETUP: self.setup}
-        numbers = flatten(summary) if self.more else {}
-        entries |= {name: value if is_number(value := numbers.get(name)) else None for name in self.more if name not in entries}
+        entries = {**results(case.summary), **origin(case.summary), SETUP: self.setup}
+        known = numbers(case.summary) if self.more else {}
+        entries |= {name: known.get(name) for name in self.more if name not in entries}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 
@@ -162,7 +142,7 @@ def _text(value) -> str:
     return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
 
 
-def _safe(text: str) -> str:
+def safe(text: str) -> str:
     """A text of a row as a cell of a file; a number stays as it is, also below zero."""
     try:
         float(text)
@@ -171,21 +151,16 @@ def _safe(text: str) -> str:
     return text
 
 
-def kept_rows(path: str | Path) -> list[KeptRow]:
-    """The runs of a study that have ended, a row for each, from what the study keeps or from its directory.
-
-    path : a file that a study with ``keep`` has written, or the directory of a study, finished or not
-
-    Raises StudyError, also if there is no such file or directory, and DeckError.
-    """
-    path = Path(path)
-    return read(path) if path.is_file() else _of_directory(path)
+def labels(row: Row) -> Row:
+    """The labels of the case by axis, the inputs of a sample, and ``cells_across``, without those that are empty."""
+    others = {MEMBER, *RESULTS, *ORIGIN}
+    return {name: text for name, text in row.items() if text and name not in others}
 
 
-def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = None) -> list[KeptRow]:
+def read(path: Path, own: Sequence[Column] = (), axes: Sequence[str] | None = None) -> list[csv_tables.Row]:
     """The rows of a file, each run once; none if there is no such file.
 
-    own : further columns that the study has;  labels : names of its axes; None: all columns but those of every file
+    own : further columns that the study has;  axes : their names; None: all columns but those of every file
 
     Raises StudyError for a cell that no run can have, and for two rows of a run, or of a set-up, with different results.
     """
@@ -193,10 +168,10 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
         return []
     common = {column.name for column in COLUMNS}
     columns = (*COLUMNS, *(column for column in own if column.name not in common))
-    kept: dict[tuple, KeptRow] = {}
-    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=Column, of=KeptRow):
+    kept: dict[tuple, csv_tables.Row] = {}
+    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=Column):
         _renew(row)
-        run = tuple(row.labels.items() if labels is None else (row[name] for name in labels)), row[CELLS], row[MEMBER]
+        run = tuple(labels(row).items() if axes is None else (row[name] for name in axes)), row[CELLS], row[MEMBER]
         of_setup = (row[SETUP], row[OF_METHOD]) if row[SETUP] else run
         for same, what in ((run, "run"), (of_setup, "set-up")):
             other = kept.setdefault((what, *same), row)
@@ -207,7 +182,7 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
     return [row for (what, *_), row in kept.items() if what == "run"]
 
 
-def _renew(row: KeptRow) -> None:
+def _renew(row: Row) -> None:
     """Adds to a row of an earlier version what its shot came to.
 
     Such a row of a shot that perforates has the place where its nose was: its depth, the thickness of the target, is not known.
@@ -241,25 +216,12 @@ def differ(one: str, other: str) -> bool:
         return one != other
 
 
-def _of_directory(directory: Path) -> list[KeptRow]:
-    """The rows of the ended runs of a study directory. Raises StudyError, DeckError."""
-    study = study_directory.read(directory)
-    axes, sample, rows = tuple(axis.name for axis in study.axes), study.sample, []
-    for case in study.cases:
-        if case.status in ENDED:
-            text = read_text(case.directory / DECK, StudyError)
-            planned = Planned(case.name, case.values, case.base, list(case.overrides), text, "", case.of, case.member)
-            wanted = Wanted(planned, axes, _inputs(sample, planned), sample.results if sample else ())
-            rows.append(KeptRow(wanted.row(case)))
-    return rows
-
-
-def method_note(versions: Iterable[str]) -> str:
+def method_note(versions: Iterable[object]) -> str:
     """A sentence for a table of runs that are not all of the present version of the method; empty if all are.
 
-    versions : ``method`` of the kept row or of the summary of each run; empty if it is not known
+    versions : ``method`` of each run; empty or NaN if it is not known
     """
-    counts = Counter(version or "unknown" for version in versions)
+    counts = Counter(version if isinstance(version, str) and version else "unknown" for version in versions)
     others = {name: number for name, number in counts.items() if name != METHOD}
     if not others:
         return ""
@@ -361,7 +323,7 @@ class Keeper:
                              else self._corrected(other, row, "its run"))
         return found
 
-    def _corrected(self, row: KeptRow, right: Row, source: str) -> str:
+    def _corrected(self, row: csv_tables.Row, right: Row, source: str) -> str:
         """What is wrong in a row, in words; empty if only digits or the machine differ. ``source`` : of the right entries."""
         for name, text in right.items():
             if name not in (*OF_MACHINE, "commit", "date") and differ(row.get(name, ""), text):
@@ -387,7 +349,7 @@ class Keeper:
         heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN))
         table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")
         table.writeheader()
-        table.writerows({name: _safe(text) for name, text in row.items()} for row in self.rows)
+        table.writerows({name: safe(text) for name, text in row.items()} for row in self.rows)
         write_text(self.path, text.getvalue())
 
     def _place(self, row: Row) -> tuple:

@@ -18,14 +18,14 @@ from hydro2d.files import checksums
 from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
 from hydro2d.measure import outcome
-from hydro2d.measure.outcome import AT_LEAST, Outcome
+from hydro2d.measure.outcome import Outcome
 from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.regime import LEFT, REGIMES
 from hydro2d.measure.result import is_number
 from hydro2d.output import history, vtk
 from hydro2d.output.directory import DECK, HISTORY, check_own
 from hydro2d.study.plan.definition import StudyError
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.study_directory import DONE, Case
 
 #: columns of the history to draw: of a projectile, and of the first body in other decks; largest number of points of a line
@@ -175,13 +175,8 @@ class Record:
     def numbers(self) -> dict[str, float]:
         """Every number of the summary by dotted name, SI, or of the last row of the history without a summary; and ratios."""
         values = {self._as_in_summary(name): value for name, value in self.last.items()}
-        values |= flatten({key: value for key, value in self.case.summary.items() if key != "provenance"})
-        values = {name: value for name, value in values.items() if is_number(value)}
-        for what, of in (("length", "rod_length_m"), ("radius", "rod_max_radius_m")):
-            first = values.get(f"rod_initial_{what}_m")
-            if first and of in values:
-                values[f"rod_{what}_ratio"] = values[of] / first
-        return values
+        values |= {key: value for key, value in self.case.summary.items() if key != "provenance"}
+        return numbers(values | {f"rod_{name}": self.outcome[name] for name in ("length_ratio", "radius_ratio")})
 
     @property
     def derived(self) -> list[str]:
@@ -219,16 +214,6 @@ class Record:
     def left(self) -> bool:
         """Whether the rod left the mesh."""
         return self.value("regime") == LEFT
-
-    @property
-    def at_least(self) -> bool:
-        """Whether `depth` is a lower bound, because the rod perforated the target or left the mesh."""
-        return self.outcome.depth_is == AT_LEAST
-
-    @property
-    def depth(self) -> float | None:
-        """Penetration depth, m, see `Outcome.depth_m`."""
-        return self.outcome.depth_m
 
     @property
     def experience(self) -> list[str]:

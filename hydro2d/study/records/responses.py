@@ -18,8 +18,12 @@ from hydro2d.study.records.record import Record, is_number
 from hydro2d.study.records.study_directory import Axis, Study
 
 DEPTH, RESIDUAL, IMPACT = "penetration_depth_m", "rod_residual_velocity_m_s", "velocity"
+LENGTH_RATIO, RADIUS_RATIO = "rod_length_ratio", "rod_radius_ratio"
 #: responses of decks without a projectile, of their first body
 OF_BODY = ("velocity_m_s", "z_max_m")
+#: numbers of the outcome, by their names in figures and by their own
+OF_OUTCOME = {DEPTH: "depth_m", RESIDUAL: "residual_velocity_m_s", LENGTH_RATIO: "length_ratio", RADIUS_RATIO: "radius_ratio"}
+OF_OUTCOME |= {name: name for name in OF_OUTCOME.values()}
 #: the name of each case, if nothing else is varied
 CASE = "case"
 #: lengths of a study are depths, which are given in cm
@@ -27,7 +31,7 @@ LENGTH = ("cm", 1e2)
 TITLES = {
     DEPTH: "depth", RESIDUAL: "residual velocity", "rod_tail_velocity_m_s": "tail velocity",
     "rod_length_m": "projectile length",
-    "rod_length_ratio": "final / initial length", "rod_radius_ratio": "largest / initial radius",
+    LENGTH_RATIO: "final / initial length", RADIUS_RATIO: "largest / initial radius",
 }
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s].*?)?\s*$")
 _ENDING = re.compile(r"_(kg_m3|J_kg|m_s|N_s|kg|Pa|K|J|s|m2|m3|m)$")
@@ -107,10 +111,8 @@ def title(name: str) -> str:
 
 
 def raw(record: Record, name: str) -> float | None:
-    """A number of a run in SI. Some depths are bounds (`Record.at_least`); a stopped projectile has zero residual velocity."""
-    if name in (DEPTH, RESIDUAL):
-        return record.outcome.depth_m if name == DEPTH else record.outcome.residual_velocity_m_s
-    number = record.numbers.get(name)
+    """A number of a run in SI. Some depths are bounds (`Outcome.depth_is`); a stopped projectile has zero residual velocity."""
+    number = record.outcome[OF_OUTCOME[name]] if name in OF_OUTCOME else record.numbers.get(name)
     return number if number is not None and math.isfinite(number) else None
 
 

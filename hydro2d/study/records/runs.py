@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from hydro2d.deck import deck as decks
 from hydro2d.files.csv_tables import flag, number, whole
-from hydro2d.measure.result import is_number, unit
+from hydro2d.measure.result import unit
 from hydro2d.output.directory import STUDY
 from hydro2d.study.plan import sampling
 from hydro2d.study.plan.planned import short
 from hydro2d.study.records import keeping, study_directory
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS, SETUP
 from hydro2d.study.records.study_directory import Case, Study
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 #: how the text of a kept row becomes a value, by the check of its column; that of any other column is a word
 VALUES = {number: float, whole: int, flag: lambda text: text == "True"}
+CHECKS = {column.name: column.check for column in keeping.COLUMNS}
 
 Row = dict[str, object]
 
@@ -32,9 +33,10 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
     places : run directories, directories of studies, folders of run directories, and files of kept rows
     results : further numbers of summary.json by their dotted names, such as "crater.mean_diameter_m"
 
-    The columns are the labels on the axes, the inputs of a sample, ``cells_across``, the results of a kept row (`KeptRow`),
-    what the deck derives, ``results``, and ``setup``, ``method``, ``commit`` and ``date``. A run that has not ended has a
-    status only. A result that a run does not have is NaN, or <NA> where it is yes or no. ``attrs["units"]`` has the unit of
+    The columns are the labels on the axes and the inputs of a sample, which are numbers where no run has a word,
+    ``cells_across``, the results of a kept row, what the deck derives, ``results``, and ``setup``, ``method``, ``commit`` and
+    ``date``. A run that has not ended has a status only. A result that a run does not have is NaN, or <NA> where it is yes or
+    no. ``attrs["units"]`` has the unit of
     every column that is a quantity. Numbers of a file of kept rows have six digits; of ``results`` it has those that its study
     asks for.
 
@@ -46,18 +48,27 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
     last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, *ORIGIN)
     first = dict.fromkeys(name for row in rows for name in row if name not in last)
     table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
-    checks = {column.name: column.check for column in keeping.COLUMNS}
-    quantities = [name for name in dict.fromkeys((CELLS, *last)) if checks.get(name, number) is number and name in table]
-    flags = [name for name in table if checks.get(name) is flag]
+    quantities = [name for name in dict.fromkeys((CELLS, *last)) if CHECKS.get(name, number) is number and name in table]
+    flags = [name for name in table if CHECKS.get(name) is flag]
     table = table.astype({**dict.fromkeys(quantities, float), **dict.fromkeys(flags, "boolean")})
+    for name in (name for name in first if name in table and name not in CHECKS):
+        table[name] = _numbers(table[name])
     table.attrs["units"] = {name: unit(name) for name in quantities}
     return table
 
 
+def _numbers(column: pandas.Series) -> pandas.Series:
+    """A column of labels, inputs or further results as numbers, if it has no words."""
+    try:
+        return column.map(lambda value: float(number(str(value))), na_action="ignore").astype(float)
+    except ValueError:
+        return column
+
+
 def _kept(file: Path) -> list[Row]:
     """The runs of a file of kept rows."""
-    checks = {column.name: column.check for column in keeping.COLUMNS}
-    return [{"case": _case(row.labels), **_typed(row, checks)} for row in keeping.read(file)]
+    return [{"case": _case(keeping.labels(row)), **{name: VALUES.get(CHECKS.get(name), str)(text) if text else None
+                                                   for name, text in row.items()}} for row in keeping.read(file)]
 
 
 def _case(labels: Mapping[str, str]) -> str:
@@ -65,19 +76,6 @@ def _case(labels: Mapping[str, str]) -> str:
     names = [name for name in labels if name != CELLS]
     axes = names[: names.index(sampling.AXIS) + 1] if sampling.AXIS in names else names
     return "_".join(sampling.NAME.format(labels[name]) if name == sampling.AXIS else short(labels[name]) for name in axes)
-
-
-def _typed(row: Mapping[str, str], checks: Mapping[str, object]) -> Row:
-    """The entries of a kept row as values; None for an empty one. Columns of the study's own are numbers if they can be."""
-    return {name: None if not text else VALUES[checks[name]](text) if checks.get(name) in VALUES else
-            text if name in checks else _number(text) for name, text in row.items()}
-
-
-def _number(text: str) -> float | str:
-    try:
-        return float(number(text))
-    except ValueError:
-        return text
 
 
 def _made(directory: Path, more: Sequence[str]) -> list[Row]:
@@ -96,7 +94,7 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     if summary.get(SETUP) is None and case.deck:  # of version 0.3
         deck = decks.of_tables(case.deck)
         summary = summary | {SETUP: deck.setup, CELLS: deck.cells_across}
-    numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
+    known = numbers(summary)
     return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
-            **{name: value for name, value in numbers.items() if name.startswith("derived.")},
-            **{name: numbers.get(name) for name in more}, **keeping.origin(summary)}
+            **{name: value for name, value in known.items() if name.startswith("derived.")},
+            **{name: known.get(name) for name in more}, **keeping.origin(summary)}

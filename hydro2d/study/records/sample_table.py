@@ -5,34 +5,36 @@ Nothing in it depends on the machine, the workers or an interruption: the same s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 from hydro2d.files import csv_tables
 from hydro2d.files.csv_tables import Column, number, one_of, whole
 from hydro2d.files.strange import own
 from hydro2d.files.whole import write_text
-from hydro2d.measure.result import is_number
-from hydro2d.study.plan import sampling
+from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.plan.sampling import Points
-from hydro2d.study.records import keeping, table
-from hydro2d.study.records.differences import flatten
-from hydro2d.study.records.keeping import MEMBER
+from hydro2d.study.records import keeping
+from hydro2d.study.records.differences import numbers
+from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.responses import OF_BODY
 from hydro2d.study.records.study_directory import STATUSES, Case, Study
+
+if TYPE_CHECKING:
+    import pandas
 
 FILE = "samples.csv"
 STATUS, PERFORATED, FINAL, REGIME = "status", "perforated", "final", "regime"
 #: results of a projectile; those of a kept row, without its cost
 RESULTS = tuple(name for name in keeping.RESULTS if name not in (STATUS, "wall_s"))
 YES, NO = "yes", "no"
+SAID = {"True": YES, "False": NO}
 #: what to do about a table that is not as a sweep wrote it
 REMEDY = "remove the file, and hydro2d sweep with --resume writes it anew"
-
-Row = dict[str, object]
 
 
 def write(directory: Path, sample: Points, axes: Sequence[str], cases: Sequence[Case], kept: Mapping[str, keeping.Row]) -> Path:
@@ -41,99 +43,107 @@ def write(directory: Path, sample: Points, axes: Sequence[str], cases: Sequence[
     axes : names of the axes of the study, without the rows;  kept : rows that the study keeps, for cases without a run, by name
     """
     file = own(Path(directory) / FILE)
-    results = {name: of_kept(row, sample.results) for name, row in kept.items()}
-    write_text(file, table.to_csv(rows(sample, axes, cases, results)))
+    table = _table(sample, axes, cases, {name: of_kept(row, sample.results) for name, row in kept.items()})
+    table.columns = [keeping.safe(name) for name in table]
+    write_text(file, table.map(keeping.safe).to_csv(index=False, lineterminator="\n"))
     return file
 
 
-def rows(sample: Points, axes: Sequence[str], cases: Sequence[Case], kept: Mapping[str, Row]) -> list[Row]:
-    """The rows of the table in the order of the cases; columns without an entry are left out, but for those of the inputs.
+def _table(sample: Points, axes: Sequence[str], cases: Sequence[Case], kept: Mapping[str, keeping.Row]) -> pandas.DataFrame:
+    """The table as text, by the names of the cases; columns without an entry are left out, but for those of the inputs.
 
     kept : state and results of cases without a run, by name
     """
-    results = [_results(case, kept.get(case.name), sample.results) for case in cases]
-    names = [name for name in dict.fromkeys(name for each in results for name in each)
-             if any(each.get(name) not in (None, "") for each in results) or name in sample.results]
-    members = any(case.ensemble for case in cases)
-    return [_run(case, axes, members) | sample.inputs_of(case.values[sampling.AXIS]) | {name: each.get(name) for name in names}
-            for case, each in zip(cases, results, strict=True)]
+    results = _text([of_run(case, sample.results) if case.status in keeping.ENDED else
+                     kept.get(case.name, {STATUS: case.status}) for case in cases], [case.name for case in cases])
+    results = results.loc[:, [name in sample.results or any(column) for name, column in results.items()]]
+    return _labels(sample, axes, cases).join(results)
 
 
-def _run(case: Case, axes: Sequence[str], members: bool) -> Row:
-    """Number of the row, labels of the axes, member."""
-    labels = {f"{name} (axis)" if name in (sampling.AXIS, STATUS, *RESULTS) else name: case.values[name] for name in axes}
-    return {sampling.AXIS: int(case.values[sampling.AXIS]), **labels, **({MEMBER: case.member} if members else {})}
+def _labels(sample: Points, axes: Sequence[str], cases: Sequence[Case]) -> pandas.DataFrame:
+    """Number of the row, labels of the axes, member and inputs of every case, as text."""
+    members, clash = any(case.ensemble for case in cases), (sampling.AXIS, STATUS, *RESULTS)
+    return _text([{sampling.AXIS: int(case.values[sampling.AXIS]),
+                   **{f"{name} (axis)" if name in clash else name: case.values[name] for name in axes},
+                   **({MEMBER: case.member} if members else {}), **sample.inputs_of(case.values[sampling.AXIS])}
+                  for case in cases], [case.name for case in cases])
 
 
-def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
-    """State and results of a case: those of its run, or the kept ones; only the state before its end."""
-    if case.status not in keeping.ENDED:
-        return kept or {STATUS: case.status}
+def _text(rows: Iterable[Mapping[str, object]], index: Sequence[str] | None = None) -> pandas.DataFrame:
+    """Rows of values as a table of text, empty for None, NaN and what a row does not have."""
+    import pandas
+
+    table = pandas.DataFrame(rows, index=index, dtype=object)
+    return table.where(table.notna(), "").map(lambda value: str(value).strip()).astype(object)
+
+
+def of_run(case: Case, more: Sequence[str] = ()) -> dict[str, object]:
+    """State and results of a run that has ended. ``more`` : names of further numbers of its summary."""
     summary = case.summary
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
-    row[PERFORATED] = None if row[PERFORATED] is None else YES if row[PERFORATED] else NO
-    numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
-    others = [name for name in numbers if name.startswith("derived.")]
+    row[PERFORATED] = SAID.get(str(row[PERFORATED]))
+    known = numbers(summary)
+    others = [name for name in known if name.startswith("derived.")]
     if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
     row = {STATUS: case.status} | row
-    return row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}
+    return row | {name: known.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}
 
 
-def of_kept(kept: keeping.Row, more: Sequence[str]) -> Row:
+def of_kept(kept: keeping.Row, more: Sequence[str]) -> keeping.Row:
     """State and results of a row that the study keeps. ``more`` : names of the results that the sample asks for."""
-    said = {"True": YES, "False": NO}.get(kept[PERFORATED], "")
-    return {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more)} | {PERFORATED: said}
+    return {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more)} | {PERFORATED: SAID.get(kept[PERFORATED], "")}
 
 
-class Table(NamedTuple):
-    """The table of a study as text by column, a cell for each case, and what is wrong in samples.csv by case, in words."""
+def values(rows: Iterable[Mapping[str, object]], inputs: Sequence[Distribution] = ()) -> pandas.DataFrame:
+    """Rows of such a table as numbers and words; NaN where a run has none."""
+    table = _text(rows)
+    words = {*sample_section.WORDS, OF_METHOD, *(each.head for each in inputs if each.kind == CHOICE)}
+    for name, column in table.items():
+        known = column.where(column != "")
+        try:
+            table[name] = known if name in words else known.astype(float)
+        except ValueError:  # labels of an axis
+            table[name] = known
+    return table
 
-    columns: dict[str, list[str]]
-    wrong: dict[str, str]
 
+def read(study: Study) -> tuple[pandas.DataFrame, dict[str, str]]:
+    """The table of a study as text, by the names of its cases, and what is wrong in samples.csv by case, in words.
 
-def read(study: Study) -> Table:
-    """The table of a study. The runs in its directory decide; the file has the results of the cases whose runs are not there.
-
-    Raises StudyError for a file that is not of this study, or that no sweep can have written.
+    The runs in its directory decide; the file has the results of the cases whose runs are not there. Raises StudyError for a
+    file that is not of this study, or that no sweep can have written.
     """
     file, sample, axes = own(study.directory / FILE), study.sample, [axis.name for axis in study.axes[:-1]]
     if not file.is_file():
         raise StudyError(f"{study.directory} has no {FILE}: hydro2d sweep writes it for a study with [sample]")
-    members = any(case.ensemble for case in study.cases)
-    runs = {_texts(_run(case, axes, members)): case for case in study.cases}
-    heads = list(_run(study.cases[0], axes, members))
+    labels = _labels(sample, axes, study.cases)
+    inputs = [each.head for each in sample.inputs]
+    heads = [name for name in labels if name not in inputs]
+    about = labels.to_dict("index")
+    runs = {tuple(row[head] for head in heads): name for name, row in about.items()}
     lines: dict[str, csv_tables.Row] = {}
     for line in csv_tables.read(file, _columns(sample, heads), StudyError, REMEDY, others=_other):
         case = runs.get(tuple(line[head] for head in heads))
-        if case is None or case.name in lines:
-            of = "of no run of this study" if case is None else f"of the same run as line {lines[case.name].line}"
+        if case is None or case in lines:
+            of = "of no run of this study" if case is None else f"of the same run as line {lines[case].line}"
             raise StudyError(f"{file}:{line.line}: is {of}; {REMEDY}")
-        for head, value in sample.inputs_of(case.values[sampling.AXIS]).items():
-            if keeping.differ(line[head], str(value)):
-                raise StudyError(f'{file}:{line.line}: column "{head}": is {line[head]}, and the run of this line has {value}; '
-                                 f"{REMEDY}")
-        lines[case.name] = line
+        for head in inputs:
+            if keeping.differ(line[head], about[case][head]):
+                raise StudyError(f'{file}:{line.line}: column "{head}": is {line[head]}, and the run of this line has '
+                                 f"{about[case][head]}; {REMEDY}")
+        lines[case] = line
     if len(lines) != len(study.cases):
         raise StudyError(f"{file} is not of this study: it has {len(lines)} rows, and there are {len(study.cases)} runs; "
                          f"{REMEDY}")
-    others = (*heads, *(each.head for each in sample.inputs))
-    ended = {name: {head: text for head, text in line.items() if head not in others}
+    ended = {name: {head: text for head, text in line.items() if head not in labels}
              for name, line in lines.items() if line[STATUS] in keeping.ENDED}
-    made = rows(sample, axes, study.cases, ended)
-    columns = dict(zip(made[0], map(list, zip(*map(_texts, made), strict=True)), strict=True))
-    wrong = {}
-    for place, case in enumerate(study.cases):
-        for head, text in ended.get(case.name, {}).items():
-            if head in columns and keeping.differ(text, right := columns[head][place]):
-                where = f'{file}:{lines[case.name].line}: column "{head}"'
-                wrong[case.name] = f'{where}: "{text}" is ignored: the run has "{right}"'
-    return Table(columns, wrong)
-
-
-def _texts(row: Row) -> tuple[str, ...]:
-    return tuple("" if value is None or value != value else str(value).strip() for value in row.values())
+    table = _table(sample, axes, study.cases, ended)
+    made = table.to_dict("index")
+    wrong = {name: f'{file}:{lines[name].line}: column "{head}": "{text}" is ignored: the run has "{made[name][head]}"'
+             for name, row in ended.items() for head, text in row.items()
+             if head in table and keeping.differ(text, made[name][head])}
+    return table, wrong
 
 
 def _columns(sample: Points, heads: Sequence[str]) -> list[Column]:

@@ -207,7 +207,8 @@ def _runs(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
 
 
 def _bounds(figure, series: Sequence[Series], x: Variable, y: Response) -> None:
-    through = [record for each in series if not each.repeated for record in each.records if record.at_least]
+    through = [record for each in series if not each.repeated for record in each.records
+               if record.outcome.depth_is == AT_LEAST]
     how = {"symbol": "triangle-up-open", "size": 2.2 * SIZE, "color": INK, "line": {"width": 1.5, "color": INK}}
     points(figure, through, x, y, how, "in a triangle: at least, perforated or left the mesh", mode="markers", meta="bound")
 

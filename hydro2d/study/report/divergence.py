@@ -19,7 +19,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -32,6 +32,9 @@ from hydro2d.output import vtk
 from hydro2d.results.reading import Results, ResultsError
 from hydro2d.study.records import differences
 from hydro2d.study.records.table import to_csv
+
+if TYPE_CHECKING:
+    import pandas
 
 #: columns of the history that are compared: of a projectile; without one, those of every body
 COLUMNS = ("penetration_depth_m", "rod_length_m", "rod_tail_velocity_m_s")
@@ -148,22 +151,20 @@ class Divergence:
             f"in {place.body} at z = {place.z * 1e3:.4g} mm, r = {place.r * 1e3:.4g} mm (cell {place.row}, {place.column})"
         )
 
-    def rows(self) -> list[dict]:
+    def table(self) -> pandas.DataFrame:
         """A row for each quantity and time, for a CSV."""
-        return [
-            {"quantity": curve.name, "kind": curve.kind, "time_s": float(time), "relative_difference": float(value),
-             **{f"cell_{name}": part for name, part in zip(Place._fields, _place(curve, n), strict=True)}}
-            for curve in self.curves for n, (time, value) in enumerate(zip(curve.time, curve.difference, strict=True))
-        ]
+        import pandas
 
-
-def _place(curve: Curve, number: int) -> tuple:
-    return curve.places[number] if curve.places else (None,) * len(Place._fields)
+        parts = [pandas.DataFrame({"quantity": each.name, "kind": each.kind, "time_s": each.time,
+                                   "relative_difference": each.difference})
+                 .join(pandas.DataFrame(each.places, columns=Place._fields).add_prefix("cell_").astype(object))
+                 for each in self.curves]
+        return pandas.concat(parts, ignore_index=True)
 
 
 def write_csv(divergence: Divergence, path: Path) -> None:
-    """Writes the rows. Raises OSError."""
-    write_text(path, to_csv(divergence.rows()))
+    """Writes the table. Raises OSError."""
+    write_text(path, to_csv(divergence.table()))
 
 
 def compare(one: Results, other: Results, fields: Sequence[str] = ()) -> Divergence:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hydro2d.base.formats import in_plotly
+from hydro2d.measure.outcome import AT_LEAST
 from hydro2d.study.ensemble.ensembles import Ensemble, grouped
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, Response, Variable
@@ -19,7 +20,7 @@ def _hover(record: Record, x: Variable, y: Response) -> str:
     there, value = x.value(record), y.value(record)
     lines = [f"<b>{in_plotly(record.case.name)}</b>",
              f"{in_plotly(x.title)}: {in_plotly(there) if isinstance(there, str) else f'{there:.5g}'}",
-             f"{in_plotly(y.title)}: {'≥ ' * (y.name == DEPTH and record.at_least)}{value:.5g}"]
+             f"{in_plotly(y.title)}: {'≥ ' * (y.name == DEPTH and record.outcome.depth_is == AT_LEAST)}{value:.5g}"]
     if record.value("regime"):
         lines.append(in_plotly(record.value("regime")))
     if record.unfinished:

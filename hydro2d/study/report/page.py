@@ -44,13 +44,14 @@ def page(contents: Contents, choice: Choice, charts: Sequence[Chart], pictures: 
     env.filters |= {"breakable": breakable, "whole_words": whole_words, "download": download}
     states = Counter(each.case.status for each in contents.records)
     return env.get_template("report.html.j2").render(
-        contents=contents, study=contents.study, table=TABLE, csv=to_csv(contents.rows), charts=charts, pictures=pictures,
+        contents=contents, study=contents.study, table=TABLE, csv=to_csv(contents.table), charts=charts, pictures=pictures,
+        cases_of=contents.table.to_dict("records"),
         films=films, fitted=fitted, views=views or {}, uncertain=uncertain, plotly=charts_script() if charts else "",
         made=f"hydro2d {__version__}, {datetime.now(UTC):%Y-%m-%d %H:%M} UTC",
         states=", ".join(f"{number} {status}" for status, number in states.items()),
         transitions=_transitions(contents) if contents.study.search else None,
         ensembles=_ensembles(contents, choice) if contents.study.ensembles else None,
-        results=columns_of_results(contents.study, contents.rows, choice), experience=_experience(contents),
+        results=columns_of_results(contents.study, contents.table, choice), experience=_experience(contents),
         audit=columns_of_audit(),
         decks=_decks(contents), origins=[_origin(each) for each in contents.records],
     )
@@ -117,7 +118,7 @@ def _ensembles(contents: Contents, choice: Choice) -> dict:
     return {
         "heads": [head[0].upper() + head[1:] for head in heads], "rows": rows, "score": scored and scored.words,
         "made": _made(groups),
-        "file": ensembles.FILE, "csv": to_csv(contents.rows_of_ensembles(choice)),
+        "file": ensembles.FILE, "csv": to_csv(contents.table_of_ensembles(choice)),
     }
 
 

@@ -87,7 +87,7 @@ def _shape_in_words(each: Record) -> str:
 
 def is_drawn(combination: Transitions) -> bool:
     """Whether a combination of a search has a picture: the search has a budget, and some shot has an outcome."""
-    return combination.estimate is not None and bool(combination.estimate.known)
+    return combination.estimate is not None and len(combination.estimate.known) > 0
 
 
 def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:

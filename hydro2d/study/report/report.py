@@ -65,7 +65,7 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     choice = responses.choose(study, contents.records, x, y, by)
     missing = [name for name in y if all(responses.raw(each, name) is None for each in contents.records)]
     contents.notes += [f"no run has {name}, so it is not drawn" for name in missing]
-    contents.rows = table.with_responses(contents.rows, contents.records, choice)
+    contents.table = table.with_responses(contents.table, contents.records, choice)
     for note in contents.notes:
         say(f"warning: {note}")
     folder.mkdir(parents=True, exist_ok=True)
@@ -79,12 +79,12 @@ def report(directories: Sequence[Path], out: Path | None = None, say: Callable[[
     for old in folder.iterdir():
         if pictures.NAMES.fullmatch(old.name) and old not in files:
             old.unlink()
-    write_text(folder / TABLE, table.to_csv(contents.rows))
+    write_text(folder / TABLE, table.to_csv(contents.table))
     write_text(folder / PAGE, page(contents, choice, list(panels.draw(contents, choice)), drawn, films, fitted,
                                     views=views, uncertain=parts))
     written = [folder / PAGE, folder / TABLE, *sorted(files)]
     if study.ensembles:
-        write_text(folder / ensembles.FILE, table.to_csv(contents.rows_of_ensembles(choice)))
+        write_text(folder / ensembles.FILE, table.to_csv(contents.table_of_ensembles(choice)))
         written.insert(2, folder / ensembles.FILE)
     for path in written:
         say(f"wrote {path}")

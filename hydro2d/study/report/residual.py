@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from hydro2d.penetration import lambert_jonas, recht_ipson
 from hydro2d.penetration.model import InputError
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import RESIDUAL, raw
+
+if TYPE_CHECKING:
+    import pandas
 
 POINTS = 121
 #: share of length and diameter of a projectile up to which a plate is thin enough for a plug
@@ -28,45 +32,34 @@ class Curve:
     colour: str = ""
 
 
-@dataclass(frozen=True)
-class Shots:
-    """Ended runs of one projectile and plate: impact and residual velocities in m/s, 0 for stopped projectiles."""
+def shots(records: Sequence[Record]) -> pandas.DataFrame:
+    """The runs that have ended, sorted by impact velocity: ``velocity`` and ``residual`` in m/s, 0 for stopped projectiles."""
+    import pandas
 
-    velocity: tuple[float, ...]
-    residual: tuple[float, ...]
-
-    @property
-    def limit(self) -> tuple[float, float] | None:
-        """Velocities of the fastest stopped run and the slowest perforation, m/s; None if one of them is missing."""
-        stopped = [v for v, left in zip(self.velocity, self.residual, strict=True) if left == 0.0]
-        through = [v for v, left in zip(self.velocity, self.residual, strict=True) if left > 0.0]
-        return (max(stopped), min(through)) if stopped and through and max(stopped) < min(through) else None
-
-
-def shots(records: Sequence[Record]) -> Shots:
-    """The runs that have ended, sorted by impact velocity."""
     pairs = [(record.velocity, raw(record, RESIDUAL)) for record in records if not record.unfinished]
-    known = sorted((v, max(left, 0.0)) for v, left in pairs if v is not None and left is not None)
-    return Shots(tuple(v for v, _ in known), tuple(left for _, left in known))
+    known = pandas.DataFrame(pairs, columns=["velocity", "residual"], dtype=float).dropna()
+    return known.assign(residual=known["residual"].clip(lower=0.0)).sort_values(["velocity", "residual"])
 
 
 def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Curve], list[str]]:
     """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is missing."""
     ended, velocity = shots(records), np.linspace(low, high, POINTS)
     drawn, notes, fit = [], [], None
-    try:
-        fit = _fit(ended)
+    stopped, through = (ended["velocity"][side] for side in (ended["residual"] == 0.0, ended["residual"] > 0.0))
+    two = through.nunique() == 2
+    try:  # three constants, or two with p = 2 if there are two perforations
+        fit = lambert_jonas.fit(ended["velocity"].tolist(), ended["residual"].tolist(), p=2.0 if two else None)
     except InputError as error:
         notes.append(f"Lambert-Jonas is not drawn: {error}")
     else:
         left = [lambert_jonas.residual_velocity(v, limit_velocity=fit.limit_velocity, a=fit.a, p=fit.p) for v in velocity]
         drawn.append(Curve("Lambert-Jonas", velocity, np.array(left)))
-        fixed = " (p = 2 taken, there are two perforations)" if _perforations(ended) == 2 else ""
+        fixed = " (p = 2 taken, there are two perforations)" if two else ""
         notes.append(f"Lambert-Jonas, fitted to these runs: a = {fit.a:.3f}, p = {fit.p:.3g}{fixed}, ballistic limit "
                      f"{fit.limit_velocity:.0f} m/s, standard error {fit.standard_error:.1f} m/s")
-    if ended.limit:
-        limit = 0.5 * sum(ended.limit)
-        origin = f"midway between {ended.limit[0]:.0f} m/s, stopped, and {ended.limit[1]:.0f} m/s, through"
+    if stopped.max() < through.min():
+        limit = 0.5 * (stopped.max() + through.min())
+        origin = f"midway between {stopped.max():.0f} m/s, stopped, and {through.min():.0f} m/s, through"
     elif fit:
         limit, origin = fit.limit_velocity, "of the fit"
     else:
@@ -78,16 +71,6 @@ def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Cur
             left = [recht_ipson.residual_velocity(v, limit_velocity=limit, plug_mass_ratio=mass_ratio) for v in velocity]
             drawn.append(Curve(name, velocity, np.array(left)))
     return drawn, [*notes, f"Recht-Ipson with a ballistic limit of {limit:.0f} m/s, {origin}; {why}"]
-
-
-def _perforations(ended: Shots) -> int:
-    return len({v for v, left in zip(ended.velocity, ended.residual, strict=True) if left > 0.0})
-
-
-def _fit(ended: Shots) -> lambert_jonas.Fit:
-    """Three constants, or two with p = 2 if there are two perforations. Raises InputError."""
-    p = 2.0 if _perforations(ended) == 2 else None
-    return lambert_jonas.fit(ended.velocity, ended.residual, p=p)
 
 
 def _plug(record: Record) -> tuple[float | None, str]:

@@ -110,8 +110,8 @@ def _label(record: Record) -> str:
         lines = [*lines[: LINES - 1], "…"]
     if record.perforated:
         lines.append("perforated")
-    elif record.depth is not None:
-        lines.append(f"{'≥ ' * record.left}{record.depth * 100:.1f} cm")
+    elif record.outcome.depth_m is not None:
+        lines.append(f"{'≥ ' * record.left}{record.outcome.depth_m * 100:.1f} cm")
     return "\n".join([*map(verbatim, lines)] + (["(unfinished)"] if record.unfinished else []))
 
 

@@ -12,7 +12,7 @@ from hydro2d.study.plan.distributions import Distribution
 from hydro2d.study.plan.sample_section import Sample
 from hydro2d.study.records import keeping, sample_table
 from hydro2d.study.records.keeping import CELLS, MEMBER
-from hydro2d.study.samples.results import Samples, of_columns
+from hydro2d.study.samples.results import Samples
 
 
 def kept_samples(study: str | Path) -> list[Samples]:
@@ -34,13 +34,14 @@ def kept_samples(study: str | Path) -> list[Samples]:
     more = (Column(name, number, required=False) for name in definition.sample.results)
     columns = (*(Column(name, empty=False) for name in axes), Column(sampling.AXIS, whole, empty=False),
                *map(keeping.input_column, inputs), *more)
-    groups: dict[tuple[str, ...], list[keeping.KeptRow]] = {}
-    for row in keeping.read(file, columns, (*axes, sampling.AXIS)):
-        groups.setdefault(tuple(row[name] for name in (*axes, CELLS)), []).append(row)
-    if not groups:
+    rows = keeping.read(file, columns, (*axes, sampling.AXIS))
+    if not rows:
         raise StudyError(f"{file}: has no rows yet")
-    return [_samples(definition.title, inputs, dict(zip((*axes, CELLS), labels, strict=True)), rows, definition.sample.results)
-            for labels, rows in groups.items()]
+    groups: dict[tuple[str, ...], list[keeping.Row]] = {}
+    for row in sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER]))):
+        groups.setdefault(tuple(row[name] for name in (*axes, CELLS)), []).append(row)
+    return [_samples(definition.title, inputs, dict(zip((*axes, CELLS), labels, strict=True)), members,
+                     definition.sample.results) for labels, members in groups.items()]
 
 
 def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
@@ -52,12 +53,9 @@ def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
         raise StudyError(f"sample.input: {error}") from None
 
 
-def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str], rows: list[keeping.KeptRow],
+def _samples(title: str, inputs: tuple[Distribution, ...], labels: dict[str, str], rows: list[keeping.Row],
              wanted: tuple[str, ...]) -> Samples:
-    rows = sorted(rows, key=lambda row: (int(row[sampling.AXIS]), int(row[MEMBER])))
-    table = [{sampling.AXIS: row[sampling.AXIS], MEMBER: row[MEMBER], **{each.head: row[each.head] for each in inputs},
-              **sample_table.of_kept(row, wanted), keeping.OF_METHOD: row[keeping.OF_METHOD]} for row in rows]
-    names = dict.fromkeys(name for row in table for name in row)
-    columns = of_columns({name: [str(row.get(name) or "") for row in table] for name in names}, inputs)
+    own = (sampling.AXIS, MEMBER, *(each.head for each in inputs), keeping.OF_METHOD)
+    table = sample_table.values([{name: row[name] for name in own} | sample_table.of_kept(row, wanted) for row in rows], inputs)
     words = [f"{name} {label}" for name, label in labels.items() if label]
-    return Samples(", ".join([title, *words]), inputs, columns, names=("",) * len(rows), wanted=wanted, labels=labels)
+    return Samples(", ".join([title, *words]), inputs, table, wanted=wanted, labels=labels)

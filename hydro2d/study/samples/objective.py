@@ -9,7 +9,6 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,7 +22,6 @@ from hydro2d.files import toml
 from hydro2d.files.locks import turn
 from hydro2d.files.whole import plain
 from hydro2d.output.directory import deck_hash
-from hydro2d.study.plan import sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, DIGITS, Distribution, label
 from hydro2d.study.plan.sample_section import Input, in_one_unit
@@ -105,11 +103,8 @@ class Objective:
         if outcome.status != DONE:
             raise StudyError(f"{place}: the run is {outcome.status}: {outcome.message}")
         (case,) = study_directory.load(place).cases
-        case = replace(case, values={sampling.AXIS: "1"})
-        (row,) = sample_table.rows(sampling.Points((), ((),), (), "table"), (), (case,), {})
-        columns = {name: np.array([value]) for name, value in row.items() if value is not None}
-        study = study_directory.Study(place, "", "", (), (case,))
-        value = float(results.Samples(case.name, (), columns, study, [case.name]).values(self.result)[0])
+        run = sample_table.values([sample_table.of_run(case)])
+        value = float(results.Samples(case.name, (), run, summaries=[case.summary]).values(self.result)[0])
         if not np.isfinite(value):
             raise StudyError(f"{place}: the run has no {self.result}")
         return value

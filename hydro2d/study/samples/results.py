@@ -8,22 +8,25 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydro2d.base.errors import unknown
 from hydro2d.measure.regime import REGIMES
-from hydro2d.measure.result import is_number
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
 from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.records import sample_table
-from hydro2d.study.records.differences import flatten
+from hydro2d.study.records.differences import numbers
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.sample_table import FINAL, NO, PERFORATED, REGIME, STATUS, YES
 from hydro2d.study.records.study_directory import DONE, Study
 from hydro2d.study.samples import sobol, surrogates
+
+if TYPE_CHECKING:
+    import pandas
 
 #: results in words that have a fraction of each word
 OUTCOMES = (REGIME, PERFORATED)
@@ -74,21 +77,19 @@ class Samples:
     ----------
     title : of the study, with the labels of its axes
     inputs : the uncertain deck keys with their distributions
-    columns : dict of arrays by name, shapes (runs,)
+    table : pandas.DataFrame, a row for each run
         ``row`` (of the table of points, from 1), the inputs by their head, such as ``body.rod.velocity [m/s]``, ``status``, and
-        the results in SI units. Numbers are float64, NaN where a run has none; all else is text.
+        the results in SI units, as in samples.csv; NaN where a run has none
     labels : dict of the label on each axis of the study, by name; empty without axes
     """
 
-    def __init__(self, title: str, inputs: Sequence[Distribution], columns: Mapping[str, np.ndarray],
-                 study: Study | None = None, names: Sequence[str] = (), wanted: Sequence[str] = (),
-                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = ()):
-        self.title, self.inputs, self.columns, self.wanted = title, tuple(inputs), dict(columns), tuple(wanted)
-        self._study, self._names, self.labels = study, tuple(names), dict(labels or {})
-        self._wrong = wrong
+    def __init__(self, title: str, inputs: Sequence[Distribution], table: pandas.DataFrame, *, wanted: Sequence[str] = (),
+                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = (), summaries: Sequence[Mapping] = ()):
+        self.title, self.inputs, self.table, self.wanted = title, tuple(inputs), table, tuple(wanted)
+        self.labels, self._wrong, self._summaries = dict(labels or {}), wrong, summaries
 
     def __len__(self) -> int:
-        return len(self.columns[sampling.AXIS])
+        return len(self.table)
 
     def __repr__(self) -> str:
         return f"<Samples {self.title}: {len(self)} runs, {int(self.ended.sum())} done; inputs {', '.join(self.heads)}>"
@@ -101,20 +102,20 @@ class Samples:
     @cached_property
     def ended(self) -> np.ndarray:
         """Which runs are done, bool[runs]. The others failed, became unphysical, or have not ended."""
-        return self.columns[STATUS] == DONE
+        return (self.table[STATUS] == DONE).to_numpy()
 
     @property
     def results(self) -> list[str]:
         """The names of the results of the table."""
         about = {sampling.AXIS, MEMBER, STATUS, OF_METHOD, *self.heads}
-        return [name for name in self.columns if name not in about]
+        return [name for name in self.table if name not in about]
 
     @property
     def usual(self) -> list[str]:
         """The results that are shown if none is named: those that the study asks for, and depth and others if they vary."""
         asked = [name for name in self.wanted if len(_finite(self.values(name)))]
         others = [name for name in self.results if name.startswith(("derived.", "bodies."))]
-        varied = [name for name in dict.fromkeys((*USUAL, *others)) if name in self.columns and name not in asked
+        varied = [name for name in dict.fromkeys((*USUAL, *others)) if name in self.table and name not in asked
                   and surrogates.vary(_finite(self.values(name)))]
         return [*asked, *varied[: max(0, MOST_USUAL - len(asked))]]
 
@@ -134,12 +135,16 @@ class Samples:
         Before them come those about entries of samples.csv that the runs contradict.
         """
         doubts, count = [*self._wrong], int(self.ended.sum())
-        if "trustworthy" in self.columns and (poor := int(np.sum(self.ended & (self.columns["trustworthy"] == "False")))):
+        if poor := self._with("trustworthy", "False"):
             doubts.append(f"{poor} of {count} runs are not trustworthy; the summary of each says why")
-        if FINAL in self.columns and (short := int(np.sum(self.ended & (self.columns[FINAL] == "False")))):
+        if short := self._with(FINAL, "False"):
             doubts.append(f"{short} of {count} runs ended at their end time or number of cycles with the projectile still "
                           "moving: their depths and outcomes are not final")
         return doubts
+
+    def _with(self, name: str, word: str) -> int:
+        """The number of runs that are done with a word in a column."""
+        return int((self.table.loc[self.ended, name] == word).sum()) if name in self.table else 0
 
     # ------------------------------------------------------------------------------------------------ one number a run
 
@@ -161,14 +166,13 @@ class Samples:
         if match is None:
             return np.where(self.ended, self._numbers(result), np.nan)
         column, name = self._column(match["name"]), match["name"]
-        known = column != "" if column.dtype.kind == "U" else np.isfinite(column)
-        return np.where(self.ended & known, self._is_true(column, name, match["sign"], match["limit"]), np.nan)
+        return np.where(self.ended & column.notna(), self._is_true(column, name, match["sign"], match["limit"]), np.nan)
 
-    def _is_true(self, column: np.ndarray, name: str, sign: str, limit: str) -> np.ndarray:
+    def _is_true(self, column: pandas.Series, name: str, sign: str, limit: str) -> pandas.Series:
         if sign == "=":
-            if column.dtype.kind != "U":
+            if not _is_words(column):
                 raise StudyError(f"{name} = {limit}: {name} is a number; compare it by > or <")
-            words = {*column.tolist(), *WORDS.get(name, ())} - {""}
+            words = {*column.dropna(), *WORDS.get(name, ())}
             if limit not in words:
                 raise StudyError(f"{name} = {limit}: {unknown('outcome', limit, words)}")
             return column == limit
@@ -176,45 +180,42 @@ class Samples:
             number = float(limit)
         except ValueError:
             raise StudyError(f"{name} {sign} {limit}: {limit} is not a number; results are in SI units") from None
-        if column.dtype.kind == "U":
+        if _is_words(column):
             raise StudyError(f"{name} {sign} {limit}: {name} is a word; compare it by =")
         return SIGNS[sign](column, number)
 
-    def _numbers(self, name: str) -> np.ndarray:
+    def _numbers(self, name: str) -> pandas.Series:
         column = self._column(name)
-        if column.dtype.kind == "U":
-            words = sorted(set(column) - {""})
-            raise StudyError(f'{name} is a word; name an outcome, such as "{name} = {words[0] if words else "rigid"}"')
+        if _is_words(column):
+            raise StudyError(f'{name} is a word; name an outcome, such as "{name} = {min(column.dropna(), default="rigid")}"')
         return column
 
-    def _column(self, name: str) -> np.ndarray:
+    def _column(self, name: str) -> pandas.Series:
         """A column of the table, or a number of the summaries of the runs."""
-        if name in self.columns:
-            return self.columns[name]
-        summaries = self._summaries
-        if not any(name in each for each in summaries):
-            raise StudyError(unknown("result", name, self._known))
-        return np.array([each.get(name, np.nan) for each in summaries], dtype=float)
+        for table in (self.table, self._of_summaries):
+            if name in table:
+                return table[name]
+        raise StudyError(unknown("result", name, self._known))
 
     @cached_property
-    def _summaries(self) -> list[dict[str, float]]:
-        """The numbers of the summary of each run by dotted name; empty for a run that only a kept row has."""
-        cases = {case.name: case for case in self._study.cases} if self._study else {}
-        summaries = [cases[name].summary if name in cases else {} for name in self._names or [""] * len(self)]
-        return [{key: value for key, value in flatten(each).items() if is_number(value) and not key.startswith("provenance.")}
-                for each in summaries]
+    def _of_summaries(self) -> pandas.DataFrame:
+        """The numbers of the summaries of the runs by dotted name."""
+        import pandas
+
+        known = [numbers({key: value for key, value in each.items() if key != "provenance"}) for each in self._summaries]
+        return pandas.DataFrame(known, self.table.index if known else None, dtype=float)
 
     @property
     def _known(self) -> set[str]:
         """The names of results, of the table and of the summaries."""
-        return set(self.results).union(*self._summaries)
+        return {*self.results, *self._of_summaries}
 
     def by_row(self, result: str) -> tuple[np.ndarray, np.ndarray]:
         """The rows with a result, int64[n], and their results, float64[n]: means over the members of a row."""
-        values, rows = self.values(result), self.columns[sampling.AXIS].astype(int)
-        known = np.isfinite(values)
-        different = np.unique(rows[known])
-        return different, np.array([values[known & (rows == row)].mean() for row in different])
+        import pandas
+
+        means = pandas.Series(self.values(result)).groupby(self.table[sampling.AXIS].to_numpy(int)).mean().dropna()
+        return means.index.to_numpy(), means.to_numpy()
 
     # ------------------------------------------------------------------------------------------------ spreads and fractions
 
@@ -233,16 +234,16 @@ class Samples:
         """
         if CONDITION.fullmatch(outcome):
             numbers = self.values(outcome)
-            words = np.where(np.isnan(numbers), "", np.where(numbers == 1.0, YES, NO))
+            words = self.table[STATUS].mask(numbers == 1.0, YES).mask(numbers == 0.0, NO).mask(np.isnan(numbers))
+        elif _is_words(words := self._column(outcome)):
+            words = words.where(self.ended)
         else:
-            words = np.where(self.ended, self._column(outcome), "") if self._column(outcome).dtype.kind == "U" else None
-            if words is None:
-                raise StudyError(f"{outcome} is a number; give a condition, such as \"{outcome} > 0.1\"")
-        counts = Counter(word for word in words.tolist() if word)
+            raise StudyError(f"{outcome} is a number; give a condition, such as \"{outcome} > 0.1\"")
+        counts = Counter(words.dropna())
         trials, missing = counts.total(), len(self) - counts.total()
         if not trials:
             raise StudyError(f"{outcome}: no run has it yet")
-        rows = len(set(self.columns[sampling.AXIS][words != ""].tolist()))
+        rows = self.table[sampling.AXIS][words.notna()].nunique()
         return {word: Fraction(word, _share(number, trials, rows), number / len(self), (number + missing) / len(self))
                 for word, number in counts.most_common()}
 
@@ -281,9 +282,8 @@ class Samples:
 
     def cube(self, rows: np.ndarray) -> np.ndarray:
         """The points of rows in the unit cube, float64[n, inputs]: the cumulative probability of each value."""
-        at = {int(row): number for number, row in reversed(list(enumerate(self.columns[sampling.AXIS])))}
-        chosen = [at[int(row)] for row in rows]
-        return np.column_stack([each.points(self.columns[each.head][chosen]) for each in self.inputs])
+        chosen = self.table.drop_duplicates(sampling.AXIS).set_index(sampling.AXIS).loc[rows]
+        return np.column_stack([each.points(chosen[each.head]) for each in self.inputs])
 
     @lru_cache(maxsize=16)  # noqa: B019
     def indices(self, result: str) -> sobol.Indices:
@@ -326,6 +326,10 @@ class Samples:
         return drawing.tornado(self, result)
 
 
+def _is_words(column: pandas.Series) -> bool:
+    return column.dtype.kind not in "if"
+
+
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
 
@@ -347,34 +351,14 @@ def of_study(study: Study) -> list[Samples]:
     if study.sample is None:
         raise StudyError(f"{study.directory} is not a study with [sample]")
     table, wrong = sample_table.read(study)
-    inputs = study.sample.inputs
-    axes = [axis.name for axis in study.axes[:-1]]
-    combinations = [tuple(case.values[name] for name in axes) for case in study.cases]
-    own_columns = {name: column for name, column in table.items() if name not in axes and not name.endswith(" (axis)")}
-    columns = of_columns(own_columns, inputs)
-    samples = []
-    for labels in dict.fromkeys(combinations):
-        chosen = np.array([each == labels for each in combinations])
-        own = {name: column[chosen] for name, column in columns.items()}
-        names = [case.name for case, take in zip(study.cases, chosen, strict=True) if take]
-        title = ", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))])
-        samples.append(Samples(title, inputs, own, study, names, study.sample.results, dict(zip(axes, labels, strict=True)),
-                               [wrong[name] for name in names if name in wrong]))
-    return samples
-
-
-def of_columns(table: Mapping[str, list[str]], inputs: Sequence[Distribution]) -> dict[str, np.ndarray]:
-    """The columns of a table of text as arrays: numbers, but for those that hold words."""
-    choices = (each.head for each in inputs if each.kind == CHOICE)
-    words = {*sample_section.WORDS, OF_METHOD, *choices}
-    return {name: _array(column, name in words) for name, column in table.items()}
-
-
-def _array(column: list[str], words: bool) -> np.ndarray:
-    """A column as text, or as numbers with NaN for an empty cell."""
-    if words:
-        return np.array(column, dtype=str)
-    try:
-        return np.array([float(text) if text else np.nan for text in column])
-    except ValueError:
-        return np.array(column, dtype=str)
+    cases, axes = {case.name: case for case in study.cases}, [axis.name for axis in study.axes[:-1]]
+    table = sample_table.values(table.drop(columns=[*axes, *(f"{name} (axis)" for name in axes)], errors="ignore"),
+                                study.sample.inputs)
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for case in study.cases:
+        groups.setdefault(tuple(case.values[name] for name in axes), []).append(case.name)
+    return [Samples(", ".join([study.title, *(axis.said(label) for axis, label in zip(study.axes, labels, strict=False))]),
+                    study.sample.inputs, table.loc[names], wanted=study.sample.results,
+                    labels=dict(zip(axes, labels, strict=True)), wrong=[wrong[name] for name in names if name in wrong],
+                    summaries=[cases[name].summary for name in names])
+            for labels, names in groups.items()]

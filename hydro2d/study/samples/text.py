@@ -31,7 +31,7 @@ def fractions(samples: Samples) -> Table:
     """Heads and rows: the fraction of each outcome; with bounds where runs have no outcome."""
     rows, heads = [], FRACTIONS
     for name in OUTCOMES:
-        if name not in samples.columns or not (samples.ended & (samples.columns[name] != "")).any():
+        if name not in samples.table or not samples.table.loc[samples.ended, name].notna().any():
             continue
         for each in samples.fractions(name).values():
             share = each.share

@@ -26,18 +26,28 @@ COLUMNS, SIZE, POINTS, APART = 3, (5.2, 3.6), 300, 0.035
 def write(study: Study, results: Sequence[Transitions]) -> list[Path]:
     """Writes both files into the directory of a study and returns them. Raises OSError, FigureError."""
     files = [own(study.directory / name) for name in (CSV, PICTURE)]
-    rows = [row for each in results for row in v50.rows(each.values, each.estimate, _draws(study, each))]
-    write_text(files[0], table.to_csv(rows))
+    import pandas
+
+    tables = [_table(study, each) for each in results]
+    write_text(files[0], table.to_csv(pandas.concat(tables)))
     figures.save_figure(draw(results), files[1])
     return files
 
 
-def _draws(study: Study, result: Transitions) -> list[dict]:
-    """The changes of every shot by column; None for one that has not begun."""
-    cases = {case.name: case for case in study.cases}
-    begun = [cases[shot.case].deck or {} for shot in result.estimate.shots]
-    keys = {column: key.split(".") for column, key in draws.KEYS.items()}
-    return [{column: deck.get(section, {}).get(name) for column, (section, name) in keys.items()} for deck in begun]
+def _table(study: Study, result: Transitions):
+    """The shots of a combination with its labels, their changes and the fitted probability: the rows of the CSV.
+
+    A change is None for a shot that has not begun.
+    """
+    estimate, cases = result.estimate, {case.name: case for case in study.cases}
+    decks = [cases[name].deck or {} for name in estimate.shots["case"]]
+    shots = estimate.shots[["case", "velocity_m_s", "regime"]].rename(columns={"regime": "outcome"})
+    for name, value in reversed((result.values | {"transition": estimate.name, "shot": range(1, len(shots) + 1)}).items()):
+        shots.insert(0, name, value)
+    for column, (section, name) in ((column, key.split(".")) for column, key in draws.KEYS.items()):
+        shots[column] = [deck.get(section, {}).get(name) for deck in decks]
+    speeds = shots["velocity_m_s"].to_numpy(float)
+    return shots.assign(fitted_probability=estimate.fit.probability(speeds) if estimate.fit else None)
 
 
 def draw(results: Sequence[Transitions]):
@@ -79,13 +89,12 @@ def _panel(axes, result: Transitions) -> None:
 
 def _dots(axes, each: v50.Estimate) -> None:
     """The shots; those of nearly one velocity are stacked away from the curve."""
-    known = each.known
-    speeds = np.array([shot.velocity for shot in known])
-    near = np.ptp(speeds) / 120.0 if len(speeds) else 1.0
+    known = each.known.sort_values("velocity_m_s", kind="stable")
+    near = np.ptp(known["velocity_m_s"].to_numpy(float)) / 120.0 if len(known) else 1.0
     counts: Counter = Counter()
-    for shot in sorted(known, key=lambda shot: shot.velocity):
-        up = shot.outcome == each.outcomes[1]
-        bin_of = (up, round(shot.velocity / near) if near else 0)
+    for speed, outcome in zip(known["velocity_m_s"], known["regime"], strict=True):
+        up = outcome == each.outcomes[1]
+        bin_of = (up, round(speed / near) if near else 0)
         height = (1.0 if up else 0.0) + (APART if up else -APART) * (1 + counts[bin_of])
         counts[bin_of] += 1
-        axes.plot(shot.velocity, np.clip(height, -0.19, 1.19), "o", markersize=3.5, color="C2" if up else "C1", alpha=0.8)
+        axes.plot(speed, np.clip(height, -0.19, 1.19), "o", markersize=3.5, color="C2" if up else "C1", alpha=0.8)

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING
 
 from hydro2d.analytic import model_transition, models
 from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_json
+from hydro2d.measure.outcome import AT_LEAST
 from hydro2d.penetration.model import InputError
 from hydro2d.study.outcomes import perforation
-from hydro2d.study.outcomes.base import FALL, LIMIT
+from hydro2d.study.outcomes.base import FALL, LIMIT, Verdict
 from hydro2d.study.outcomes.regime import Regime
 from hydro2d.study.outcomes.registry import BY_NAME
 from hydro2d.study.plan import velocities
@@ -22,9 +24,10 @@ from hydro2d.study.records.record import Record
 from hydro2d.study.records.study_directory import Interval, Study
 from hydro2d.study.search import bisection, v50
 
+if TYPE_CHECKING:
+    import pandas
+
 FILE = "transition.json"
-
-
 DEPTHS = DEEPER, NOT_DEEPER = "deeper than the hydrodynamic limit", "no deeper than the limit"
 
 
@@ -39,64 +42,54 @@ def criteria(study: Study) -> Mapping[str, str]:
     return terms | v50.CRITERIA | (v50.MILITARY_CRITERION if kind.is_ballistic else {})
 
 
-@dataclass(frozen=True)
-class Run:
-    """One case: its velocity in m/s, and its regime, or None and the reason."""
-
-    record: Record
-    velocity: float
-    regime: str | None
-    reason: str = ""
-
-    def data(self) -> dict:
-        """For programs, SI."""
-        case, summary = self.record.case, self.record.case.summary
-        names = ("rod_length_m", "rod_initial_length_m", "rod_max_radius_m", "rod_initial_radius_m", "rod_core_mass_kg")
-        return {
-            "case": case.name, "velocity_m_s": self.velocity, "status": case.status, "regime": self.regime,
-            "reason": self.reason, "depth_m": self.record.depth, "perforated": self.record.perforated,
-            **{name: summary.get(name) for name in names},
-            "residual_velocity_m_s": self.record.outcome.residual_velocity_m_s,
-            "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
-        }
-
-    def row(self) -> tuple[str, ...]:
-        """Velocity, regime, depth; length, radius and core mass relative to their initial values; and how the run ended."""
-        value, first = self.record.case.summary.get, self.record.first.get("rod_mass_kg")
-        depth = "" if self.record.depth is None else f"{_at_least(self)}{100 * self.record.depth:.2f} cm"
-        return (
-            f"{self.velocity:g} m/s", self.regime or self.record.case.status, depth,
-            _share(value("rod_length_m"), value("rod_initial_length_m")),
-            _share(value("rod_max_radius_m"), value("rod_initial_radius_m")),
-            _share(value("rod_core_mass_kg"), first), self.reason or self._end(),
-        )
-
-    def _end(self) -> str:
-        """How the run ended, and the residual velocity after a perforation."""
-        value = self.record.case.summary.get
-        left = value("rod_residual_velocity_m_s")
-        return str(value("stop_reason") or "") + ("" if left is None else f", {left:.0f} m/s left")
-
-
 HEADS = ("velocity", "regime", "depth", "length", "radius", "core mass", "end")
+#: results of the summary that the table of a search has
+RESULTS = ("rod_length_m", "rod_initial_length_m", "rod_max_radius_m", "rod_initial_radius_m", "rod_core_mass_kg")
+
+
+def judge(record: Record, of: str = Regime.name, depth: float | None = None) -> Verdict:
+    """The outcome of a case that `of` names, None with the reason if it is not known; depth : threshold in m."""
+    if record.done:
+        return BY_NAME[of].judge(record, depth)
+    status, reason = record.case.status, record.case.message.partition("\n")[0]
+    return Verdict(None, f"{status}: {reason}" if reason else status)
+
+
+def judged(records: Sequence[Record], search: Interval) -> pandas.DataFrame:
+    """The runs of a combination in the order of the search, SI: ``regime`` is the outcome that the search asks for.
+
+    The columns are those of transition.json, and ``depth_is``; ``regime`` is None with a ``reason`` where it is not known.
+    """
+    import pandas
+
+    return pandas.DataFrame([{
+        "case": each.case.name, "velocity_m_s": _speed(each), "status": each.case.status,
+        **judge(each, search.of, search.depth)._asdict(), "depth_m": each.outcome.depth_m,
+        "depth_is": each.outcome.depth_is, "perforated": each.perforated,
+        **{name: each.case.summary.get(name) for name in RESULTS},
+        "residual_velocity_m_s": each.outcome.residual_velocity_m_s, "rod_first_mass_kg": each.first.get("rod_mass_kg"),
+        "stop_reason": each.case.summary.get("stop_reason"),
+    } for each in records], dtype=object).rename(columns={"word": "regime"})
+
+
+def _speed(record: Record) -> float:
+    return record.velocity if record.velocity is not None else velocities.speed(record.case.values[velocities.AXIS])
+
+
+def _cells(run) -> tuple[str, ...]:
+    """Velocity, regime, depth; length, radius and core mass relative to their initial values; and how the run ended."""
+    end = str(run.stop_reason or "") + (f", {run.residual_velocity_m_s:.0f} m/s left" if run.residual_velocity_m_s else "")
+    return (f"{run.velocity_m_s:g} m/s", run.regime or run.status, "" if run.depth_m is None else _depth(run),
+            _share(run.rod_length_m, run.rod_initial_length_m), _share(run.rod_max_radius_m, run.rod_initial_radius_m),
+            _share(run.rod_core_mass_kg, run.rod_first_mass_kg), run.reason or end)
 
 
 def _share(value: float | None, first: float | None) -> str:
     return "" if value is None or not first else f"{value / first:.3f}"
 
 
-def _at_least(run: Run) -> str:
-    return "at least " if run.record.at_least else ""
-
-
-def judge(record: Record, of: str = Regime.name, depth: float | None = None) -> Run:
-    """The outcome of a case that `of` names, None with the reason if it is not known; depth : threshold in m."""
-    case = record.case
-    velocity = record.velocity if record.velocity is not None else velocities.speed(case.values[velocities.AXIS])
-    if not record.done:
-        reason = case.message.splitlines()[0] if case.message else ""
-        return Run(record, velocity, None, f"{case.status}: {reason}" if reason else case.status)
-    return Run(record, velocity, *BY_NAME[of].judge(record, depth))
+def _depth(run) -> str:
+    return f"{'at least ' * (run.depth_is == AT_LEAST)}{100 * run.depth_m:.2f} cm"
 
 
 @dataclass(frozen=True)
@@ -105,6 +98,7 @@ class Transitions:
 
     values : labels of the axes except the velocity;  brackets : by regime, by depth, by the hydrodynamic limit
     settled : by name of a bracket of regimes, whether no further run could narrow it
+    runs : by velocity, as `judged` has them
     notes : open questions with reasons, regimes out of order, runs that did not end at rest
     comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
     estimate : of a search with a budget, whose bracket is the interval of v50
@@ -114,7 +108,7 @@ class Transitions:
     values: dict[str, str]
     brackets: list[Bracket]
     settled: dict[str, bool]
-    runs: list[Run]
+    runs: pandas.DataFrame
     notes: list[str]
     comparison: Comparison | None
     estimate: v50.Estimate | None = None
@@ -133,7 +127,7 @@ class Transitions:
         """The results as lines of text."""
         lines = [self.title, *columns((each.name, extent(each), each.source) for each in self.brackets)]
         lines += [f"  {note}" for note in self.notes]
-        lines += ["", *columns([HEADS, *(run.row() for run in self.runs)])]
+        lines += ["", *columns([HEADS, *map(_cells, self.runs.itertuples())])]
         if self.comparison is not None:
             heading, _, *rest = self.comparison.lines(inputs=False)
             lines += ["", f"  {heading}", *rest]
@@ -148,7 +142,7 @@ class Transitions:
                              "settled": self.settled.get(each.name)} for each in self.brackets],
             "estimate": self.estimate and self.estimate.data(),
             "notes": self.notes,
-            "runs": [run.data() for run in self.runs],
+            "runs": self.runs.drop(columns="depth_is").to_dict("records"),
             "comparison": self.comparison and self.comparison.data(),
         }
 
@@ -177,29 +171,30 @@ def of_study(study: Study, records: Sequence[Record] | None = None) -> list[Tran
 
 def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transitions:
     kind = BY_NAME[study.search.of]
-    in_turn = [judge(each, kind.name, study.search.depth) for each in members]
-    runs = sorted(in_turn, key=lambda run: run.velocity)
-    known = [run for run in runs if run.regime is not None]
+    in_turn = judged(members, study.search)
+    runs = in_turn.sort_values("velocity_m_s", kind="stable")
+    known = runs[runs["regime"].notna()]
     values = {name: value for name, value in members[0].case.values.items() if name != velocities.AXIS}
-    cut = [f"{run.velocity:g} m/s" for run in known if run.record.cut]
+    by_name = {each.case.name: each for each in members}
+    found = [by_name[name] for name in known["case"]]
+    cut = [f"{_speed(each):g} m/s" for each in found if each.cut]
     moving = [f"runs that did not end at rest, whose regime is that at their end: {', '.join(cut)}"] if cut else []
     if study.search.budget is None:
-        brackets, settled, notes = _by_bisection(study.search, runs, known)
+        brackets, settled, notes = _by_bisection(study.search, runs, known, found)
         estimate = None
     else:
-        shots = [v50.Shot(run.record.case.name, run.velocity, run.regime, run.record.done) for run in in_turn]
-        estimate = v50.estimate(study.search, kind, shots)
+        estimate = v50.estimate(study.search, kind, in_turn)
         brackets, settled, notes = [estimate.bracket], {estimate.name: estimate.spent}, estimate.notes
-    comparison, problem = _compared(known, brackets[0]) if kind.of_rod else (None, "")
+    comparison, problem = _compared(found, brackets[0]) if kind.of_rod else (None, "")
     notes += [*moving, *([problem] if problem else [])]
     return Transitions(title, values, brackets, settled, runs, notes, comparison, estimate)
 
 
-def _by_bisection(search: Interval, runs: Sequence[Run],
-                  known: Sequence[Run]) -> tuple[list[Bracket], dict[str, bool], list[str]]:
-    """Brackets, which of them are settled, and notes."""
+def _by_bisection(search: Interval, runs: pandas.DataFrame, known: pandas.DataFrame,
+                  found: Sequence[Record]) -> tuple[list[Bracket], dict[str, bool], list[str]]:
+    """Brackets, which of them are settled, and notes. ``known`` : the runs with an outcome;  found : their records."""
     kind = BY_NAME[search.of]
-    outcomes = {run.velocity: run.regime for run in known}
+    outcomes = dict(zip(known["velocity_m_s"], known["regime"], strict=True))
     brackets, settled, notes = [], {}, []
     for regime, name in kind.transitions.items():
         bracket = Bracket(name, *bisection.bracket(outcomes, regime, kind.order), "")
@@ -208,7 +203,7 @@ def _by_bisection(search: Interval, runs: Sequence[Run],
         notes += [f"{name}: {why}"] if why else []
     notes += _disordered(outcomes, kind.order)
     if kind.of_rod:
-        limit, disordered = _limit(known)
+        limit, disordered = _limit(known, found)
         brackets += [*_fall(known), *limit]
         notes += disordered
     return brackets, settled, notes
@@ -219,7 +214,7 @@ def _ends(bracket: Bracket, outcomes: Mapping[float, str]) -> str:
     return ", ".join(f"{outcomes[end]} at {end:g} m/s" for end in (bracket.low, bracket.high) if end is not None)
 
 
-def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple[bool, str]:
+def _settled(bracket: Bracket, interval: Interval, runs: pandas.DataFrame) -> tuple[bool, str]:
     """Whether no further run could narrow a bracket, and why it is wider than the tolerance if it is."""
     low, high, slowest, fastest = bracket.low, bracket.high, interval.speeds[0], interval.speeds[-1]
     if low is not None and high is not None and high - low <= interval.tolerance * (1.0 + velocities.SAME):
@@ -228,21 +223,21 @@ def _settled(bracket: Bracket, interval: Interval, runs: Sequence[Run]) -> tuple
         return True, f"open, not reached at {fastest:g} m/s, the fast end of the interval"
     if low is None and high == slowest:
         return True, f"open, reached already at {slowest:g} m/s, the slow end of the interval"
-    lost = [f"{run.velocity:g} m/s {run.reason}" for run in runs
-            if run.regime is None and (low or 0.0) < run.velocity < (high or 2.0 * fastest)]
+    lost = [f"{run.velocity_m_s:g} m/s {run.reason}" for run in runs.itertuples()
+            if run.regime is None and (low or 0.0) < run.velocity_m_s < (high or 2.0 * fastest)]
     return False, f"not narrowed to {interval.tolerance:g} m/s: " + ("; ".join(lost) or "not all runs were made")
 
 
-def _fall(known: Sequence[Run]) -> list[Bracket]:
+def _fall(known: pandas.DataFrame) -> list[Bracket]:
     """The velocities between which the depth falls: from the deepest run to the next faster one."""
-    deep = [run for run in known if run.record.depth is not None]
+    deep = list(known[known["depth_m"].notna()].itertuples())
     if not deep:
         return []
-    deepest = max(deep, key=lambda run: (run.record.depth, run.velocity))
-    after = next((run for run in deep if run.velocity > deepest.velocity), None)
-    depths = [f"{_at_least(run)}{100 * run.record.depth:.2f} cm" for run in (deepest, after) if run]
+    deepest = max(deep, key=lambda run: (run.depth_m, run.velocity_m_s))
+    after = next((run for run in deep if run.velocity_m_s > deepest.velocity_m_s), None)
+    depths = [_depth(run) for run in (deepest, after) if run]
     words = ", then ".join(depths) if after else f"{depths[0]} at the fastest run: no fall is seen"
-    return [Bracket(FALL, deepest.velocity, after.velocity if after else None, words)]
+    return [Bracket(FALL, deepest.velocity_m_s, after.velocity_m_s if after else None, words)]
 
 
 def by_depth(depths: Mapping[float, float], limit: float) -> Mapping[float, str]:
@@ -255,14 +250,13 @@ def by_depth(depths: Mapping[float, float], limit: float) -> Mapping[float, str]
     return {speed: DEEPER if depth > limit else NOT_DEEPER for speed, depth in depths.items() if speed >= first}
 
 
-def _limit(known: Sequence[Run]) -> tuple[list[Bracket], list[str]]:
+def _limit(known: pandas.DataFrame, found: Sequence[Record]) -> tuple[list[Bracket], list[str]]:
     """Velocities from which the depth is no longer above the hydrodynamic limit, if a run is deeper; and notes on order."""
-    deep = [run for run in known if run.record.depth is not None and run.record.shot]
-    if not deep:
+    first = next((each for each in found if each.shot), None)
+    if first is None:
         return [], []
-    shot, setup = deep[0].record.shot, deep[0].record.setup
-    limit = model_transition.hydrodynamic_limit(setup.length, shot.rod, shot.target)
-    outcomes = by_depth({run.velocity: run.record.depth for run in deep}, limit)
+    limit = model_transition.hydrodynamic_limit(first.setup.length, first.shot.rod, first.shot.target)
+    outcomes = by_depth(known.set_index("velocity_m_s")["depth_m"].dropna().to_dict(), limit)
     if not outcomes:
         return [], []
     return ([Bracket(LIMIT, *bisection.bracket(outcomes, NOT_DEEPER, DEPTHS), f"{100 * limit:.2f} cm")],
@@ -275,13 +269,12 @@ def _disordered(outcomes: Mapping[float, str], order: Sequence[str]) -> list[str
             for slow, fast in bisection.disordered(outcomes, order)]
 
 
-def _compared(known: Sequence[Run], bracket: Bracket) -> tuple[Comparison | None, str]:
+def _compared(found: Sequence[Record], bracket: Bracket) -> tuple[Comparison | None, str]:
     """Models, experiments and the CTH study for the rod and target of the first run, or why there is no comparison."""
-    first = next((run.record for run in known if run.record.shot), None)
+    first = next((each for each in found if each.shot), None)
     if first is None:
-        why = next((run.record.without_models for run in known if run.record.without_models),
-                   "there are no projectile and target")
-        return None, f"nothing to compare with: {why if known else 'no run is done'}"
+        why = next((each.without_models for each in found if each.without_models), "there are no projectile and target")
+        return None, f"nothing to compare with: {why if found else 'no run is done'}"
     shot = first.shot
     try:
         comparison = model_transition.compare(models.Request(rod=shot.rod, target=shot.target, geometry=shot.values), shot.nose)

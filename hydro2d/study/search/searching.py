@@ -41,7 +41,7 @@ class Searching(Choice, ABC):
         """The regime of a case, or another outcome that the search distinguishes; None if it has none."""
         if case.status != DONE:
             return None
-        return regimes.judge(self.record(case), self.plan.search.of, self.plan.search.depth).regime
+        return regimes.judge(self.record(case), self.plan.search.of, self.plan.search.depth).word
 
     def wanted(self, cases: Sequence[Case], busy: Collection[str], room: int) -> list[str]:
         """As many cases as there are idle workers."""

@@ -20,7 +20,7 @@ from hydro2d.study.plan import draws, velocities
 from hydro2d.study.plan.planned import Plan, Planned, short
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
-from hydro2d.study.records.study_directory import DONE, ENDED, WAITING, Case
+from hydro2d.study.records.study_directory import ENDED, WAITING, Case
 from hydro2d.study.search import regimes, sequence, v50
 from hydro2d.study.search.bisection import MOST_FAILED
 from hydro2d.study.search.searching import Searching
@@ -200,8 +200,7 @@ class Shots(Searching):
         """The estimate of the combination so far."""
         group = next(group for group in self.groups if any(shot.name == name for shot in group.shots))
         names = {shot.name for shot in group.shots}
-        shots = [v50.Shot(case.name, velocities.speed(case.values[velocities.AXIS]), self.outcome(case), case.status == DONE)
-                 for case in cases if case.name in names]
+        shots = regimes.judged([self.record(case) for case in cases if case.name in names], self.search)
         words = regimes.label(group.ends[0].values)
         estimate = v50.estimate(self.search, BY_NAME[self.search.of], shots)
         return f"  {words + ': ' if words else ''}{estimate.name}: {estimate.in_short}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,8 +12,11 @@ from hydro2d.analytic.model_transition import Bracket
 from hydro2d.files.whole import plain
 from hydro2d.study.outcomes.base import Outcome
 from hydro2d.study.plan.velocities import Velocities
-from hydro2d.study.records.study_directory import Interval
+from hydro2d.study.records.study_directory import DONE, Interval
 from hydro2d.study.search import logit, sequence
+
+if TYPE_CHECKING:
+    import pandas
 
 #: of MIL-STD-662F: shots with each outcome, and the largest difference of their velocities, m/s: 60, 90 and 125 ft/s. They
 #: are from memory, not checked against the text of the standard, which was not at hand
@@ -30,20 +33,12 @@ MILITARY_CRITERION = {
 }
 
 
-class Shot(NamedTuple):
-    """A run of a search: its case, its velocity in m/s, its outcome (None if it has none), whether it is done."""
-
-    case: str
-    velocity: float
-    outcome: str | None
-    done: bool
-
-
 @dataclass(frozen=True)
 class Estimate:
     """Result of the shots of one combination of the axes for one transition.
 
-    name : of the transition;  outcomes : of slow and of fast shots;  shots : in the order of the search
+    name : of the transition;  outcomes : of slow and of fast shots;  shots : in the order of the search, as
+        `regimes.judged` has them
     budget : number of runs allowed;  spent : whether no further run is to be made
     fit : None if the shots do not determine it
     military : V50 of MIL-STD-662F in m/s, with the number of shots; None if no shots qualify; for a ballistic limit only
@@ -51,7 +46,7 @@ class Estimate:
 
     name: str
     outcomes: tuple[str, str]
-    shots: tuple[Shot, ...]
+    shots: pandas.DataFrame
     budget: int
     spent: bool
     fit: logit.Fit | None
@@ -67,16 +62,20 @@ class Estimate:
         return Bracket(self.name, *rounded, words)
 
     @property
-    def known(self) -> list[Shot]:
+    def known(self) -> pandas.DataFrame:
         """The shots that have an outcome."""
-        return [shot for shot in self.shots if shot.outcome is not None]
+        return self.shots[self.shots["regime"].notna()]
+
+    @property
+    def done(self) -> int:
+        """The number of shots that are done."""
+        return int((self.shots["status"] == DONE).sum())
 
     @property
     def notes(self) -> list[str]:
         """v50, its interval, the width, and the runs made of the budget, in words."""
-        known, (slow, fast) = self.known, self.outcomes
-        number = sum(shot.outcome == fast for shot in known)
-        done = sum(shot.done for shot in self.shots)
+        known, done, (slow, fast) = self.known, self.done, self.outcomes
+        number = int((known["regime"] == fast).sum())
         notes = [*self._in_words(), f"bought with {done} of {self.budget} runs: {number} {fast}, {len(known) - number} {slow}"
                  + (f", {done - len(known)} without an outcome" if done > len(known) else "")]
         if self.ballistic:
@@ -99,11 +98,11 @@ class Estimate:
 
     def _unknown(self) -> str:
         """Why there is no estimate."""
-        seen, speeds = {shot.outcome for shot in self.known}, [shot.velocity for shot in self.known]
+        seen, speeds = set(self.known["regime"]), self.known["velocity_m_s"]
         if not seen:
             return "v50 is not known: no run has an outcome"
         if len(seen) == 1:
-            side = f"above {max(speeds):g}" if seen == {self.outcomes[0]} else f"below {min(speeds):g}"
+            side = f"above {speeds.max():g}" if seen == {self.outcomes[0]} else f"below {speeds.min():g}"
             return f"v50 is not known: {len(speeds)} of {len(speeds)} shots {seen.pop()}; it lies {side} m/s, or chance hid it"
         return f"v50 is not known: shots that are {self.outcomes[1]} were no faster than those that are {self.outcomes[0]}"
 
@@ -113,7 +112,7 @@ class Estimate:
         numbers = {f"{name}_m_s": getattr(self.fit, name) if self.fit else None for name in names}
         return plain({
             "outcome": self.outcomes[1], "level": logit.LEVEL, **numbers, "overlap": self.fit and self.fit.overlap,
-            "runs": sum(shot.done for shot in self.shots), "budget": self.budget,
+            "runs": self.done, "budget": self.budget,
             "mil_std_662f_m_s": self.military and self.military[0], "mil_std_662f_shots": self.military and self.military[1],
         })
 
@@ -126,19 +125,16 @@ def _range(low: float | None, high: float | None, form: str) -> str:
     return f"90 % interval {low:{form}} to {high:{form}} m/s"
 
 
-def estimate(search: Interval | Velocities, kind: type[Outcome], shots: Sequence[Shot]) -> Estimate:
+def estimate(search: Interval | Velocities, kind: type[Outcome], shots: pandas.DataFrame) -> Estimate:
     """v50 and width from the runs of one combination, in the order of the search; kind : of outcome."""
-    in_order = tuple(shots)
-    slow, fast = kind.order
-    known = [shot for shot in in_order if shot.outcome is not None]
-    outcomes = [None if shot.outcome is None else shot.outcome == fast for shot in in_order]
-    successes = [shot.outcome == fast for shot in known]
-    speeds = [shot.velocity for shot in known]
-    all_done = all(shot.done for shot in in_order)
+    (slow, fast), known = kind.order, shots[shots["regime"].notna()]
+    outcomes = [None if each is None else each == fast for each in shots["regime"]]
+    speeds, successes = known["velocity_m_s"], known["regime"] == fast
     return Estimate(
-        name=kind.transitions[fast], outcomes=(slow, fast), shots=in_order, budget=search.budget.runs,
-        spent=all_done and (len(in_order) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
-        fit=logit.fit_transition(speeds, successes) if known else None, ballistic=kind.is_ballistic,
+        name=kind.transitions[fast], outcomes=(slow, fast), shots=shots, budget=search.budget.runs,
+        spent=bool((shots["status"] == DONE).all())
+        and (len(shots) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
+        fit=logit.fit_transition(speeds, successes) if len(known) else None, ballistic=kind.is_ballistic,
         military=military(speeds, successes) if kind.is_ballistic else None,
     )
 
@@ -156,13 +152,3 @@ def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float
         if len(group) == 2 * count and np.ptp(group) <= spread:
             return float(group.mean()), 2 * count
     return None
-
-
-def rows(values: dict[str, str], estimate: Estimate, draws: Sequence[dict]) -> list[dict]:
-    """Rows of the CSV: one for each shot of a combination, with its changes."""
-    return [
-        {**values, "transition": estimate.name, "shot": number, "case": shot.case, "velocity_m_s": shot.velocity,
-         "outcome": shot.outcome, **draw,
-         "fitted_probability": float(estimate.fit.probability([shot.velocity])[0]) if estimate.fit else None}
-        for number, (shot, draw) in enumerate(zip(estimate.shots, draws, strict=True), 1)
-    ]
