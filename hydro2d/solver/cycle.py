@@ -114,7 +114,7 @@ class Cycle:
 
     def advance(self) -> None:
         """One step: time n to n + 1."""
-        self.given.handle.update(most_parts=jit.parts_at_once())
+        self._take_threads()
         self._step(self.number % 2)
         self.given.meet()
 
@@ -151,7 +151,8 @@ class Cycle:
             self._tape = self._recorded()
             if self.time >= until or self.number >= last:
                 return
-        self.given.handle.update(until=float(until), last_cycle=int(last), most_parts=jit.parts_at_once())
+        self._take_threads()
+        self.given.handle.update(until=float(until), last_cycle=int(last))
         try:
             self._tape.play(self.given.handle, self._tape.starts[self.number % 2])
         finally:
@@ -200,6 +201,13 @@ class Cycle:
         self.given.ask(between_phases.cut_parts, self._cut_anew)
         self.given.run(remap_step.find_bodies)
         self.given.set(anew=False)
+
+    def _take_threads(self) -> None:
+        """Cuts the active box into fewer parts if there are fewer threads than before: each part needs one."""
+        number = jit.parts_at_once()
+        self.given.handle.update(most_parts=number)
+        if number < len(self.rows) - 1:
+            self._cut_anew()
 
     def _cut_anew(self) -> None:
         """Cuts the active box into another number of parts."""
