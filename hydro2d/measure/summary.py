@@ -139,7 +139,8 @@ class Summary(Projectile, Ended):
     crater: Hole | None = result("hole in the first target")
     targets: dict[str, Target] = result("of each target", each="TARGET", default={})
     derived: dict[str, Number] = result(
-        "a quantity that `[derived]` of the deck defines, at the end", each="DERIVED", default={})
+        "a quantity that `[derived]` of the deck defines, or a file of `[result]` measures, at the end", each="DERIVED",
+        default={})
     bodies: dict[str, Body] = result("of each body", each="BODY", default={})
     stations: dict[str, Station] = result("of each tracer and gauge", each="STATION", default={})
     experiment: Experiment | None = result("")

@@ -32,7 +32,7 @@ HISTORY: dict[str, str] = {
     "total_energy_change": "relative change of the total energy that no sink accounts for",
     **{f"body_BODY_{key}": f"of each body: {meaning}" for key, meaning in Body.meanings().items()},
     **{f"STATION_{key}": f"of each tracer and gauge: {meaning}" for key, meaning in Point.meanings().items()},
-    "DERIVED": "a quantity that `[derived]` of the deck defines",
+    "DERIVED": "a quantity that `[derived]` of the deck defines, or a file of `[result]` measures",
     **{f"sink_SINK_{key}": f"{meaning} that a sink has taken since the start" for key, meaning in AMOUNTS.items()},
 }
 

@@ -29,6 +29,7 @@ from hydro2d.base.errors import UnphysicalState
 from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.version import __version__
+from hydro2d.deck import formulas
 from hydro2d.deck.warnings import warnings
 from hydro2d.files.locks import locked, remove
 from hydro2d.files.toml import model_tables
@@ -78,7 +79,7 @@ COSTS = ("cycles_s", "compilation_s", "outputs_s", "set_up_s")
 Theory = Callable[[Any, dict], list[str]]
 
 #: sections of a deck that may differ when a run is continued
-FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived")
+FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived", "result")
 
 
 def check_same_deck(now: str, before: str) -> None:
@@ -395,7 +396,9 @@ class Run:
         if status != "interrupted" and not wrong:
             if self.history.last_time != self.sim.time:
                 with attempts.writing(self.directory / HISTORY):
-                    self._last_row(status)
+                    if last := self._last_row(status):
+                        self.history.append(last)
+                    self.history.write()
             if self.series.last_time != self.sim.time:
                 with attempts.writing(self.directory / FOLDER):
                     self.series.dump(self.sim)
@@ -403,20 +406,21 @@ class Run:
             if text := self.team.thread_use():
                 self.report.line(text)
 
-    def _last_row(self, status: str) -> None:
-        """Writes the row of the end. A user's column may fail in an unphysical state."""
+    def _last_row(self, status: str) -> dict[str, Any]:
+        """The row of the end. A user's column or result may fail in an unphysical state; the row is then empty."""
         try:
-            self.history.append(row(self.sim))
+            return row(self.sim)
         except ColumnError as error:
             if status != "unphysical":
                 raise
             self.report.line(f"warning: {error}")
-        self.history.write()
+            return {}
 
     def summary(self, status: str, reason: str) -> dict:
         """The contents of summary.json."""
         sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
-        last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
+        last = self._last_row(status) if sim.formulas or sim.own_results else {}
+        pace, own = self.spent["cycles_s"] - self.timed_from, [name for own in sim.own_results.values() for name in own.lines]
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         if (wrong := sim.not_finite()) and wrong not in faults:
             faults.append(f"null stands for what could not be computed: {wrong}")
@@ -433,15 +437,17 @@ class Run:
             projectile=projectile and Flyer(body=sim.projectile, **{new: projectile[old] for old, new in PROJECTILE.items()},
                                             **settling),
             crater=next((target.crater for target in targets.values()), None), targets=targets,
-            derived={name: last[name] for name in sim.formulas}, bodies=sim.of_bodies(), stations=sim.stations.measure(),
+            derived={name: last.get(name) for name in (*own, *sim.formulas)},
+            bodies=sim.of_bodies(), stations=sim.stations.measure(),
             experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance,
         ).model_dump()
 
 
 def models_from_outside(deck) -> list[dict]:
-    """Models of a deck that are not part of hydro2d, code and tables: kind, name, file and SHA-256."""
-    return [about for material in deck.materials.values()
-            for about in (*(model.about() for model in material.from_outside()), *material.tables())]
+    """What of a deck is not part of hydro2d, code of models and results, and tables: kind, name, file and SHA-256."""
+    models = [about for material in deck.materials.values()
+              for about in (*(model.about() for model in material.from_outside()), *material.tables())]
+    return models + [own.about(name) for name, own in formulas.own_results(deck).items()]
 
 
 def experiment(deck) -> Experiment | None:

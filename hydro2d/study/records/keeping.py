@@ -3,7 +3,8 @@
 A row identifies its run by the labels of the case, cells across the projectile, and member; by the set-up, a hash of everything
 in the deck that can change a result; and by the version of the method. A run with a row of its set-up and of this method is up
 to date, and a sweep does not repeat it. The row of another set-up or method is stale. It stays until its run has been made.
-The row of a run of a sample has the values of its inputs as well, and the results that the sample names.
+The row of a run of a sample has the values of its inputs as well, and the results that the sample names. What [derived] of the
+deck defines and files of [result] measure has a column each.
 """
 
 from __future__ import annotations
@@ -50,6 +51,8 @@ RESULTS = ("status", "stop_reason", "trustworthy", *Outcome.model_fields, "tail_
 #: those that rows of earlier versions lack
 LATER = ("perforated", "final", "depth_is", "depth_error_m", "depth_error_percent", "depth_error_is", "residual_error_m_s")
 ORIGIN = (SETUP, OF_METHOD, "commit", "date")
+#: beginning of the columns of what decks define
+DEFINED = "derived."
 #: results that depend on the machine
 OF_MACHINE = ("wall_s",)
 #: the regime of rows that were kept before the length of a rod told the two apart
@@ -83,15 +86,15 @@ class KeptRow(csv_tables.Row):
 
     The columns are those of a file that a study keeps: the labels of the case on the axes, ``cells_across`` the projectile,
     ``member`` of the ensemble, ``status``, the results in SI units, and ``setup``, ``method``, ``commit`` and ``date``; of a
-    sample also its inputs, after the labels, and the results that it names. The text of a result that the run does not have is
-    empty.
+    sample also its inputs, after the labels, and the results that it names; and what decks define, as ``derived.NAME``. The
+    text of a result that the run does not have is empty.
     """
 
     @property
     def labels(self) -> dict[str, str]:
         """The labels of the case by axis, the inputs of a sample, and ``cells_across``, without those that are empty."""
         others = {MEMBER, *RESULTS, *ORIGIN}
-        return {name: text for name, text in self.items() if text and name not in others}
+        return {name: text for name, text in self.items() if text and name not in others and not name.startswith(DEFINED)}
 
 
 @dataclass(frozen=True)
@@ -125,8 +128,9 @@ class Wanted:
         """The row of a run that has ended."""
         summary = case.summary
         entries = {**results(summary), **origin(summary), SETUP: self.setup}
-        numbers = flatten(summary) if self.more else {}
-        entries |= {name: value if is_number(value := numbers.get(name)) else None for name in self.more if name not in entries}
+        numbers = flatten(summary)
+        more = dict.fromkeys((*(name for name in numbers if name.startswith(DEFINED)), *self.more))
+        entries |= {name: value if is_number(value := numbers.get(name)) else None for name in more if name not in entries}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 
@@ -194,7 +198,7 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
     common = {column.name for column in COLUMNS}
     columns = (*COLUMNS, *(column for column in own if column.name not in common))
     kept: dict[tuple, KeptRow] = {}
-    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=Column, of=KeptRow):
+    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=_other, of=KeptRow):
         _renew(row)
         run = tuple(row.labels.items() if labels is None else (row[name] for name in labels)), row[CELLS], row[MEMBER]
         of_setup = (row[SETUP], row[OF_METHOD]) if row[SETUP] else run
@@ -205,6 +209,11 @@ def read(path: Path, own: Sequence[Column] = (), labels: Sequence[str] | None = 
                 here, there = row[name], f'line {other.line} has "{other[name]}" for the same {what}'
                 raise StudyError(f'{path}:{row.line}: column "{name}": "{here}", and {there}; remove the line that is wrong')
     return [row for (what, *_), row in kept.items() if what == "run"]
+
+
+def _other(head: str) -> Column:
+    """A column of a file that is not known beforehand: of what decks define, else of any text."""
+    return Column(head, number) if head.startswith(DEFINED) else Column(head)
 
 
 def _renew(row: KeptRow) -> None:
@@ -384,7 +393,8 @@ class Keeper:
 
     def _write(self) -> None:
         text = io.StringIO()
-        heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN))
+        defined = sorted({name for row in self.rows for name in row if name.startswith(DEFINED)})
+        heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *defined, *self.more, *ORIGIN))
         table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")
         table.writeheader()
         table.writerows({name: _safe(text) for name, text in row.items()} for row in self.rows)

@@ -13,7 +13,7 @@ import numpy as np
 from hydro2d.analytic import experience, model_deck
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.deck import key_messages, targets
+from hydro2d.deck import formulas, key_messages, targets
 from hydro2d.files import checksums
 from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
@@ -105,6 +105,7 @@ class Record:
     history : thinned columns, SI;  first, last : first and last row of all columns
     start, rod : outlines of the projectile at the start and at the end
     unread : models of the deck that were not run, in words
+    own : names of the results that the files of [result] measure
     """
 
     case: Case
@@ -123,6 +124,7 @@ class Record:
     rod: list[np.ndarray] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)
+    own: list[str] = field(default_factory=list)
 
     @property
     def done(self) -> bool:
@@ -185,9 +187,9 @@ class Record:
 
     @property
     def derived(self) -> list[str]:
-        """Names of the quantities that [derived] of the deck defines."""
-        formulas = self.deck.get("derived")
-        return [str(name) for name in formulas] if isinstance(formulas, dict) else []
+        """Names of the quantities that [derived] of the deck defines, and of the results that files of [result] measure."""
+        defined = self.deck.get("derived")
+        return [*self.own, *(str(name) for name in (defined if isinstance(defined, dict) else ()))]
 
     def _as_in_summary(self, name: str) -> str:
         """The name in summary.json of a column of the history."""
@@ -274,6 +276,7 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
         record.problems.append(f"{file.name} is not a deck of this version: {str(error).splitlines()[0]}")
         return None
     record.impact = experience.impact_of(deck)
+    record.own = [name for own in formulas.own_results(deck).values() for name in own.lines]
     record.unread = [said for material in deck.materials.values() for said in material.unread()]
     if deck.penetration is None:
         return None

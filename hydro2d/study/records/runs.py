@@ -43,7 +43,7 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
     import pandas
 
     rows = [row for place in map(Path, places) for row in (_kept(place) if place.is_file() else _made(place, results))]
-    last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, *ORIGIN)
+    last = (*RESULTS, *(name for row in rows for name in row if name.startswith(keeping.DEFINED)), *results, *ORIGIN)
     first = dict.fromkeys(name for row in rows for name in row if name not in last)
     table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
     checks = {column.name: column.check for column in keeping.COLUMNS}
@@ -98,5 +98,5 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
         summary = summary | {SETUP: deck.setup, CELLS: deck.cells_across}
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
-            **{name: value for name, value in numbers.items() if name.startswith("derived.")},
+            **{name: value for name, value in numbers.items() if name.startswith(keeping.DEFINED)},
             **{name: numbers.get(name) for name in more}, **keeping.origin(summary)}

@@ -73,7 +73,7 @@ def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
     row[PERFORATED] = None if row[PERFORATED] is None else YES if row[PERFORATED] else NO
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
-    others = [name for name in numbers if name.startswith("derived.")]
+    others = [name for name in numbers if name.startswith(keeping.DEFINED)]
     if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
     row = {STATUS: case.status} | row
@@ -83,7 +83,8 @@ def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
 def of_kept(kept: keeping.Row, more: Sequence[str]) -> Row:
     """State and results of a row that the study keeps. ``more`` : names of the results that the sample asks for."""
     said = {"True": YES, "False": NO}.get(kept[PERFORATED], "")
-    return {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more)} | {PERFORATED: said}
+    defined = (name for name in kept if name.startswith(keeping.DEFINED))
+    return {name: kept.get(name, "") for name in (STATUS, *RESULTS, *defined, *more)} | {PERFORATED: said}
 
 
 class Table(NamedTuple):
@@ -151,4 +152,4 @@ def _columns(sample: Points, heads: Sequence[str]) -> list[Column]:
 
 def _other(head: str) -> Column | None:
     """The column of a quantity that a deck derives, or of a body."""
-    return Column(head, number) if head.startswith(("derived.", "bodies.")) else None
+    return Column(head, number) if head.startswith((keeping.DEFINED, "bodies.")) else None
