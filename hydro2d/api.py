@@ -74,10 +74,10 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads
     with at_most(threads):
         summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns,
                            theory=beside.lines)
-    if summary["status"] == "interrupted":
-        raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
-    if summary["status"] == "unphysical":
-        raise UnphysicalState(f"{directory}: {summary['stop_reason']}")
+    if summary.status == "interrupted":
+        raise KeyboardInterrupt(f"{directory}: {summary.stop_reason}")
+    if summary.status == "unphysical":
+        raise UnphysicalState(f"{directory}: {summary.stop_reason}")
     return Results(directory, trust=True)
 
 

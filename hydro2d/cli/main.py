@@ -93,7 +93,7 @@ def _load(deck: Path, overrides: list[str] | None):
     return decks.load(deck, overrides or [])
 
 
-def _theory(deck, summary: dict) -> list[str]:
+def _theory(deck, summary) -> list[str]:
     """Lines with the results of analytic models for a finished run."""
     from hydro2d.analytic import beside
 

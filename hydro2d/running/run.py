@@ -76,7 +76,7 @@ DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 COSTS = ("cycles_s", "compilation_s", "outputs_s", "set_up_s")
 
 #: function that makes lines from a deck and the summary of its run
-Theory = Callable[[Any, dict], list[str]]
+Theory = Callable[[Any, Summary], list[str]]
 
 #: sections of a deck that may differ when a run is continued
 FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived", "result")
@@ -84,13 +84,11 @@ FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived", "re
 
 def check_same_deck(now: str, before: str) -> None:
     """Raises RunError if two resolved decks differ in anything that affects the state."""
-    now, before = (tomllib.loads(text) for text in (now, before))
+    decks = [tomllib.loads(text) for text in (now, before)]
     new, old = ({**{table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")},
                  **{f"{path[1]}, its table": table["table_data"] for path, table in model_tables(data)
-                    if table.pop("table_from", "")}} for data in (now, before))
-    changed = sorted(
-        key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
-    )
+                    if table.pop("table_from", "")}} for data in decks)
+    changed = sorted(key for key in {*decks[0], *decks[1]} - {*FREE_SECTIONS} if decks[0].get(key) != decks[1].get(key))
     if changed:
         models = [f"the code of the model {name}" for name in sorted(new.keys() & old.keys()) if new[name] != old[name]]
         raise RunError(
@@ -177,9 +175,9 @@ class Run:
         kind = "compilation_s" if self.compiled and self.compiled.happened else "set_up_s"
         return self.spent | {kind: self.spent[kind] + self._first_calls()}
 
-    def theory(self, summary: dict) -> list[str]:
+    def theory(self, summary: Summary) -> list[str]:
         """Lines below the depth of a finished run."""
-        return self._theory(self.deck, summary) if self._theory and summary["status"] == "done" else []
+        return self._theory(self.deck, summary) if self._theory and summary.status == "done" else []
 
     def _history(self, rows: int, unwritten: dict[str, list[float]]) -> History:
         """The history to continue, with the rows that only the restart file has; a damaged file is renamed."""
@@ -204,7 +202,7 @@ class Run:
         """Seconds spent on the run, in this process and in earlier ones."""
         return self.wall_before + clock.perf_counter() - self.started
 
-    def execute(self, interrupt: Interrupt) -> dict:
+    def execute(self, interrupt: Interrupt) -> Summary:
         """Runs until there is a reason to stop. Returns the summary, which is also in summary.json."""
         self.report.begin(self)
         reason = self.sim.stop_reason()
@@ -363,7 +361,7 @@ class Run:
         attempts.conclude()
         raise error
 
-    def _finish(self, status: str, reason: str) -> dict:
+    def _finish(self, status: str, reason: str) -> Summary:
         """Writes the last outputs; if one fails, the others are still written.
 
         The summary comes last, and says that the run was interrupted if anything else could not be written. A restart file
@@ -375,7 +373,7 @@ class Run:
         with attempts.writing(self.directory / SUMMARY):
             summary = self.summary(*(("interrupted", attempts.failures) if attempts.failures else (status, reason)))
             remove(self.directory / PROGRESS)
-            write_json(self.directory / SUMMARY, summary)
+            write_json(self.directory / SUMMARY, summary.model_dump())
         attempts.conclude()
         with writing(self.directory / LOG):
             self.report.end(self, summary)
@@ -416,7 +414,7 @@ class Run:
             self.report.line(f"warning: {error}")
             return {}
 
-    def summary(self, status: str, reason: str) -> dict:
+    def summary(self, status: str, reason: str) -> Summary:
         """The contents of summary.json."""
         sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
         last = self._last_row(status) if sim.formulas or sim.own_results else {}
@@ -439,8 +437,7 @@ class Run:
             crater=next((target.crater for target in targets.values()), None), targets=targets,
             derived={name: last.get(name) for name in (*own, *sim.formulas)},
             bodies=sim.of_bodies(), stations=sim.stations.measure(),
-            experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance,
-        ).model_dump()
+            experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance)
 
 
 def models_from_outside(deck) -> list[dict]:
@@ -459,7 +456,7 @@ def experiment(deck) -> Experiment | None:
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
         interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None, second: bool | None = None,
-        theory: Theory | None = None) -> dict:
+        theory: Theory | None = None) -> Summary:
     """Runs a deck in a directory and returns its summary.
 
     deck : a resolved deck, from deck.load
@@ -496,8 +493,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             return this_run.execute(interrupt)
 
 
-def exit_status(summary: dict) -> int:
+def exit_status(summary: Summary) -> int:
     """0 for done, 3 for unphysical, 128 plus its number after a signal, as in shells."""
-    if summary["status"] == "interrupted":
-        return interrupts.status(summary["stop_reason"])
-    return UNPHYSICAL if summary["status"] == "unphysical" else DONE
+    if summary.status == "interrupted":
+        return interrupts.status(summary.stop_reason or "")
+    return UNPHYSICAL if summary.status == "unphysical" else DONE

@@ -84,6 +84,15 @@ def test_kept_rows_have_them(shot):
     assert set(hydro2d.kept_rows("kept.csv")[0].labels) == {"speed", "cells_across"}
 
 
+def test_the_file_lies_next_to_the_deck(shot, tmp_path, monkeypatch):
+    name = shot()
+    (elsewhere := tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(elsewhere)
+    assert decks.load(tmp_path / name).result["rim"].code_from == "rim.py"
+    with pytest.raises(DeckError, match=r"result\.rim\.file: .*rim\.py"):
+        decks.loads(DECK, ["result.rim.file=rim.py"])  # as of a command line, in the working directory
+
+
 def test_the_text_is_part_of_the_set_up(shot):
     one = decks.load(shot()).setup
     assert decks.load(shot(("height of", "the height of"))).setup != one

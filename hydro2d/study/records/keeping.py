@@ -13,7 +13,7 @@ import csv
 import io
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -30,6 +30,7 @@ from hydro2d.files.whole import read_text, write_text
 from hydro2d.measure.outcome import AT_LEAST, AT_MOST, COMPUTED, CUT, EXACT, NONE, Outcome, rested
 from hydro2d.measure.regime import LEFT, REGIMES
 from hydro2d.measure.result import is_number
+from hydro2d.measure.summary import Provenance, Summary
 from hydro2d.output.directory import DECK
 from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import StudyError
@@ -142,22 +143,18 @@ def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
     return {head: value if isinstance(value, str) else repr(value) for head, value in inputs.items()}
 
 
-def results(summary: Mapping) -> dict[str, object]:
+def results(summary: Summary) -> dict[str, object]:
     """The results of a summary by the names of RESULTS, SI; None for those that it does not have."""
-    outcome = summary.get("outcome") or {}
-    values = {name: summary.get(name) for name in RESULTS}
-    values |= {name: outcome.get(name) for name in Outcome.model_fields}
-    values |= {"tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
-               "hole_m3": (summary.get("crater") or {}).get("volume_m3")}
+    values = dict(summary) | dict(summary.outcome or Outcome())
+    values |= {"tail_velocity_m_s": summary.rod_tail_velocity_m_s, "hole_m3": summary.crater and summary.crater.volume_m3}
     return {name: values[name] for name in RESULTS}
 
 
-def origin(summary: Mapping) -> dict[str, str | None]:
+def origin(summary: Summary) -> dict[str, str | None]:
     """The set-up, the version of the method, the commit and the date of a run by the names of ORIGIN."""
-    about = summary.get("provenance") or {}
-    commit = (about.get("git_commit") or "")[:LETTERS] + ("+" if about.get("git_dirty") else "")
-    return {SETUP: summary.get(SETUP), OF_METHOD: summary.get(OF_METHOD), "commit": commit,
-            "date": (about.get("written") or "")[:10]}
+    about = summary.provenance or Provenance()
+    commit = (about.git_commit or "")[:LETTERS] + ("+" if about.git_dirty else "")
+    return {SETUP: summary.setup, OF_METHOD: summary.method, "commit": commit, "date": (about.written or "")[:10]}
 
 
 def _text(value) -> str:

@@ -146,13 +146,13 @@ class Record:
     def outcome(self) -> Outcome:
         """What the shot came to: by its summary, or before its end by the last row of the history; empty without a shot."""
         summary = self.case.summary
-        if (known := summary.get("outcome")) is not None:
-            return Outcome(**known)
+        if summary.outcome is not None:
+            return summary.outcome
         if self.setup is None or self.velocity is None:
             return Outcome()
-        measured = {**self.last, **{name: value for name, value in summary.items() if value is not None}}
+        measured = {**self.last, **{name: value for name, value in summary if value is not None}}
         return outcome.of(Projectile(**{name: measured.get(name) for name in Projectile.model_fields}), status=self.case.status,
-                          stop_reason=summary.get("stop_reason") or "", impact_velocity=self.velocity,
+                          stop_reason=summary.stop_reason or "", impact_velocity=self.velocity,
                           thickness=self.setup.thickness, dropped=None)
 
     @property
@@ -164,9 +164,9 @@ class Record:
             return "no summary"
         if self.outcome.final is not False:
             return ""
-        moving = abs(self.case.summary.get("rod_core_velocity_m_s") or 0.0)
+        moving = abs(self.case.summary.rod_core_velocity_m_s or 0.0)
         speed = f"{moving:.0f}" if moving >= WHOLE_SPEED else f"{moving:.3g}"
-        return f"reached its {self.case.summary['stop_reason']}, still moving at {speed} m/s"
+        return f"reached its {self.case.summary.stop_reason}, still moving at {speed} m/s"
 
     @property
     def cut(self) -> bool:
@@ -177,7 +177,7 @@ class Record:
     def numbers(self) -> dict[str, float]:
         """Every number of the summary by dotted name, SI, or of the last row of the history without a summary; and ratios."""
         values = {self._as_in_summary(name): value for name, value in self.last.items()}
-        values |= flatten({key: value for key, value in self.case.summary.items() if key != "provenance"})
+        values |= flatten(self.case.summary.model_dump(exclude={"provenance"}, exclude_unset=True))
         values = {name: value for name, value in values.items() if is_number(value)}
         for what, of in (("length", "rod_length_m"), ("radius", "rod_max_radius_m")):
             first = values.get(f"rod_initial_{what}_m")
@@ -239,7 +239,7 @@ class Record:
 
     def value(self, name: str):
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
-        result = self.case.summary.get(name)
+        result = self.case.summary[name]
         return result if result is not None else self.last.get(name)
 
 

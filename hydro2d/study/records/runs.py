@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hydro2d.deck import deck as decks
 from hydro2d.files.csv_tables import flag, number, whole
 from hydro2d.measure.result import is_number, unit
 from hydro2d.output.directory import STUDY
@@ -14,7 +13,7 @@ from hydro2d.study.plan import sampling
 from hydro2d.study.plan.planned import short
 from hydro2d.study.records import keeping, study_directory
 from hydro2d.study.records.differences import flatten
-from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS, SETUP
+from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS
 from hydro2d.study.records.study_directory import Case, Study
 
 if TYPE_CHECKING:
@@ -93,10 +92,7 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     if case.status not in keeping.ENDED:
         return row
     summary = case.summary
-    if summary.get(SETUP) is None and case.deck:  # of version 0.3
-        deck = decks.of_tables(case.deck)
-        summary = summary | {SETUP: deck.setup, CELLS: deck.cells_across}
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
-    return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
+    return {**row, CELLS: summary.cells_across, **keeping.results(summary),
             **{name: value for name, value in numbers.items() if name.startswith(keeping.DEFINED)},
             **{name: numbers.get(name) for name in more}, **keeping.origin(summary)}

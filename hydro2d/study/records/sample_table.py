@@ -74,7 +74,7 @@ def _results(case: Case, kept: Row | None, more: Sequence[str]) -> Row:
     row[PERFORATED] = None if row[PERFORATED] is None else YES if row[PERFORATED] else NO
     numbers = {name: value for name, value in flatten(summary).items() if is_number(value)}
     others = [name for name in numbers if name.startswith(keeping.DEFINED)]
-    if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
+    if row["depth_m"] is None and (body := next(iter(summary.bodies), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
     row = {STATUS: case.status} | row
     return row | {name: numbers.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from hydro2d.base.formats import cell
 from hydro2d.measure.outcome import ratio
 from hydro2d.measure.result import unit
+from hydro2d.measure.summary import Conservation, Summary
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Choice, is_velocity, raw, response
@@ -61,7 +62,7 @@ def _name_of(axis: Axis, row: Row) -> str:
 def _results(record: Record) -> Row:
     outcome = record.outcome
     return {
-        "time_s": record.case.summary.get("time_s", record.last.get("time")),
+        "time_s": record.case.summary.time_s if record.case.summary else record.last.get("time"),
         "depth_m": outcome.depth_m,
         "depth_is": outcome.depth_is,
         "rod_length_m": record.value("rod_length_m"),
@@ -93,26 +94,25 @@ def _compared(record: Record, measurement: Measurement | None) -> Row:
     return dict(zip(names, values, strict=True)) | residual
 
 
-def _audit(summary: dict) -> Row:
+def _audit(summary: Summary) -> Row:
     """The largest relative changes, and the energy of every sink as a fraction of the energy at the start."""
-    audit = summary.get("conservation") or {}
-    masses = [change for change in (audit.get("mass") or {}).values() if change is not None]
+    audit = summary.conservation or Conservation()
+    masses = [change for change in audit.mass.values() if change is not None]
     row: Row = {
         "mass_change_worst": max(masses, key=abs, default=None),
-        "momentum_change": audit.get("axial_momentum"),
-        "energy_change": audit.get("total_energy"),
+        "momentum_change": audit.axial_momentum,
+        "energy_change": audit.total_energy,
     }
-    start = audit.get("start_energy_J")
-    for name, amounts in (audit.get("sinks") or {}).items():
-        row[f"sink_{name}_share"] = ratio(amounts.get("energy_J"), start)
+    for name, amounts in audit.sinks.items():
+        row[f"sink_{name}_share"] = ratio(amounts.energy_J, audit.start_energy_J)
     return row
 
 
 def _cost(record: Record) -> Row:
     summary = record.case.summary
-    row: Row = {name: summary.get(name) for name in ("cycles", "cells", "wall_s", "ns_per_cell_cycle")}
+    row: Row = {name: summary[name] for name in ("cycles", "cells", "wall_s", "ns_per_cell_cycle")}
     row["cycles"] = record.value("cycles") if row["cycles"] is None else row["cycles"]
-    return row | {"version": summary.get("version"), "directory": str(record.case.directory)}
+    return row | {"version": summary.version, "directory": str(record.case.directory)}
 
 
 def with_responses(table: Sequence[Row], records: Sequence[Record], choice: Choice) -> list[Row]:

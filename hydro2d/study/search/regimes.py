@@ -55,27 +55,27 @@ class Run:
         return {
             "case": case.name, "velocity_m_s": self.velocity, "status": case.status, "regime": self.regime,
             "reason": self.reason, "depth_m": self.record.depth, "perforated": self.record.perforated,
-            **{name: summary.get(name) for name in names},
+            **{name: summary[name] for name in names},
             "residual_velocity_m_s": self.record.outcome.residual_velocity_m_s,
-            "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.get("stop_reason"),
+            "rod_first_mass_kg": self.record.first.get("rod_mass_kg"), "stop_reason": summary.stop_reason,
         }
 
     def row(self) -> tuple[str, ...]:
         """Velocity, regime, depth; length, radius and core mass relative to their initial values; and how the run ended."""
-        value, first = self.record.case.summary.get, self.record.first.get("rod_mass_kg")
+        summary, first = self.record.case.summary, self.record.first.get("rod_mass_kg")
         depth = "" if self.record.depth is None else f"{_at_least(self)}{100 * self.record.depth:.2f} cm"
         return (
             f"{self.velocity:g} m/s", self.regime or self.record.case.status, depth,
-            _share(value("rod_length_m"), value("rod_initial_length_m")),
-            _share(value("rod_max_radius_m"), value("rod_initial_radius_m")),
-            _share(value("rod_core_mass_kg"), first), self.reason or self._end(),
+            _share(summary.rod_length_m, summary.rod_initial_length_m),
+            _share(summary.rod_max_radius_m, summary.rod_initial_radius_m),
+            _share(summary.rod_core_mass_kg, first), self.reason or self._end(),
         )
 
     def _end(self) -> str:
         """How the run ended, and the residual velocity after a perforation."""
-        value = self.record.case.summary.get
-        left = value("rod_residual_velocity_m_s")
-        return str(value("stop_reason") or "") + ("" if left is None else f", {left:.0f} m/s left")
+        summary = self.record.case.summary
+        left = summary.rod_residual_velocity_m_s
+        return (summary.stop_reason or "") + ("" if left is None else f", {left:.0f} m/s left")
 
 
 HEADS = ("velocity", "regime", "depth", "length", "radius", "core mass", "end")
