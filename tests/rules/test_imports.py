@@ -183,6 +183,7 @@ def users(library: str) -> set[str]:
         ("jinja2", ("hydro2d.study.report.page",)),
         ("pandas", ("hydro2d.study.records.runs", "hydro2d.api", "hydro2d.output.history")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
+        ("hydro2d.penetration", ("hydro2d.penetration", "hydro2d.analytic")),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver.method", "hydro2d.solver.contact_ties",
                              "hydro2d.solver.following", "hydro2d.solver.cycle", "hydro2d.solver.given",
                              "hydro2d.measure.sanity", "hydro2d.solver.sources", "hydro2d.running.bench")),

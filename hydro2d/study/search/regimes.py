@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 from hydro2d.analytic import model_transition, models
+from hydro2d.analytic.catalogue import InputError
 from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_json
-from hydro2d.penetration.model import InputError
 from hydro2d.study.outcomes import perforation
 from hydro2d.study.outcomes.base import FALL, LIMIT
 from hydro2d.study.outcomes.regime import Regime
