@@ -375,7 +375,7 @@ def _bars(summary: Summary) -> list[str]:
             continue
         if body.outflow_kg > 0.0:
             continue
-        ends = body.radius_at_z_min_m, body.radius_at_z_max_m
+        ends = [body[f"radius_at_z_{end}_m"] for end in ("min", "max")]
         lines.append(f"{f'{name} length':<21} {length * 1e3:.2f} mm of {first * 1e3:.2f} mm, {length / first:.3f}; "
                      f"radius {max(ends) * 1e3:.2f} mm at the wider end, {min(ends) * 1e3:.2f} mm at the other")
     return lines
