@@ -25,7 +25,8 @@ DECKS = {"slip-layer": text_of("both", LAYER), "contact": text_of("both", CONTAC
 
 
 #: phases of every cycle of these decks
-EVERY_CYCLE = {"close_cells", "accelerate", "deform", "deform_mixed", "list_mixed", "carry_bodies", "find_masses", "carry_momentum"}
+EVERY_CYCLE = {"close_cells", "accelerate", "deform", "deform_mixed", "list_mixed", "carry_bodies", "find_masses",
+               "carry_momentum"}
 
 
 class Seen(threading.local):

@@ -28,14 +28,6 @@ from tests.kernels.cells import Cells, lines
 ROWS = slice(2, 6)
 
 
-def test_a_vertex_has_a_quarter_of_every_cell_around():
-    cells = Cells()
-    cells.cell_mass[0, 3, 3:5] = 4.0, 8.0
-    cells.call(vertex_forces.vertex_masses, i1=7)
-    assert cells.mass[0, 3, 2:7].tolist() == cells.mass[0, 4, 2:7].tolist() == [0, 1, 3, 2, 0]
-    assert cells.mass.sum() == 12.0
-
-
 def test_a_vertex_of_revolution_has_more_of_the_cell_inside_of_it():
     """From r = 1 to 2 m: (2 r1 + r2)/(6 (r1 + r2)) = 2/9 of the cell at an inner vertex, 5/18 at an outer one."""
     cells = Cells(geometry="cylindrical")
@@ -100,28 +92,6 @@ def accelerated(pushed: np.ndarray = NOTHING, **fields) -> Cells:
     return cells
 
 
-def test_a_pressure_pushes_the_corners_of_its_cell_apart():
-    """8 Pa on half of a face of 1 m^2, on either side of a corner: 4 N each way."""
-    cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, 0.4], [-0.4, 0.4]]))
-    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, -0.4], [0.4, 0.4]]))
-    assert np.count_nonzero(cells.u) == 4
-
-
-def test_shear_turns_a_cell():
-    cells = accelerated(sig_rz=8.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, 0.4], [-0.4, -0.4]]))
-    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, -0.4], [0.4, -0.4]]))
-
-
-def test_the_filter_works_against_the_hourglass():
-    """40 N on 1 kg in 0.1 s, against u0 - u1 + u2 - u3 > 0."""
-    cells = accelerated(filter_r=40.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-4, 4], [4, -4]]))
-    assert not cells.v.any()
-    assert accelerated(filter_z=40.0).v[0, 3:5, 3:5] == pytest.approx(np.array([[-4, 4], [4, -4]]))
-
-
 def pushes_of(mode) -> np.ndarray:
     """What the filters of cells of 1 kg and 10 kg/s push with along r where mode[j, i] (m/s) is their hourglass mode."""
     cells = Cells()
@@ -160,27 +130,12 @@ def limited(**given) -> Cells:
     return cells
 
 
-def test_the_speed_of_a_thinly_filled_node_is_limited():
-    """The energy is that of the mean velocity of the step."""
-    cells, end = limited(), 0.2 / np.sqrt(2.0)
-    assert cells.u[0, 3, 3:5] == pytest.approx([-end, end])
-    assert cells.limited[:, 3] == pytest.approx([2 * (end - 0.4), 2 * (0.4 - end) * end, 2.0])
-
-
 def test_a_limited_node_ends_the_step_with_the_velocity_that_an_edge_gives():
     """Column 3 is fixed and row 4 moves at 0.5 m/s: of each row one component of one node ends as limited."""
     end = 0.2 / np.sqrt(2.0)
     cells = limited(constrained=lines(3, -1, -1, 4), edge_velocity=np.array([0.0, 9.0, 9.0, 0.5, 0.0, 0.0, 0.0, 0.0]))
     assert cells.limited[:, 3] == pytest.approx([2 * (end - 0.4), 0.5 * (0.4 - end) * (0.0 + end + 2 * end), 2.0])
     assert cells.limited[:, 4] == pytest.approx([2 * (0.4 - end), 0.5 * (0.4 - end) * (0.0 + end + 2 * 0.5), 2.0])
-
-
-def test_a_limited_node_ends_the_step_with_the_velocity_along_a_held_edge():
-    """Column 3 is held with 0.5 m/s along z, row 4 with 0 along r: one component of one node each, and one of both."""
-    end = 0.2 / np.sqrt(2.0)
-    cells = limited(constrained=lines(along=(3, -1, -1, 4)), edge_velocity=np.array([0.0, 0.0, 0.0, 0.0, 0.5, 9.0, 9.0, 0.0]))
-    assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (2 * end - 0.5 + end))
-    assert cells.limited[1, 4] == pytest.approx(0.5 * (0.4 - end) * (0.5 + end + 0.0 + 0.0))
 
 
 def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave():
@@ -286,12 +241,6 @@ def test_the_aperture_of_a_face_is_a_mean_whatever_the_weights_add_up_to(left, r
     assert cells.aperture_z[:, 4, 4].tolist() == [0.5, 0.5]  # along z both cells are alike
 
 
-def test_a_cell_of_both_groups_without_void_has_the_face_to_a_gap_for_itself():
-    assert void_and_void(0.0, 0.0).aperture_r[:, 3, 5] == pytest.approx([0.35, 0.35])
-    assert void_and_void(0.0, 0.3).aperture_r[:, 3, 5].tolist() == [0.5, 0.5]
-    assert void_and_void(0.3, 0.0).aperture_r[:, 3, 5].tolist() == [0.2, 0.2]
-
-
 def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
     cells = halves()
     cells.p[...], cells.bulk[...], cells.rate[...], cells.ph[...] = 100.0, 50.0, 1.0, 70.0
@@ -323,22 +272,6 @@ def test_viscosity_answers_to_the_one_rate_of_volume():
     assert step[6] == 1e300
 
 
-def test_a_full_cell_whose_groups_part_is_given_room():
-    cells = halves()
-    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = cells.solid[...] = 1.0
-    cells.u[0] = 1.0  # the soft body leaves the hard one
-    seen(cells)
-    assert cells.skin[KIND, 3, 4] == WHOLE  # both were in this cell before: `find_surfaces` has handled it
-    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == WHOLE  # they have only the cell of both next to them
-    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[1.0], [0.0]], 0.0, 1.0
-    seen(cells)
-    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 4] == INTERFACE
-    assert cells.vof[0, 3, 4] == cells.solid[3, 4] == 1.0 - SEED
-    assert cells.q[RHO, 0, 3, 4] == 1.0 / (1.0 - SEED)
-    assert cells.mixed_count[3] == 2
-    assert cells.mixed[3, :2].tolist() == [3, 4]
-
-
 def parting(soft: float, pressure: float, dt: float, closing: float = 0.0) -> list[bool]:
     """Whether the full cells on either side of the surface, of hard and of soft body, get a seed of void in a step.
 
@@ -355,31 +288,9 @@ def parting(soft: float, pressure: float, dt: float, closing: float = 0.0) -> li
     return (cells.solid[3, 3:5] == 1.0 - SEED).tolist()
 
 
-def test_a_seed_is_given_to_a_cell_that_would_be_under_tension_after_the_step():
-    """K = 1 Pa: at a pressure of 0.5 Pa after half a second; the hard cell, which does not grow, keeps its pressure."""
-    assert parting(1.0, 0.5, 0.499) == [False, False]
-    assert parting(1.0, 0.5, 0.501) == [False, True]
-    assert parting(1.0, 0.0, 0.0) == [True, True]
-    assert parting(1.0, -0.1, 0.5) == [True, True]
-
-
 def test_a_cell_whose_volume_falls_gets_no_seed_before_its_pressure_is_gone():
     assert parting(1.0, 1e-6, 0.5, closing=3.0) == [False, False]
     assert parting(1.0, -1e-6, 0.5, closing=3.0) == [True, True]
-
-
-def test_groups_that_do_not_part_get_no_seed():
-    for soft in (0.0, -1.0):
-        assert parting(soft, -1.0, 0.5) == [False, False]
-
-
-def test_a_gap_next_to_the_other_group_is_no_free_surface():
-    cells = halves()
-    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = 1.0
-    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[0.9], [0.0]], 0.0, 0.9
-    cells.skin[KIND, 3, 4], cells.solid[...] = FREE_SURFACE, 0.9
-    seen(cells)
-    assert cells.skin[KIND, 3, 4] == INTERFACE
 
 
 def pushed(**given) -> Cells:
@@ -404,14 +315,6 @@ def test_pressure_acts_on_each_group_by_its_aperture():
     assert both.v[:, 3, 4] == pytest.approx([0.0, -7.0])
     constrained_cells = pushed(constrained=lines(4, -1, -1, -1))
     assert constrained_cells.u[:, 3, 4].tolist() == [0.0, 0.0]
-
-
-def test_deviators_of_a_group_act_on_it_alone():
-    """s_rz = 6 Pa of the hard body left of the nodes pulls them along z: -(-1/2 * 1 * 6) N from each of two cells."""
-    cells = halves()
-    cells.q[SRZ, 1, :, :4] = 6.0
-    cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False, pushed=NOTHING)
-    assert cells.v[:, 3, 4] == pytest.approx([0.0, -0.1 * 6.0 / 3.0])
 
 
 def test_both_ways_of_summing_the_corner_forces_agree():

@@ -35,7 +35,7 @@ from hydro2d.kernels.mixed_scratch import (
     ZZ,
 )
 from hydro2d.kernels.mixed_strength import MATERIAL, MAX, SOLID, VOLUME, ZERO
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.materials.rows import DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
 from strength import STRENGTH_MODELS
 from tests.kernels.cells import Cells
@@ -153,18 +153,6 @@ def filled(cell: Cell, **given) -> Cell:
     return cell
 
 
-def test_each_body_takes_the_work_of_its_own_pressure_and_the_rest_goes_by_mass():
-    """Strains of -0.16 and -0.04 at 10 + 8 and 20 + 8 Pa: 1.44 and 0.56 J; what is left of 1.5 J, by 1 and 4 kg."""
-    cell = Cell()
-    cell.mix[2, HEAT], cell.pm[:, *AT] = (0.01, 0.02), (10.0, 20.0)
-    filled(cell)
-    assert cell.vof[:, *AT] * 0.9 == pytest.approx([0.42, 0.48])
-    assert cell.q[RHO, :, *AT] == pytest.approx([1.0 / 0.42, 4.0 / 0.48])
-    heat = [1.44 - 0.2 * 0.5 + 0.01, 0.56 - 0.8 * 0.5 + 0.02]
-    assert cell.q[E, :, *AT] == pytest.approx([1 + heat[0], 1 + heat[1] / 4])
-    assert sum(heat) == pytest.approx(1.5 + 0.03)
-
-
 def test_pressures_relax_by_changes_of_volume_that_sum_to_zero():
     """Half of -2/100 and 8/400, at 10 + 0.5 and 20 - 2 Pa; what these do not take from each other goes by mass."""
     cell = Cell()
@@ -173,28 +161,6 @@ def test_pressures_relax_by_changes_of_volume_that_sum_to_zero():
     assert cell.vof[:, *AT] == pytest.approx([0.495, 0.505])
     left = 0.5 * 0.01 * (18.0 - 10.5)
     assert cell.q[E, :, *AT] == pytest.approx([1 + 10.5 * 0.005 + 0.2 * left, 1 + (-18.0 * 0.005 + 0.8 * left) / 4])
-
-
-def test_no_body_is_pressed_below_half_of_its_volume():
-    cell = filled(Cell(), change=-0.5, relaxation=0.0)
-    assert cell.vof[:, *AT] * 0.5 == pytest.approx([0.25, 0.4])
-
-
-def test_a_cell_without_change_keeps_its_bits():
-    cell = Cell()
-    cell.vof[:, *AT], cell.pm[:, *AT] = (1 / 3, 2 / 3), 12.0
-    filled(cell, change=0.0, work=0.0)
-    assert cell.vof[:, *AT].tolist() == [1 / 3, 2 / 3]
-    assert cell.q[[RHO, E], :, *AT].tolist() == [[2, 8], [1, 1]]
-
-
-def test_a_sliver_of_thin_gas_takes_only_its_share_of_an_expansion():
-    """1e-3 of gas at 1 Pa beside 0.999 at 1e4 Pa: as stiff as the cell presses, it grows by as much as its neighbour allows."""
-    cell = Cell()
-    cell.vof[:, *AT], cell.pm[:, *AT], cell.km[:, *AT] = (1e-3, 0.999), (1.0, 1e4), (1.4, 1.4e4)
-    filled(cell, change=0.02, work=-197.0)
-    assert cell.vof[0, *AT] * 1.02 < 1.04e-3
-    assert cell.q[E, 0, *AT] == pytest.approx(1.0, abs=0.2)
 
 
 def test_the_whole_step_of_a_cell_of_two_gases():
@@ -305,13 +271,6 @@ def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
     cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME)
     assert cell.mix[2, [TRIAL_RR, TRIAL_ZZ], 0] == pytest.approx([-1, 2])
     assert cell.mix[2, ALONG, 0] == pytest.approx(-1)
-
-
-def test_failed_or_thin_material_has_no_yield_stress():
-    cell = Cell(strong=True)
-    cell.q[DMG, 0, *AT], cell.known["materials"][1, CUTOFF_DENSITY] = 2.0, 8.0
-    assert cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME) == 0.0
-    assert cell.mix[2, YIELD].tolist() == [0.0, 0.0]
 
 
 def test_bodies_are_strained_across_by_what_their_traction_needs():

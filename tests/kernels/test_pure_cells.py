@@ -71,26 +71,6 @@ def test_a_cell_has_the_linear_viscosity_that_its_last_step_carries():
     assert cells.qz[AT] == pytest.approx(2.0 * (2.0 * 4.0 + 0.26 / 1.4 * np.sqrt(7.5) * 2.0))
 
 
-def test_another_bound_of_the_step_is_kept():
-    """For example that of a contact, which is in row_step when the cells are processed."""
-    cells = closed(gas())
-    cells.row_step[3] = 0.01
-    limit(cells)
-    assert cells.row_step[3] == 0.01
-
-
-@pytest.mark.parametrize("along", ["u", "v"])
-def test_viscosity_acts_along_the_strongest_compression_alone(along):
-    """And the hoop direction gets none of it."""
-    cells = gas()
-    velocity = getattr(cells, along)[0]
-    velocity[(slice(None), slice(4, None)) if along == "u" else slice(4, None)] = -2.0
-    closed(cells)
-    q = pytest.approx(2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0))
-    assert (cells.qr[AT], cells.qz[AT]) == ((q, 0.0) if along == "u" else (0.0, q))
-    assert (cells.qt[AT], cells.qrz[AT]) == (0.0, 0.0)
-
-
 def test_an_oblique_shock_meets_the_same_viscosity_as_one_along_the_mesh():
     """The velocity along n = (1, 1)/sqrt 2 falls by 2 m/s in 1 m along n, half as steeply beside: psi = 1/2, du = -2 m/s."""
     cells = gas()
@@ -101,13 +81,6 @@ def test_an_oblique_shock_meets_the_same_viscosity_as_one_along_the_mesh():
     q = 0.5 * 2.0 * (2.0 * jump * jump + 0.5 * np.sqrt(7.5) * jump)
     assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == pytest.approx((q / 2, q / 2, q / 2))
     assert cells.qt[AT] == 0.0
-
-
-def test_shear_alone_has_no_viscosity():
-    cells = gas()
-    cells.u[0, 4:] = 3.0
-    closed(cells)
-    assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == (0.0, 0.0, 0.0)
 
 
 def test_cells_that_are_not_finite_are_counted():

@@ -8,9 +8,8 @@ from hydro2d.kernels import momentum, remap
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, stop, table, walls
 from tests.kernels.cells import handle
-from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces, tidy
+from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces
 from tests.kernels.test_interfaces import by_stream_function, carry, in_a_box, vortex
-from tests.physics.continuity import changes_in_proportion, largest_jump
 
 GEOMETRIES = ("cylindrical", "planar")
 
@@ -190,39 +189,6 @@ def test_passive_velocity_by_kinetic_energy(profile, gained):
     assert np.sum(after) / np.sum(first) == pytest.approx(gained, abs=5e-3)
 
 
-def test_a_cell_with_a_little_of_another_body_is_not_full():
-    """Scaling a cell that is a little too full takes the small body below the cutoff: if the rest were then called full, the
-    cell would count as pure and as mixed, and be deformed twice."""
-    e = engine(WITH_VOID)
-    s = e.state
-    j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    limit = e.method.numerics.cutoff
-    s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 2.0003 * limit), 2770.0
-    mass = s.vof[:, j, i] * s.rho[:, j, i]
-    tidy(e)
-    assert s.vof[1, j, i] == pytest.approx(2.0 * limit, rel=1e-3)
-    assert 1.0 - 3.0 * limit < s.vof[0, j, i] < 1.0
-    assert s.vof[:, j, i] * s.rho[:, j, i] == pytest.approx(mass, rel=1e-12)
-
-
-@pytest.mark.parametrize("shares", [1.0, 2.0])
-def test_a_small_share_goes_without_a_jump(shares):
-    """At the cutoff none of it remains, at twice that all of it; masses and the amount removed add up."""
-    kept_share = remap.kept_share.py_func
-    changes_in_proportion(lambda x: kept_share(x, 0.005), 0.005 * shares, 3.0)
-    assert kept_share(0.005, 0.005) == kept_share(-1.0, 0.005) == kept_share(-1.0, 0.0) == 0.0
-    assert kept_share(0.01, 0.005) == 0.01
-    e = engine(WITH_VOID)
-    s = e.state
-    j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    small = 0.75 * shares * 2.0 * e.method.numerics.cutoff
-    s.vof[:, j, i], s.rho[1, j, i] = (1.0 - small, small), 2770.0
-    tidy(e)
-    left = s.vof[1, j, i]
-    assert left == pytest.approx(kept_share(small, e.method.numerics.cutoff), rel=1e-7, abs=0.0)
-    assert s.removed[5, j] == pytest.approx((small - left) * 2770.0 * e.grid.volume[j, i], rel=1e-7, abs=0.0)
-
-
 def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.ndarray:
     """Mass, energy and a stress that flow through the faces of a row in which a body fills one cell only in part."""
     columns = 12
@@ -239,13 +205,6 @@ def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.nd
                            pre_sweep_volume=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0,
                            vof=vof, q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
     return flux[:, 0, 0]
-
-
-@pytest.mark.parametrize("swept", [0.2, -0.2])
-@pytest.mark.parametrize("share", [1.0, remap.FILLED])
-def test_the_second_order_goes_by_degrees_where_a_cell_is_not_full(swept, share):
-    changes_in_proportion(lambda filled: carried_along(filled, swept), share, 20.0, sides=(-1.0,))
-    assert largest_jump(lambda filled: carried_along(filled, swept), 0.5, 1.0) < 1e-11
 
 
 def test_second_order_where_the_body_fills_the_cells_around_and_first_order_next_to_others():
