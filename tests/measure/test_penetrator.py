@@ -13,9 +13,7 @@ from hydro2d.measure.regime import (
     ERODED_LENGTH,
     ERODED_MASS,
     ERODING,
-    GROWING,
     LEFT,
-    REGIMES,
     RIGID,
     RIGID_LENGTH,
     RIGID_RADIUS,
@@ -408,8 +406,3 @@ def test_a_restart_remembers_the_exit():
     again = restarted(sim)
     assert again.diagnostics() == sim.diagnostics()
     assert again.restart_scalars() == sim.restart_scalars()
-
-
-def test_the_word_is_known_to_the_history():
-    assert REGIMES.index(LEFT) == 3
-    assert REGIMES[:3] == GROWING == ("rigid", "deforming", "eroding")

@@ -10,7 +10,7 @@ from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.kernels import lagrangian_step, names, remap_step
 from hydro2d.mesh.fields import Work
-from hydro2d.solver.contact_ties import Ties, slots
+from hydro2d.solver.contact_ties import slots
 from hydro2d.solver.first_cycle import calls_of_a_cycle
 from hydro2d.solver.given import Given, values
 from hydro2d.solver.simulation import Simulation
@@ -52,10 +52,6 @@ def owner(**attributes) -> tuple[SimpleNamespace, list[Work]]:
     return SimpleNamespace(**attributes), [Work(symbol, "", "") for symbol in attributes]
 
 
-def test_values_are_those_of_the_owners():
-    assert values(owner(courant=0.7), owner(friction=0.1, refresh=5)) == {"courant": 0.7, "friction": 0.1, "refresh": 5}
-
-
 def test_a_name_that_its_owner_does_not_have_is_refused():
     with pytest.raises(AttributeError, match="couratn"):
         values(owner(courant=0.7), (SimpleNamespace(courant=0.7), [Work("couratn", "", "")]))
@@ -75,10 +71,6 @@ def test_numbers_of_the_deck_are_those_of_its_sections():
         stated = {key: value for key, value in section.model_dump().items()
                   if isinstance(value, (float, int)) and key not in ("boundary_layer", "slip_layer", "yield_factor")}
         assert {name.symbol: getattr(handle, name.symbol) for name in names.NUMBERS[type(section)]} == stated
-
-
-def test_ties_are_those_of_the_table():
-    assert tuple(name.symbol for name in names.TIES) == Ties._fields
 
 
 @every_deck
