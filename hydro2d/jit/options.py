@@ -1,6 +1,6 @@
 """Options of numba and LLVM, and the changes to numba's internals that they need.
 
-tests/jit/test_jit.py has the private names of numba that are used.
+tests/jit/test_jit.py names the internals that numba does not promise to keep.
 """
 
 from __future__ import annotations

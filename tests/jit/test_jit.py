@@ -104,7 +104,7 @@ def test_the_names_of_handles_are_among_the_sources_of_every_phase():
         assert {"hydro2d/kernels/names.py", "hydro2d/mesh/fields.py"} <= seen, phase.__name__
 
 
-#: private names of numba on which hydro2d relies; other features that numba does not promise to keep are looked up on import
+#: what numba does not promise to keep: private names on which hydro2d relies
 RELIED_ON = {"_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals", "_verify_declare_only_symbols",
              "_Cache", "_reduce", "_rebuild", "_fields", "_nrt"}
 

@@ -132,24 +132,6 @@ def test_outflow_through_either_face_is_removed_at_its_place_in_the_strip(dj):
         assert cells.centroid[1 - dj, 0, 3, 3] == pytest.approx(-0.01, abs=1e-15)
 
 
-@pytest.mark.parametrize("dj", [0, 1])
-def test_in_cells_of_a_contact_a_body_moves_with_its_group(dj):
-    """The face is at rest; the body's group moves forward by a tenth of a cell, the other one back by two tenths."""
-    cells = Cells(bodies=2, group=[1, 0])
-    cells.pre_sweep_volume[...] = 1.0
-    cells.vof[:, 3, 3] = 0.3, 0.4
-    cells.centroid[dj, :, 3, 3] = -0.3, 0.2
-    cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
-    own = np.array([-0.2, 0.1])[:, None, None] * np.ones(cells.fr.shape)
-    columns = np.zeros((cells.vof.shape[1], 2), dtype=np.int64)
-    carry(cells, dj, own=own, contact_columns=columns)
-    np.testing.assert_allclose(cells.centroid[dj, :, 3, 3], [-0.3, 0.2], atol=1e-15)
-    columns[3] = 3, 4
-    carry(cells, dj, own=own, contact_columns=columns)
-    np.testing.assert_allclose(cells.centroid[dj, :, 3, 3], [-0.2, 0.0], atol=1e-15)
-    assert not cells.centroid[1 - dj].any()
-
-
 def test_sizes_and_volumes_of_a_cell_around_a_sweep():
     """After the first of two sweeps the faces give the size of a cell, after the second it is that of the mesh."""
     face = np.zeros((4, 4))
@@ -197,14 +179,6 @@ def pushed(before, after, where, axis) -> np.ndarray:
 
 
 AXES = pytest.mark.parametrize("axis", [0, 1])
-
-
-@AXES
-@pytest.mark.parametrize("where", [-0.2, 0.0, 0.3])
-def test_a_body_in_the_midst_of_void_grows_into_either_gap_in_proportion(where, axis):
-    """It fills 0.2; the gaps on either side, of 0.4 - where and 0.4 + where, shrink by a tenth."""
-    offsets = pushed([0.2], [0.28], [where], axis)
-    assert offsets == pytest.approx([0.9 * where], abs=1e-15)
 
 
 @AXES

@@ -72,15 +72,6 @@ def test_a_checkerboard_of_a_deviator_fades_by_its_share(row):
     assert inner(block.q[row, 1] / block.sign) == pytest.approx(1e9 * (1 - SHARE), rel=1e-12)
 
 
-def test_a_checkerboard_of_pressure_fades_by_its_share():
-    """By the volume that its cells gain and lose; each does work on its neighbours at their mean pressure."""
-    block = Block()
-    block.pm[1] = 3e9 + 1e9 * block.sign
-    block.fade()
-    assert inner(block.pm[1] - BULK * block.grown) == pytest.approx(inner(3e9 + (1 - SHARE) * 1e9 * block.sign), rel=1e-12)
-    assert inner(block.q[E, 1]) == pytest.approx(inner(-3e9 * block.grown / DENSITY), rel=1e-9)
-
-
 @pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
 def test_volume_and_energy_stay(geometry):
     """For any stress: one cell gains what another one loses."""

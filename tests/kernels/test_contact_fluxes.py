@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels.contact.contact_volumes import BLEND_RANGE, contact_fluxes, contact_shares
+from hydro2d.kernels.contact.contact_volumes import contact_fluxes
 from tests.kernels.cells import handle
-from tests.physics.continuity import changes_in_proportion, largest_jump
+from tests.physics.continuity import changes_in_proportion
 
 #: rows and columns, the row and the column of the cell that volume leaves to the left
 SHAPE, ROW, GIVER = (7, 10), 3, 5
@@ -68,18 +68,6 @@ def test_a_full_cell_takes_its_own_body_from_a_cell_with_a_gap():
     assert flux(0.3, 0.6, -0.01) == pytest.approx((-0.01, 0.0), abs=1e-15)
 
 
-def test_the_flux_lies_where_the_body_was():
-    """The ordered interfaces place the hard body; a body that gives nothing or comes from a full cell is in the middle."""
-    place, centroid = np.full((2, 2, *SHAPE), np.nan), np.zeros((2, 2, *SHAPE))
-    centroid[0, :, :, GIVER] = np.array([-0.498, 0.2])[:, None]
-    fluxes(upright(0.004, 0.6), -0.01, (-0.01, -0.01), place=place, centroid=centroid)
-    np.testing.assert_allclose(place[:, :, ROW, GIVER], 0.0, atol=1e-12)
-    fluxes(upright(0.3, 0.6), 0.01, (0.01, 0.01), place=place)
-    assert not place[:, :, ROW, GIVER].any()
-    fluxes(oblique(0.1, 0.9), -0.01, (-0.01, -0.01), place=place)
-    assert place[1, 0, ROW, GIVER] < 0.0 < place[1, 1, ROW, GIVER]  # the hard body lies below the soft one
-
-
 def test_it_takes_no_more_than_there_is():
     hard, soft = flux(0.004, 0.6, -0.01)
     assert hard == pytest.approx(-0.004, abs=1e-15)
@@ -110,29 +98,3 @@ def test_a_crumb_takes_no_more_than_it_is(face):
     changes_in_proportion(with_crumb, 0.0, 3.0, sides=(1.0,))
     assert with_crumb(1e-4)[1] < 1.01e-4
     assert sum(with_crumb(1e-4)) == pytest.approx(face, abs=1e-15)
-
-
-@pytest.mark.parametrize("share", [1.0, 1.0 - BLEND_RANGE])
-def test_a_cell_is_full_by_degrees(share):
-    changes_in_proportion(lambda beside: fluxes(upright(0.3, 0.6, beside), -0.01, (-0.01, -0.01)), share, 5.0, sides=(-1.0,))
-
-
-def shares(hard: float, soft: float, stretch: float) -> tuple[float, float]:
-    """(scale of the fractions, size) of a cell of 1 m^3 whose volume before the sweep is stretch."""
-    vof, part, size = upright(hard, soft), np.zeros((2, *SHAPE)), np.zeros(SHAPE)
-    contact_shares(0, handle(parts=ROWS, mesh_box=MESH_BOX, contact_columns=COLUMNS, volume=np.ones(SHAPE),
-                   pre_sweep_volume=np.full(SHAPE, stretch), vof=vof, own_share=part, size=size))
-    return part[0, ROW, GIVER] / hard, size[ROW, GIVER]
-
-
-@pytest.mark.parametrize("stretch", [0.95, 1.05])
-def test_the_shares_of_a_cell_do_not_jump_as_it_becomes_one_body_s_or_full(stretch):
-    assert shares(1.0, 0.0, stretch) == (1.0, stretch)
-    assert shares(0.6, 0.4, stretch) == pytest.approx((stretch, 1.0))
-    assert shares(0.6, 0.3, stretch)[0] == pytest.approx(min(stretch, 1.0 / 0.9))
-    steepness = 1.5 / BLEND_RANGE * 0.06
-    for share in (1.0, 1.0 - BLEND_RANGE):
-        changes_in_proportion(lambda hard: shares(hard, 0.0, stretch), share, steepness, sides=(-1.0,))
-        changes_in_proportion(lambda hard: shares(hard, 1.0 - hard, stretch), share, steepness, sides=(-1.0,))
-        changes_in_proportion(lambda filled: shares(0.6, filled - 0.6, stretch), share, steepness + 2.0, sides=(-1.0,))
-    assert largest_jump(lambda filled: shares(0.6, filled - 0.6, stretch), 0.8, 1.0) < 1e-11

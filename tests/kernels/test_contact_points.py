@@ -4,19 +4,16 @@ import numpy as np
 import pytest
 
 from hydro2d.kernels.contact import contact_geometry, contact_velocities
-from hydro2d.kernels.contact.contact_geometry import REACH, SLIVER
+from hydro2d.kernels.contact.contact_geometry import REACH
 from hydro2d.kernels.contact.contact_velocities import heat_contact_nodes, resolve_contact
 from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
-from hydro2d.mesh.grid import Grid
 from hydro2d.solver import contact_ties
 from tests.kernels.cells import handle, lines
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
 
-apply_impulse = contact_velocities.apply_impulse.source
 mismatch = contact_velocities.mismatch.source
 masters_mobility = contact_velocities.masters_mobility.source
 mobility = contact_velocities.mobility.source
-normal_force = contact_velocities.normal_force.source
 face_aperture = contact_geometry.face_aperture.source
 
 NOWHERE = lines()
@@ -36,17 +33,6 @@ def one_tie(*masters):
 
 def place(dj: int, di: int) -> int:
     return SPAN * (dj + REACH) + di + REACH
-
-
-@pytest.mark.parametrize(("constrained", "gained"), [
-    (NOWHERE, (1.5, -2.0)), (lines(1, -1, -1, -1), (0.0, -2.0)), (lines(-1, -1, 1, -1), (1.5, 0.0)),
-    (lines(along=(1, -1, -1, -1)), (1.5, 0.0)), (lines(along=(-1, -1, -1, 1)), (0.0, -2.0))])
-def test_an_impulse_moves_what_is_not_held(constrained, gained):
-    mass, u, v, transfer = np.full((2, 3, 3), 2.0), np.zeros((2, 3, 3)), np.zeros((2, 3, 3)), np.zeros((5, 3))
-    apply_impulse(0, 1, 1, 3.0, -4.0, handle(constrained=constrained, mass=mass, u=u, v=v, transfer=transfer))
-    assert (u[0, 1, 1], v[0, 1, 1]) == gained
-    assert np.count_nonzero(u) + np.count_nonzero(v) == np.count_nonzero(gained)
-    assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
 
 
 def room_for_ties(slots: int, vertices=(7, 7)):
@@ -182,25 +168,6 @@ def test_walls_and_the_axis_keep_what_they_hold(hard, normal):
 # ------------------------------------------------------------------------------------------------- force on a surface
 
 
-def test_pressure_on_a_flat_surface_is_force_over_its_area():
-    """A surface across the axis at a row of vertices: its area at a vertex is that of the dual cell."""
-    g = Grid(np.linspace(0.0, 8e-3, 9), np.linspace(0.0, 6e-3, 7))
-    shape = g.shape
-    contact_columns = np.tile([2, shape[1]], (shape[0], 1))
-    line = np.zeros((10, *shape))
-    j, i = 5, 7
-    line[contact_geometry.SHARE, :j] = 1.0  # the hard body lies below
-    zz = np.full(shape, -3e9)
-    nothing = np.zeros(shape)
-    force = normal_force(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
-                    sig_rr=nothing, sig_zz=zz, sig_rz=nothing))
-    area = g.az_out[i - 1] + g.az_in[i]
-    assert area == pytest.approx(g.face_r[i] * 1e-3, rel=0.02)
-    assert force == pytest.approx(3e9 * area)
-    assert normal_force(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
-                   sig_rr=nothing, sig_zz=-zz, sig_rz=nothing)) == 0.0
-
-
 def one_cell(line, hard: float, soft: float, inside: bool = True, gas: float = 0.0):
     """The cell (0, 0), among the contact-interface cells or not, with some gas of the soft group."""
     return handle(line=line, hard=np.full((1, 1), hard), soft=np.full((1, 1), soft + gas),
@@ -212,22 +179,3 @@ def test_without_a_line_an_edge_has_the_share_of_its_cell(inside):
     line = np.zeros((10, 1, 1))
     line[contact_geometry.SHARE] = 0.5
     assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.3, 0.3, inside)) == (1.0, 0.5, 0.5)
-
-
-def sliver(share: float, n_r: float, gas: bool = False) -> tuple[float, float, float]:
-    """Apertures of the left edge of a full cell, at which this share is hard (n_r = 1), or from which it is (n_r = -1). The
-    rest is a solid or a gas."""
-    line = np.zeros((10, 1, 1))
-    line[contact_geometry.SHARE] = share
-    if 0.0 < share < 1.0:
-        line[contact_geometry.LINE_R] = n_r
-        line[contact_geometry.CONSTANT] = share if n_r > 0.0 else share - 1.0
-    solid, rest = (0.0, 1.0 - share) if gas else (1.0 - share, 0.0)
-    return face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, one_cell(line, share, solid, gas=rest))
-
-
-def test_half_a_sliver_counts_by_half_and_more_than_a_sliver_in_full():
-    assert sliver(0.5 * SLIVER, 1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
-    assert sliver(1.0 - 0.5 * SLIVER, -1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
-    assert sliver(1.001 * SLIVER, 1.0) == (1.0, 1.0, 1.0)
-    assert sliver(1.0 - 1.001 * SLIVER, -1.0) == (1.0, 0.0, 0.0)

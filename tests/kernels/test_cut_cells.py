@@ -5,18 +5,15 @@ import pytest
 
 from hydro2d.kernels import cut_cells
 from hydro2d.kernels.cut_cells import BESIDE_GAS, FREE_SURFACE, INTERFACE, JOINT, KIND, MOST_TIED, NORMAL_R, NORMAL_Z, WHOLE
-from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
-from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
+from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, MODULUS, SIZE
+from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics import contents, traction
 from tests.kernels.cells import handle
-from tests.physics.continuity import changes_in_proportion, largest_jump
 
 common_traction = cut_cells.common_traction.source
-bodies_stress = cut_cells.bodies_stress.source
 pull_of = contents.pull_of.py_func
 cut_pressure = cut_cells.cut_pressure.source
-growth_at = cut_cells.growth_at.source
 traction_of_change = cut_cells.traction_of_change.source
 fill_cut_cell = cut_cells.fill_cut_cell.source
 pressure_with_gas = cut_cells.pressure_with_gas.source
@@ -87,21 +84,6 @@ def test_a_fluid_next_to_void_goes_to_the_pressure_that_it_bears_and_void_takes_
     assert cut_pressure(0, 0, 0.0, names) == pytest.approx(0.7 * 0.002)
 
 
-@pytest.mark.parametrize("weight", [0.0, 0.4, 1.0])
-@pytest.mark.parametrize("void", [0.0, 0.003])
-@pytest.mark.parametrize("kind", [FREE_SURFACE, INTERFACE])
-def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight):
-    def after(change):
-        cell = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
-        return cell.meet(change), *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
-
-    free = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
-    total, _ = growth_at(0, 0, 0.0, free.names())
-    for change in (total, total - void):
-        changes_in_proportion(after, change, 10.0)
-    assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
-
-
 # ---------------------------------------------------------------------------------------------------- beside a gas
 
 
@@ -133,69 +115,6 @@ def test_a_gas_has_the_energy_of_its_isentrope_and_a_film_less(share):
     assert before @ (cell.q[E, :, 0, 0] - e) == pytest.approx(0.01, rel=1e-9)
     left = cell.q[E, 1, 0, 0] - 0.01 / before.sum()  # the rest of the work is shared by mass
     assert 0.4 * cell.q[RHO, 1, 0, 0] * left == pytest.approx(cell.target, rel=1e-3)
-
-
-# ------------------------------------------------------------------------------------------------ before the step
-
-
-def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
-    cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
-    cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
-    assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
-
-
-@pytest.mark.parametrize(("by_what_is_solid", "scale"), [(True, 2.0), (False, 1.0)])
-def test_bodies_act_by_their_shares_with_what_is_left_beside_their_normal_stress(by_what_is_solid, scale):
-    """The normal is along r: a body contributes nothing along it, and its other stresses less its normal one."""
-    cell = Cell((0.25, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM), (0.0, np.nan, 0.0, 0.0))
-    cell.q[SRR, :, 0, 0], cell.q[SZZ, :, 0, 0], cell.q[SRZ, :, 0, 0] = (0.004, -0.003, np.nan), (0.001, 0.002, np.nan), 0.0005
-    given = handle(skin=cell.skin, vof=cell.vof, q=cell.q, group=np.array([1, 0, 0]), by_what_is_solid=by_what_is_solid,
-                   solid=np.full((1, 1), 0.5))
-    hard = np.array([0.0, 0.25 * (0.001 - 0.004), -0.25 * (0.001 + 2.0 * 0.004), 0.25 * 0.0005])
-    soft = np.array([0.0, 0.5 * (0.002 + 0.003), -0.5 * (0.002 - 2.0 * 0.003), 0.5 * 0.0005])
-    assert bodies_stress(1, 0, 0, given) == pytest.approx(scale * hard)
-    assert bodies_stress(0, 0, 0, given) == pytest.approx(scale * soft)
-    assert bodies_stress(-1, 0, 0, given) == pytest.approx(scale * (hard + soft))
-
-
-def test_at_half_the_step_half_of_the_strain_has_come():
-    cell, one = Cell((0.99, 0.0, *STEEL)), np.ones((1, 1))
-    names = handle(dt=0.1, skin=cell.skin, p=0.005 * one, bulk=one, solid=0.99 * one, borne=cell.borne)
-    assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.005 + 0.02 - 0.01)
-    assert cut_pressure(0, 0, 0.4, names) == 0.0
-    names.solid = (1.0 + 1e-15) * one
-    assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.025)
-
-
-# ------------------------------------------------------------------------------------------------- after the step
-
-
-def filled(change: float, target: float, void: float, growth):
-    """(cell before and after `fill_cut_cell`), of 3 m^3, with work and heat of its own."""
-    before, after = (Cell((0.3, 0.012, *STEEL), (0.7 - void, 0.004, *ALUMINIUM)) for _ in range(2))
-    for cell in (before, after):
-        cell.mix[0, GROWTH], cell.mix[0, NORMAL], cell.mix[0, HEAT] = growth, (0.001, -0.002), (0.02, 0.05)
-        cell.q[E, :, 0, 0] = 0.4, 0.9
-    fill_cut_cell(0, 0, 3.0 * change, 3.0, target, 0.07, after.names(q=after.q))
-    return before, after
-
-
-CASES = [(-0.02, 0.01, 0.0, (-0.01, -0.0243)), (0.03, 0.0, 0.1, (0.002, 0.004)), (-0.03, 0.0, 0.1, (0.002, -0.004)),
-         (-0.2, 0.01, 0.1, (-0.7, -0.05)), (-0.2, 0.0, 0.05, (0.0, 0.0))]
-
-
-def test_a_body_with_room_grows_by_what_it_grows():
-    _, after = filled(*CASES[1])
-    assert after.vof[:, 0, 0] * 1.03 == pytest.approx([0.3 * 1.002, 0.6 * 1.004], rel=1e-14)
-
-
-def test_each_body_does_the_work_of_its_own_normal_stress():
-    """The rest of the cell's work is shared by mass."""
-    _, after = filled(*CASES[0])
-    mass = 3.0 * np.array([0.3, 0.7]) * (2.0, 3.0)
-    own = 3.0 * np.array([0.3 * -0.01 * 0.5 * (0.011 + 0.01), 0.7 * -0.0243 * 0.5 * (0.006 + 0.01)])
-    expected = (np.array([0.02, 0.05]) - own) / mass + (0.07 + own.sum()) / mass.sum()
-    assert after.q[E, :, 0, 0] - (0.4, 0.9) == pytest.approx(expected, rel=1e-12)
 
 
 # ------------------------------------------------------------------------------------------------ where surfaces are

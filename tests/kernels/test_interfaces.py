@@ -165,9 +165,7 @@ ONE_ROW = np.array([2, 3])
 
 fill_strips = interfaces.fill_strips.source
 nest = interfaces.nest.source
-next_body = interfaces.next_body.py_func
 thinnest_body = interfaces.thinnest_body.py_func
-place_of = interfaces.place_of.py_func
 keeps_order = interfaces.keeps_order.py_func
 SHARE, ALONG, ACROSS, THIN = interfaces.SHARE, interfaces.ALONG, interfaces.ACROSS, interfaces.THIN
 
@@ -231,22 +229,6 @@ def test_no_two_bodies_are_thin_without_each_other():
     vof, _ = stack(((-2.5, 0.0), (0.0, 2.5)))
     vof[0, 2, 1], vof[0, [1, 3], 1], vof[0, :, 0] = 0.975, 0.975, 0.5
     assert thinnest_body(2, 2, False, np.arange(2), vof, thin[:2]) == pytest.approx(0.5)
-
-
-def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
-    vof, centroid = stack()
-    thin = np.full(3, np.nan)
-    assert thinnest_body(2, 2, 1.0, np.arange(3), vof, thin) == 0.0
-    strips = strips_of(vof, centroid, (1, 0, 2), gases=GAS_BETWEEN)  # the stated order holds
-    np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
-    assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.0) == (1.0, 1.0)
-    assert keeps_order(2, 1, ONE_GROUP, GAS_BETWEEN, vof, 0.0) == (0.0, 0.0)
-    assert keeps_order(2, 2, ONE_GROUP, SOLIDS, vof, 0.0) == (0.0, 0.0)
-    vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
-    vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
-    for gases, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
-        pieces = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
-        np.testing.assert_allclose(pieces[:2, SHARE], [low, low], atol=1e-14)
 
 
 def test_bodies_keep_their_order_next_to_another_group():
@@ -324,19 +306,6 @@ def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
     np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows the gas
 
 
-def test_a_thin_body_has_what_its_box_has():
-    strip, box = np.zeros((4, 2)), (0.05, 0.01, 0.02)
-    below = next_body(1, 0.3, 1.0, box, (0.25, 0.05, -0.02), 0.5, 0.1, 0.4, 1.0, (0.1, 0.1, 0.01, -0.01), strip)
-    assert below == pytest.approx((0.15, 0.25, 0.05, -0.02))
-    assert strip[:THIN, 1] == pytest.approx(box)
-
-
-def test_the_place_in_a_strip_is_the_moment_over_the_share():
-    strip = np.array([[0.2, 1e-15], [0.05, 1e-15], [-0.02, 1e-15], [0.0, 0.0]])
-    assert place_of(strip, 0) == pytest.approx((0.25, -0.1))
-    assert place_of(strip, 1) == (0.0, 0.0)
-
-
 @pytest.mark.parametrize("along_z", [False, True])
 def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     """A tenth goes to the left, and six tenths to the right: places in these, and centroids that were not known."""
@@ -358,18 +327,3 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     np.testing.assert_allclose(place[0, :, 2 + dj, 2 + di], [0.0, (0.05 - 0.3) / 0.6, (0.35 - 0.3) / 0.6], atol=1e-14)
     np.testing.assert_allclose(place[1, :, 2 + dj, 2 + di], 0.0, atol=1e-14)
     np.testing.assert_allclose(centroid, exact, atol=1e-14)
-
-
-def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
-    """A cell that a body fills by half from the left, whose centroid was not known."""
-    vof, exact = stack(((-2.5, 0.0),))
-    mixed = np.full((5, 5), 2, dtype=np.int64)
-    for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
-        centroid, face = np.zeros_like(exact), np.zeros((5, 5))
-        face[2, 3] = swept * interfaces.SWEPT
-        interfaces.interface_volumes.source(0, handle(
-            parts=ONE_ROW, dj=0, di=1, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
-            interface_order=np.arange(1), group=ONE_GROUP[:1], gases=SOLIDS[:1], mixed_count=np.ones(5, dtype=np.int64),
-            mixed=mixed, face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=centroid,
-            flux_volume=np.zeros((1, 5, 5)), flux_place=np.zeros((2, 1, 5, 5)), strips=np.zeros((5, 3, 4, 1))))
-        assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

@@ -9,7 +9,6 @@ from hydro2d.kernels import deformation, mixed, thermodynamics
 from hydro2d.kernels.cut_cells import KIND, WHOLE
 from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
 from hydro2d.mesh.fields import RHO, E
-from hydro2d.physics.waves import STABLE
 from tests.kernels.cells import Cells
 
 GAMMA = 1.5
@@ -49,18 +48,6 @@ def test_a_gas_at_rest():
     assert cells.row_step[2:6] == pytest.approx([1e300, 0.5 / np.sqrt(7.5), 1e300, 1e300])
     assert not cells.bad.any()
     assert not cells.p[2].any()
-
-
-def test_viscosity_along_the_one_direction_that_is_pressed_together():
-    """du = -2 m/s next to cells without a difference: q = rho (2 du^2 + c |du|/2). Its slope 2 b = 4 du + c/2 sets the step."""
-    cells = gas()
-    cells.v[0, 4:] = -2.0
-    closed(cells)
-    q = 2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0)
-    assert (cells.qr[AT], cells.qz[AT]) == (0.0, pytest.approx(q))
-    b = 0.5 * (4.0 * 2.0 + 0.5 * np.sqrt(7.5))
-    assert cells.row_step[3] == pytest.approx(STABLE / (b + np.sqrt(7.5 + b * b)))
-    assert cells.row_step[3] < min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0)
 
 
 def test_a_cell_has_the_linear_viscosity_that_its_last_step_carries():

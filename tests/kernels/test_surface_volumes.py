@@ -127,11 +127,6 @@ def between(kind=WHOLE, void=0.1, soft=(-9.0, -9.0, -9.0), hard=(-9.0, -9.0, -9.
     return cells
 
 
-def test_they_close_with_what_exceeds_the_pressure_in_the_void():
-    for pressure in (2.0, 9.0, 12.0):
-        assert between(pressure=pressure).moved()[0][2, 3] == pytest.approx(max(9.0 - pressure, 0.0) * CLOSED)
-
-
 def around() -> np.ndarray:
     """Pressure of 3 Pa everywhere but in cell (2, 3)."""
     pressure = np.full((N, N), 3.0)

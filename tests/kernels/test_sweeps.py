@@ -12,26 +12,6 @@ from tests.kernels.cells import Cells
 WAYS = [(0, 1, (3, 3), (3, 4), "fr"), (1, 0, (3, 3), (4, 3), "fz")]
 
 
-@pytest.mark.parametrize(("dj", "di", "source", "target", "face"), WAYS, ids=["r", "z"])
-def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
-    cells = Cells()
-    cells.vof[0, *source] = 1.0
-    getattr(cells, face)[target] = 0.25
-    whole_mesh = np.array([2, 6, 2, 6])
-    swept = {"dj": dj, "di": di, "face": getattr(cells, face)}
-    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=False)
-    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
-    assert cells.pre_sweep_volume[source] == 1.25
-    assert cells.pre_sweep_volume[target] == 0.75
-    assert cells.flux_volume[0, *target] == 0.25
-    assert np.count_nonzero(cells.flux_volume) == 1
-    getattr(cells, face)[target] = -0.25
-    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=True)
-    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
-    assert cells.pre_sweep_volume[source] == 0.75
-    assert not cells.flux_volume.any()
-
-
 @pytest.mark.parametrize("first", [True, False])
 def test_a_cell_that_is_turned_inside_out_is_reported_with_its_body(first):
     """The first such cell of a row with a body in it; void may be swept away, and a cell of zero volume does not count."""
@@ -71,14 +51,6 @@ def arrived(cells: Cells, source, target) -> None:
     assert cells.cell_mass[0, *source] == 2.0
     assert cells.cell_mass[0, *target] == 0.5
     assert (cells.mixed_count[target[0]], cells.mixed[target[0], 0]) == (1, target[1])
-
-
-def test_a_body_is_carried_along_r():
-    way = WAYS[0]
-    cells, given = carried(*way)
-    cells.call(remap.sweep_r, **given)
-    arrived(cells, *way[2:4])
-    assert cells.mixed_count.sum() == 1
 
 
 def test_two_parts_share_the_fluxes_between_them():

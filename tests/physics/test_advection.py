@@ -33,11 +33,6 @@ def test_the_difference_is_within_twice_either_and_of_their_sign(a, b):
     assert limited * b >= 0.0
 
 
-@given(DIFFERENCE, DIFFERENCE)
-def test_the_difference_does_not_know_left_from_right_or_up_from_down(a, b):
-    assert limited_difference(a, b) == limited_difference(b, a) == -limited_difference(-a, -b)
-
-
 # ---------------------------------------------------------------------------------------------------------- donor
 
 

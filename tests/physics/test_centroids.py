@@ -63,16 +63,6 @@ def about_the_middle(piece, strip, high):
 # ------------------------------------------------------------------------------------------------------------ boxes
 
 
-@given(st.floats(-2.0, 2.0), UNIT)
-def test_a_centroid_leaves_room_for_its_piece(offset, fraction):
-    """A piece as wide as its fraction, with this centroid, ends in the cell; an offset that allows this is kept."""
-    kept = within(offset, fraction)
-    assert abs(kept) + 0.5 * fraction <= 0.5 + 1e-15
-    assert within(kept, fraction) == kept
-    assert kept == offset or abs(offset) + 0.5 * fraction > 0.5 - 1e-15
-    assert within(-offset, fraction) == -kept
-
-
 @given(FRACTION, OFFSET, STRIP, st.booleans())
 def test_a_slab_upright_in_its_cell_is_cut_as_it_lies(fraction, offset, strip, high):
     """It fills the cell across, and ends in it along."""
@@ -112,13 +102,6 @@ def test_strips_of_a_box_add_up(fraction, along, across, continues, w_low, w_hig
 
 
 # ----------------------------------------------------------------------------------------- how neighbours place a piece
-
-
-def test_a_body_that_continues_in_either_neighbour_continues():
-    assert goes_on(0.2, 0.0, 0.0) == 0.0
-    assert goes_on(0.2, 0.05, 0.1) == 0.5
-    assert goes_on(0.2, 0.1, 0.05) == 0.5
-    assert goes_on(0.2, 0.0, 0.7) == 1.0
 
 
 def test_the_most_around_is_that_of_a_neighbour_or_of_one_behind_a_fuller_one():
@@ -173,11 +156,6 @@ SLOPE = [[1.0, 0.9, 0.4], [0.8, 0.5, 0.1], [0.3, 0.2, 0.0]]
 #: nothing of it fills a cell, and around a plate of it, and a gap through it
 SPECK = [[0.1, 0.3, 0.05], [0.2, 0.5, 0.1], [0.0, 0.15, 0.0]]
 GAP = 1.0 - np.array(SPECK)
-
-
-def test_a_cell_that_a_body_fills_has_all_of_the_strip():
-    f = with_middle((0.5,) * 17, 1.0)
-    assert piece(f, False, 0.1, 0.1, False, (1.0, 0.0, 0.0, 0.0, 0.0), 0.3, True) == (0.3, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("along_z", [False, True])

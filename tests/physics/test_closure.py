@@ -51,16 +51,6 @@ def test_relaxation_takes_its_share_of_the_way_to_the_target(relaxation, p, targ
     assert relaxed == pytest.approx((1.0 - relaxation) * p + relaxation * target, rel=1e-9, abs=1.0)
 
 
-@given(st.lists(BODY, min_size=2, max_size=4))
-def test_relaxation_towards_the_common_pressure_fills_the_cell_as_before(bodies):
-    """Springs in series: the target is the mean of the pressures by f/K."""
-    shares = [softness(f, modulus, True) for f, _, modulus in bodies]
-    target = sum(share * p for share, (_, p, _) in zip(shares, bodies, strict=True)) / sum(shares)
-    strains = [relaxation_strain(0.25, p, target, modulus) for _, p, modulus in bodies]
-    growth = sum(f * strain for (f, _, _), strain in zip(bodies, strains, strict=True))
-    assert growth == pytest.approx(0.0, abs=1e-20 + 1e-12 * sum(f * abs(p) / modulus for f, p, modulus in bodies))
-
-
 @pytest.mark.parametrize("strain", [0.0, 1e-9, 0.0999, -0.0999])
 def test_a_small_relaxation_is_not_bounded(strain):
     assert relaxation_bound(strain) == 1.0

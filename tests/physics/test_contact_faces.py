@@ -27,18 +27,10 @@ closed_volume = contact_faces.closed_volume.py_func
 largest_of = contact_faces.largest_of.py_func
 
 HARD, SOFT, BOTH = 1, 0, -1
-LEVEL = st.integers(-1000, 1000).map(lambda number: number / 1000)
 VELOCITY = st.floats(-1e3, 1e3)
-#: places along a face, halfway through as many pieces of it
-ALONG = (np.arange(20000) + 0.5) / 20000
 
 
 # ------------------------------------------------------------------------------------------------------------ faces
-
-
-@given(LEVEL.filter(bool), LEVEL.filter(bool))
-def test_one_group_has_the_rest_of_the_other(first, last):
-    np.testing.assert_allclose(np.add(end_apertures(first, last), end_apertures(-first, -last)), 1.0, rtol=1e-14)
 
 
 def test_a_group_that_is_alone_has_all_of_the_aperture():
@@ -70,20 +62,6 @@ def edges_of(g):
 def share_of(g, group, j, i, hard_cells):
     hard, soft, volume = filled(g, hard_cells)
     return dual_share(group, j, i, edges_of(g), volume, g.metrics, hard, soft)
-
-
-@pytest.mark.parametrize("geometry", GEOMETRIES)
-@pytest.mark.parametrize("cell", [(2, 2), (2, 3), (3, 2), (3, 3)])
-def test_a_cell_fills_its_corner_of_a_dual_cell(geometry, cell):
-    """The corner is the integral over the cell of the bilinear function of the vertex."""
-    g = small(geometry)
-
-    def corner(j, i):
-        r, weights = g.r[i] + g.dr[i] * ALONG, (1.0 - ALONG if i == 3 else ALONG)
-        return g.dz[j] * g.dr[i] * np.mean(weights * (r if g.cylindrical else 1.0))
-
-    whole = sum(corner(j, i) for j in (2, 3) for i in (2, 3))
-    assert share_of(g, HARD, 3, 3, [cell]) == pytest.approx(corner(*cell) / whole, rel=1e-7)
 
 
 @pytest.mark.parametrize(("vertex", "cell"), [((2, 2), (2, 2)), ((2, 5), (2, 4)), ((4, 2), (3, 2)), ((4, 5), (3, 4))])
@@ -252,10 +230,6 @@ def largest(group, *shares):
 def test_of_a_group_that_is_not_there_no_body_is_the_largest():
     assert largest(HARD, 0.4, 0.0, 0.0, 0.6, 0.0) == -1
     assert largest(SOFT, 0.0, 0.4, 0.0, 0.0, 0.6) == -1
-
-
-def test_of_bodies_as_large_as_each_other_the_first_counts():
-    assert largest(HARD, 0.1, 0.3, 0.3, 0.0, 0.3) == 1
 
 
 # ----------------------------------------------------------------------------------------- volumes that pressure moves

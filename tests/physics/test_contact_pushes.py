@@ -79,13 +79,6 @@ def along_z(pressure) -> Surface:
 # ---------------------------------------------------------------------------------- what stands out from its neighbours
 
 
-def test_viscosity_counts_as_pressure():
-    cells = along_z(np.zeros(N))
-    cells.qr[FIRST + 2, FIRST + 3] = 4.0
-    assert cells.out(2, 3) == 4.0
-    assert cells.out(1, 3) == -2.0
-
-
 def test_a_cell_with_gas_counts_as_one_with_void():
     cells, other = (along_z(np.arange(N) ** 2) for _ in range(2))
     cells.gas[FIRST + 2, FIRST + 3] = 0.3 * GAP
@@ -111,14 +104,6 @@ def test_at_the_axis_and_at_walls_a_surface_goes_on_as_in_a_mirror(edge, j, i):
     assert cells.out(j, i) == pytest.approx(0.5)
 
 
-def test_beside_a_neighbour_that_opens_a_cell_stands_out_less_and_less():
-    """It has only one other neighbour; halfway to GAP half is left of the pattern."""
-    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
-    for void, left in ((0.5 * GAP, 1.0), (GAP, 0.0)):
-        cells.open(1, 3, void)
-        assert cells.out(2, 3) == pytest.approx(left)
-
-
 def filled(hard_below, hard_above, kind=INTERFACE):
     """A surface along r with rows of cells on both sides that one group fills by these shares, under 1, 2, 4 ... 32 Pa."""
     cells = Surface(2.0 ** np.arange(N), kind)
@@ -139,12 +124,6 @@ def test_two_rows_on_either_side_of_a_mesh_line_stand_out_as_one():
 
 
 # ---------------------------------------------------------------------------------------------- who pushes, and how much
-
-
-def test_a_full_cell_of_the_surface_pushes_with_its_common_pressure():
-    cells = Surface(8.0, viscosity=0.5)
-    cells.press(2, 2, 7.0, 7.0, 7.0)
-    assert cells.push(2, 2) == 8.5
 
 
 @pytest.mark.parametrize("kind", [WHOLE, INTERFACE])
@@ -183,16 +162,6 @@ def test_a_cell_without_bodies_does_not_push(kind):
     cells.press(2, 2, -8.0, -8.0, -8.0)
     cells.bulk[FIRST + 2, FIRST + 2] = 0.0
     assert cells.push(2, 2) == 0.0
-
-
-def test_a_cell_of_the_surface_counts_for_both_groups_another_one_for_what_fills_it():
-    cells = Surface()
-    cells.fill(SOFT, 1, 1)
-    cells.fill(HARD, 2, 2)
-    assert [cells.counts(n, n) for n in range(3)] == [[True, True], [True, False], [False, True]]
-    cells.fill(SOFT, 3, 3)
-    cells.soft[FIRST + 3, FIRST + 3], cells.hard[FIRST + 3, FIRST + 3] = 0.6, 0.4
-    assert cells.counts(3, 3) == [True, False]
 
 
 @pytest.mark.parametrize(("along_r", "second"), [(True, (1, 0)), (False, (0, 1))])

@@ -151,9 +151,6 @@ def test_the_misfit_is_the_sum_of_the_squares_of_what_is_on_the_wrong_side():
     assert misfit(MIDDLE, MIDDLE, 1.0, 0.0, 0.5, *Shares(hard, soft).mesh) == pytest.approx(0.2**2 + 0.3**2)
 
 
-# ------------------------------------------------------------------------------------------------ the line that fits
-
-
 @pytest.mark.parametrize("face", OFFSETS)
 @pytest.mark.parametrize("rim", OFFSETS)
 @pytest.mark.parametrize("wider", [0.05, 0.3, 0.6, 1.0])
@@ -163,6 +160,9 @@ def test_bodies_that_change_places_have_the_same_line(face, rim, wider):
     n_r, n_z, share = here.line(MIDDLE, MIDDLE)
     turned = Shares(here.soft[here.grid.inside], here.hard[here.grid.inside])
     assert turned.line(MIDDLE, MIDDLE) == pytest.approx((-n_r, -n_z, 1.0 - share), abs=1e-6)
+
+
+# ------------------------------------------------------------------------------------------------ the line that fits
 
 
 @pytest.mark.parametrize("face", OFFSETS)

@@ -163,11 +163,6 @@ def test_strips_add_up_to_the_cell(nx, up, fraction, width):
     assert low_across + high_across == pytest.approx(across, abs=4.0 * small)
 
 
-@pytest.mark.parametrize("high", [False, True])
-def test_without_a_normal_the_material_is_spread_evenly(high):
-    assert line_piece(0.0, 0.0, 0.6, 0.25, high) == pytest.approx((0.15, 0.0, 0.0))
-
-
 # ---------------------------------------------------------------------------------------------------------- centre
 
 
@@ -218,18 +213,6 @@ def sums_of(*bodies, j=2, i=2):
 
 def normal_of(*bodies, dr=DR, dz=DZ):
     return youngs_normal(2, 2, sums_of(*bodies), dr, dz)
-
-
-def test_fractions_of_bodies_add_up_row_by_row_and_then_two_cells_away():
-    """The cells two away are left and right, below and above, then at the corners; no others count."""
-    cells = [(1, 1), (1, 2), (1, 3), (2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3), (2, 0), (2, 4), (0, 2), (4, 2),
-             (0, 0), (0, 4), (4, 0), (4, 4)]
-    vof = np.full((2, 5, 5), np.nan)
-    for n, cell in enumerate(cells):
-        vof[:, *cell] = 0.01 * n, 0.5 + 0.01 * n
-    first = add_body(0, 2, 2, vof, NOTHING)
-    assert first == tuple(vof[0, *cell] for cell in cells)
-    assert add_body(1, 2, 2, vof, first) == tuple(vof[0, *cell] + vof[1, *cell] for cell in cells)
 
 
 @pytest.mark.parametrize("n", range(17))
@@ -327,13 +310,6 @@ def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, hi
     piece = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
     assert piece == pytest.approx(expected, abs=1e-13)
     assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == piece
-
-
-def test_a_strip_has_what_lies_in_it_of_the_line_as_far_as_the_corner_has_no_weight():
-    line, whole = line_piece(0.3, -0.7, 0.4, 0.2, True), corner_piece(0.3, -0.7, 0.8, 0.5, 0.2, True)
-    assert piece_of_surface(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
-    part = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
-    assert part == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
 
 
 @given(COMPONENT, SIGN, SIGN, UNIT)

@@ -80,16 +80,3 @@ def test_what_alternates_is_half_the_excess_over_the_neighbours():
     assert alternating_mode(1, 1, velocities(modes), mass) == 0.5 * (-6.0 - 1.0)
     modes[1, 1] = 0.5  # below its neighbours, but with their sign
     assert alternating_mode(1, 1, velocities(modes), mass) == 0.0
-
-
-def test_a_neighbour_counts_by_its_mass_up_to_that_of_the_cell():
-    modes, mass = np.full((3, 3), 6.0), np.ones((3, 3))
-    modes[1, 2], mass[1, 2] = -18.0, 100.0
-    assert alternating_mode(1, 1, velocities(modes), mass) == 0.5 * (6.0 - 0.0)
-    mass[1, 2] = 0.5
-    assert alternating_mode(1, 1, velocities(modes), mass) == pytest.approx(0.5 * (6.0 - 9.0 / 3.5))
-    mass[1, 2] = 0.0
-    assert alternating_mode(1, 1, velocities(modes), mass) == 0.0
-    mass[...] = 0.0
-    mass[1, 1] = 1.0  # a cell by itself has the whole filter
-    assert alternating_mode(1, 1, velocities(modes), mass) == 6.0

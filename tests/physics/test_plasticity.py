@@ -15,7 +15,6 @@ carries_no_stress = plasticity.carries_no_stress.py_func
 take_internal = plasticity.take_internal.py_func
 keep_internal = plasticity.keep_internal.py_func
 forget = plasticity.forget.py_func
-is_fluid = plasticity.is_fluid.py_func
 from_centre = plasticity.from_centre.py_func
 returned = plasticity.returned.py_func
 
@@ -39,10 +38,6 @@ def test_failed_material_carries_none(damage):
     assert carries_no_stress(damage, 2700.0, 2540.0)
 
 
-def test_with_a_bound_of_zero_nothing_is_too_thin():
-    assert not carries_no_stress(0.0, 1e-9, 0.0)
-
-
 def test_internal_variables_go_out_and_back():
     q = np.arange(2.0 * (INTERNAL + 3) * 6).reshape(INTERNAL + 3, 2, 2, 3)
     before, internal = q.copy(), np.zeros(3)
@@ -60,11 +55,6 @@ def test_a_melt_forgets_its_back_stress_and_no_other_cell_does():
     forget(1, 0, 2, HARDENS.ID, q, np.zeros(3))
     before[INTERNAL:, 1, 0, 2] = 0.0
     np.testing.assert_array_equal(q, before)
-
-
-@pytest.mark.parametrize(("modulus", "fluid"), [(26e9, False), (1e-300, False), (0.0, True), (-1.0, True), (np.nan, False)])
-def test_material_without_a_shear_modulus_is_a_fluid(modulus, fluid):
-    assert is_fluid(modulus) == fluid
 
 
 def test_a_model_without_internal_variables_touches_none():

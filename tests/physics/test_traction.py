@@ -18,20 +18,6 @@ film_heat = traction.film_heat.py_func
 gas_growth = traction.gas_growth.py_func
 gas_work = traction.gas_work.py_func
 
-# ------------------------------------------------------------------------------------------------------ small pieces
-
-
-def test_a_crack_pulls_the_less_the_wider_it_is_and_a_surface_does_not():
-    assert pull_left(0.0, 0.0) == 1.0
-    assert pull_left(0.5 * SURE, 0.0) == pytest.approx(0.5)
-    assert pull_left(SURE, 0.0) == pull_left(0.9, 0.0) == 0.0
-    assert pull_left(0.0, 0.25) == pytest.approx(0.75)
-    assert pull_left(0.0, 1.0) == 0.0
-    for void in (0.0, SURE):
-        changes_in_proportion(lambda void: pull_left(void, 0.3), void, 2.0 / SURE)
-    for weight in (0.0, 1.0):
-        changes_in_proportion(lambda weight: pull_left(0.3 * SURE, weight), weight, 1.0)
-
 
 # ------------------------------------------------------------------------------------------- pressure at half the step
 
