@@ -54,10 +54,6 @@ class Surface:
     def push(self, j: int, i: int) -> float:
         return push_of(FIRST + j, FIRST + i, self.skin, self.solid, self.bulk, self.ph, self.qr, *self.stress)
 
-    def counts(self, j: int, i: int) -> list[bool]:
-        """`counts_for` the soft and the hard group."""
-        return [bool(counts_for(g, FIRST + j, FIRST + i, self.skin, self.hard, self.soft)) for g in (SOFT, HARD)]
-
     def pressed(self, j: int, i: int, group: int) -> float:
         return pressed_by(group, FIRST + j, FIRST + i, self.hard, self.soft, self.skin, self.solid, self.bulk, self.ph, self.qr,
                           *self.stress)
