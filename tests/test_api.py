@@ -163,6 +163,7 @@ def test_an_analytic_model_for_a_deck():
     depths = [hydro2d.penetration_model("tate", deck, inputs).rows([1296.0])[0]["depth"]
               for inputs in (None, {"target.resistance": 2e9}, {"target.resistance": 4e9})]
     assert 0.0 < depths[2] < depths[1] != depths[0] > 0.0
+    assert {"tate", "forrestal"} <= set(hydro2d.penetration_models())
     with pytest.raises(ValueError, match="tate"):
         hydro2d.penetration_model("tat", deck)
     with pytest.raises(hydro2d.DeckError, match="needs a rod on the axis and a target"):
@@ -595,7 +596,9 @@ def test_reprs_are_short(deck, shot):
     assert repr(deck.stop) == str(deck.stop) == "Stop(time=4e-06, body='rod', speed_below=55.0)"
     assert len(repr(deck.body[0])) < 250
     assert repr(study_directory.gather([shot.directory])).endswith(": 1 case, 1 ended>")
-    assert len(repr(hydro2d.open_study(shot.directory).cases[0])) < 250
+    study = hydro2d.open_study(shot.directory)
+    assert isinstance(study, hydro2d.Study)
+    assert len(repr(study.cases[0])) < 250
     assert len(repr(shot)) < 120
     assert repr(shot.view()).startswith("<View: a page of ")
 
