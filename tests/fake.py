@@ -110,6 +110,11 @@ class Simulation:
         self.state.e *= 1 + self.dt * 1e4 / 3
         self._place()
 
+    def advance(self, until: float = np.inf, cycles: int | None = None) -> int:
+        """One cycle at a time."""
+        self.step()
+        return 1
+
     def of_targets(self):
         return {}
 

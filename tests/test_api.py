@@ -446,24 +446,25 @@ def test_a_run_is_not_written_into_a_study(deck, tmp_path):
 
 
 def test_a_run_that_fails_raises(tmp_path, deck, monkeypatch):
-    def broken(sim):
+    def broken(sim, until=np.inf, cycles=None):
         raise hydro2d.UnphysicalState("cycle 1: negative density")
 
-    monkeypatch.setattr(hydro2d.Simulation, "step", broken)
+    monkeypatch.setattr(hydro2d.Simulation, "advance", broken)
     with pytest.raises(hydro2d.UnphysicalState, match="negative density"):
         hydro2d.run(deck, tmp_path / "fails", quiet=True)
 
 
 def test_an_interrupted_run_raises_and_goes_on(tmp_path, deck, shot, monkeypatch):
-    step, place = hydro2d.Simulation.step, tmp_path / "stopped"
+    advance, place = hydro2d.Simulation.advance, tmp_path / "stopped"
 
-    def stopped(sim):
-        step(sim)
+    def stopped(sim, until=np.inf, cycles=None):
+        done = advance(sim, until, cycles or 20 - sim.cycle)
         if sim.cycle == 20:
             os.kill(os.getpid(), signal.SIGINT)
+        return done
 
     columns = {"highest_Pa": lambda sim: sim.array("pressure").max()}
-    monkeypatch.setattr(hydro2d.Simulation, "step", stopped)
+    monkeypatch.setattr(hydro2d.Simulation, "advance", stopped)
     with pytest.raises(KeyboardInterrupt, match="stopped: interrupted"):
         hydro2d.run(deck, place, quiet=True, columns=columns)
     monkeypatch.undo()
