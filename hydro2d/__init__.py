@@ -4,7 +4,7 @@
 
     deck = hydro2d.Deck.from_file("problems/perforation/sphere.toml", {"body.ball.velocity": "1200 m/s"})
     shot = hydro2d.run(deck, "runs/ball")
-    shot.summary["penetration_depth_m"]
+    shot.summary.penetration_depth_m
 """
 
 from hydro2d.base import start  # first: it leaves the current directory
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
     from hydro2d.measure.regime import LEAST_KEPT_LENGTH
+    from hydro2d.measure.summary import Summary
     from hydro2d.output.directory import RunError
     from hydro2d.results.figures import new_figure, save_figure
     from hydro2d.results.reading import Results, ResultsError
@@ -75,6 +76,7 @@ _PLACES = {
     "Impact": "hydro2d.analytic.experience",
     "impact_of": "hydro2d.analytic.experience",
     "to_si": "hydro2d.base.units",
+    "Summary": "hydro2d.measure.summary",
     "LEAST_KEPT_LENGTH": "hydro2d.measure.regime",
     "new_figure": "hydro2d.results.figures",
     "save_figure": "hydro2d.results.figures",
@@ -103,6 +105,7 @@ __all__ = [
     "Simulation",
     "Study",
     "StudyError",
+    "Summary",
     "UnphysicalState",
     "bias_and_scatter",
     "every",

@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hydro2d.analytic import beside, model_deck, models
+from hydro2d.analytic import beside, catalogue, model_deck, models
+from hydro2d.analytic.catalogue import lambert_jonas
 from hydro2d.base.errors import UnphysicalState
 from hydro2d.deck import deck as decks
 from hydro2d.deck.deck import Deck
 from hydro2d.files import toml
 from hydro2d.files.whole import plain, write_text
 from hydro2d.output.directory import deck_hash
-from hydro2d.penetration import catalogue, lambert_jonas
 from hydro2d.results.reading import Results
 from hydro2d.running import run as runs
 from hydro2d.running.team import at_most
@@ -75,10 +75,10 @@ def run(deck: Deck | str | Path, directory: str | Path | None = None, *, threads
     with at_most(threads):
         summary = runs.run(deck, directory, restart=restart, overwrite=overwrite, quiet=quiet, columns=columns,
                            theory=beside.lines)
-    if summary["status"] == "interrupted":
-        raise KeyboardInterrupt(f"{directory}: {summary['stop_reason']}")
-    if summary["status"] == "unphysical":
-        raise UnphysicalState(f"{directory}: {summary['stop_reason']}")
+    if summary.status == "interrupted":
+        raise KeyboardInterrupt(f"{directory}: {summary.stop_reason}")
+    if summary.status == "unphysical":
+        raise UnphysicalState(f"{directory}: {summary.stop_reason}")
     return Results(directory, trust=True)
 
 

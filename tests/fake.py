@@ -39,7 +39,7 @@ class FakeDeck:
         r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
         self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}
         self.sliding, self.failure, self.boundaries = Sliding(), Failure(), Boundaries(r_min="axis")
-        self.source: tuple = ()
+        self.source, self.result = (), {}
 
     def to_toml(self) -> str:
         return f"""\
@@ -85,7 +85,7 @@ class Simulation:
         self.time, self.cycle, self.dt, self.dt_cause = 0.0, 0, 1e-7, "rod at r = 0.5 mm, z = 0.5 mm: sound"
         places = np.array([[0.0, 0.0], [1e-3, 5e-3]])
         where = {f"tracer_{name}": {"r_m": r, "z_m": z} for name, (r, z) in zip(("nose", "deep"), places.tolist(), strict=True)}
-        self.columns, self.formulas, self.warnings = {}, {}, []
+        self.columns, self.formulas, self.own_results, self.warnings = {}, {}, {}, []
         self.stations = SimpleNamespace(tracers=places, measure=lambda: where)
         self._place()
 
@@ -109,6 +109,11 @@ class Simulation:
         self.state.e += 1.0
         self.state.e *= 1 + self.dt * 1e4 / 3
         self._place()
+
+    def advance(self, until: float = np.inf, cycles: int | None = None) -> int:
+        """One cycle at a time."""
+        self.step()
+        return 1
 
     def of_targets(self):
         return {}

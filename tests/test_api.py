@@ -163,6 +163,7 @@ def test_an_analytic_model_for_a_deck():
     depths = [hydro2d.penetration_model("tate", deck, inputs).rows([1296.0])[0]["depth"]
               for inputs in (None, {"target.resistance": 2e9}, {"target.resistance": 4e9})]
     assert 0.0 < depths[2] < depths[1] != depths[0] > 0.0
+    assert {"tate", "forrestal"} <= set(hydro2d.penetration_models())
     with pytest.raises(ValueError, match="tate"):
         hydro2d.penetration_model("tat", deck)
     with pytest.raises(hydro2d.DeckError, match="needs a rod on the axis and a target"):
@@ -445,24 +446,25 @@ def test_a_run_is_not_written_into_a_study(deck, tmp_path):
 
 
 def test_a_run_that_fails_raises(tmp_path, deck, monkeypatch):
-    def broken(sim):
+    def broken(sim, until=np.inf, cycles=None):
         raise hydro2d.UnphysicalState("cycle 1: negative density")
 
-    monkeypatch.setattr(hydro2d.Simulation, "step", broken)
+    monkeypatch.setattr(hydro2d.Simulation, "advance", broken)
     with pytest.raises(hydro2d.UnphysicalState, match="negative density"):
         hydro2d.run(deck, tmp_path / "fails", quiet=True)
 
 
 def test_an_interrupted_run_raises_and_goes_on(tmp_path, deck, shot, monkeypatch):
-    step, place = hydro2d.Simulation.step, tmp_path / "stopped"
+    advance, place = hydro2d.Simulation.advance, tmp_path / "stopped"
 
-    def stopped(sim):
-        step(sim)
+    def stopped(sim, until=np.inf, cycles=None):
+        done = advance(sim, until, cycles or 20 - sim.cycle)
         if sim.cycle == 20:
             os.kill(os.getpid(), signal.SIGINT)
+        return done
 
     columns = {"highest_Pa": lambda sim: sim.array("pressure").max()}
-    monkeypatch.setattr(hydro2d.Simulation, "step", stopped)
+    monkeypatch.setattr(hydro2d.Simulation, "advance", stopped)
     with pytest.raises(KeyboardInterrupt, match="stopped: interrupted"):
         hydro2d.run(deck, place, quiet=True, columns=columns)
     monkeypatch.undo()
@@ -595,7 +597,9 @@ def test_reprs_are_short(deck, shot):
     assert repr(deck.stop) == str(deck.stop) == "Stop(time=4e-06, body='rod', speed_below=55.0)"
     assert len(repr(deck.body[0])) < 250
     assert repr(study_directory.gather([shot.directory])).endswith(": 1 case, 1 ended>")
-    assert len(repr(hydro2d.open_study(shot.directory).cases[0])) < 250
+    study = hydro2d.open_study(shot.directory)
+    assert isinstance(study, hydro2d.Study)
+    assert len(repr(study.cases[0])) < 250
     assert len(repr(shot)) < 120
     assert repr(shot.view()).startswith("<View: a page of ")
 

@@ -25,7 +25,10 @@ def directive(path: str, thing) -> str:
     if inspect.isclass(thing) or inspect.ismodule(thing):
         kind, options = "autoclass" if inspect.isclass(thing) else "automodule", ["   :members:"]
     signature = ""
-    if hasattr(thing, "model_fields"):  # a table of the deck: its keys have a page of their own
-        text, signature = "[Deck keys](deck.md) has what it holds.\n\n", "()"
-        options = ["   :members: from_file, from_toml, from_dict, to_toml, edges, body_named"]
+    if hasattr(thing, "model_fields"):  # a deck or a summary: what it holds has a page of its own
+        known = ("from_file", "from_toml", "from_dict", "to_toml", "edges", "body_named")
+        members = [name for name in known if hasattr(thing, name)]
+        page_of_it = "[Deck keys](deck.md)" if members else "[Results](results.md)"
+        text, signature = f"{page_of_it} has what it holds.\n\n", "()"
+        options = [f"   :members: {', '.join(members)}"] if members else []
     return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {path}{signature}", *options, "```"])

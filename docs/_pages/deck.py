@@ -152,7 +152,7 @@ def page() -> str:
     sections, nested = [], {}
     for key, part in schema.schema["properties"].items():
         for section in schema.tables(part):
-            name = f"[[{key}]]" if schema.is_list(part) else f"[{key}.NAME]" if key == "materials" else f"[{key}]"
+            name = f"[[{key}]]" if schema.is_list(part) else f"[{key}.NAME]" if "additionalProperties" in part else f"[{key}]"
             shape = section["properties"].get("shape", {}).get("const")
             sections.append(schema.section(f"`{name}`" + (f' with `shape = "{shape}"`' if shape else ""), section))
             for inner_key, inner_part in section["properties"].items():

@@ -55,12 +55,12 @@ def spoken(seconds: float) -> str:
 
 def depth(results) -> str:
     """Penetration depth."""
-    return f"{results.summary['penetration_depth_m'] * 1e3:.1f} mm"
+    return f"{results.summary.penetration_depth_m * 1e3:.1f} mm"
 
 
 def in_steel(results) -> str:
     """Depth behind a tile of 20 mm."""
-    return f"{max(results.summary['penetration_depth_m'] * 1e3 - 20.0, 0.0):.1f} mm"
+    return f"{max(results.summary.penetration_depth_m * 1e3 - 20.0, 0.0):.1f} mm"
 
 
 def early_depth(results) -> str:
@@ -70,19 +70,19 @@ def early_depth(results) -> str:
 
 def hole(results) -> str:
     """Diameter of the hole at the face of the target."""
-    found = results.summary["crater"]["entrance_diameter_m"]
+    found = results.summary.crater.entrance_diameter_m
     return "none" if found is None else f"{found * 1e3:.2f} mm"
 
 
 def length(results) -> str:
     """Length of the bar along z."""
-    bar = results.summary["bodies"]["bar"]
-    return f"{(bar['z_max_m'] - bar['z_min_m']) * 1e3:.2f} mm"
+    bar = results.summary.bodies["bar"]
+    return f"{(bar.z_max_m - bar.z_min_m) * 1e3:.2f} mm"
 
 
 def residual(results) -> str:
     """Residual velocity behind the plate."""
-    found = results.summary["rod_residual_velocity_m_s"]
+    found = results.summary.rod_residual_velocity_m_s
     return "stopped" if found is None else f"{found:.1f} m/s"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from hydro2d.analytic import model_deck, models
 from hydro2d.base.errors import DeckError
 from hydro2d.deck.deck import Deck
+from hydro2d.measure.summary import Summary
 from hydro2d.penetration.model import InputError
 
 #: models of a rod into a thick target, and their names in the line: two of eroding rods, and one of a rigid rod
@@ -40,12 +41,12 @@ def depths(deck: Deck) -> dict[str, float]:
     return by_model
 
 
-def lines(deck: Deck, summary: dict) -> list[str]:
+def lines(deck: Deck, summary: Summary) -> list[str]:
     """A line for the end of a run, such as "analytic, at rest     Tate 27.54 cm, Walker-Anderson 35.87 cm, rigid 49.54 cm".
 
     There is no line if the rod has perforated a target, or if no model can be applied.
     """
-    if (summary.get("outcome") or {}).get("perforated"):
+    if summary.outcome and summary.outcome.perforated:
         return []
     text = ", ".join(f"{name} {depth * 1e2:.2f} cm" for name, depth in depths(deck).items())
     return [f"{'analytic, at rest':<21} {text}"] if text else []

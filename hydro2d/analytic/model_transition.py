@@ -143,10 +143,10 @@ def of_runs(directories: Sequence[Path], nose: str) -> tuple[Bracket, list[tuple
     rigid, others, lines = [], [], []
     for directory in directories:
         run = reading.Results(directory)
-        if "regime" not in run.summary:
+        if run.summary.regime is None:
             raise reading.ResultsError(f"{directory}: the run has not ended and has no regime")
         shot = model_deck.shot(run.deck)
-        regime = run.summary["regime"]
+        regime = run.summary.regime
         counted = shot.nose == nose and regime != LEFT
         if counted:
             (rigid if regime == "rigid" else others).append(shot.velocity)

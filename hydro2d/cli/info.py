@@ -87,10 +87,9 @@ def page(name: str) -> str:
 
     Raises DeckError with the nearest names if there is none either.
     """
-    from hydro2d.analytic import model_text
+    from hydro2d.analytic import catalogue, model_text
     from hydro2d.base.parameters import described
     from hydro2d.materials import library, outside
-    from hydro2d.penetration import catalogue
     from strength import melting
 
     packaged = [each for part in outside.KINDS if (each := outside.from_package(part, name))]
@@ -142,8 +141,8 @@ def _same_last(keys: dict[str, dict], name: str) -> dict[str, list[str]]:
 
 def overview() -> str:
     """All names, by kind."""
+    from hydro2d.analytic import catalogue
     from hydro2d.materials import library, outside
-    from hydro2d.penetration import catalogue
 
     models = [(name, kind.title) for kind in outside.KINDS.values() for name in kind.models]
     models += [(name, f"{kind.title} from the package {entry.dist.name}")

@@ -67,12 +67,6 @@ app.command(transition)
 app.command(view)
 
 
-def _input_errors() -> tuple[type[Exception], ...]:
-    """The exception of wrong inputs of analytic models, once their module is loaded."""
-    module = sys.modules.get("hydro2d.penetration.model")
-    return (module.InputError,) if module else ()
-
-
 def _set_threads(threads: int | None) -> None:
     """Sets the number of threads. Best called before numba is imported, because numba reads the largest number once."""
     if threads is None:
@@ -93,7 +87,7 @@ def _load(deck: Path, overrides: list[str] | None):
     return decks.load(deck, overrides or [])
 
 
-def _theory(deck, summary: dict) -> list[str]:
+def _theory(deck, summary) -> list[str]:
     """Lines with the results of analytic models for a finished run."""
     from hydro2d.analytic import beside
 
@@ -318,7 +312,7 @@ def call(arguments: list[str]) -> int:
         return STATUS["SIGPIPE"]
     except LostPlaceError as error:
         return _report(error, REFUSED)
-    except (UsageError, Error, *_input_errors()) as error:
+    except (UsageError, Error) as error:
         return _report(error, WRONG_INPUT)
     except MemoryError as error:
         return _report(f"not enough memory{f': {error}' if str(error) else ''}", REFUSED)

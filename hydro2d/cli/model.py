@@ -186,7 +186,7 @@ def transition(
         Prints JSON.
     """
     from hydro2d.analytic import model_transition
-    from hydro2d.penetration.inputs import NOSE
+    from hydro2d.analytic.catalogue import NOSE
 
     request, _ = _request(model_transition.with_transition(), rod, target, set_, deck, strain)
     shape = nose or request.settings.get("nose.shape") or getattr(request.geometry.get("nose.shape"), "value", "hemispherical")

@@ -18,7 +18,7 @@ from pydantic import PrivateAttr, ValidationError, ValidationInfo, model_validat
 
 from hydro2d.base import units
 from hydro2d.base.errors import MOST_LINES, DeckError, unknown
-from hydro2d.deck import key_messages, sections
+from hydro2d.deck import formulas, key_messages, sections
 from hydro2d.deck.checks import axial_length, bars_to_follow, faces, heading, inconsistencies, room, travel, unsupported
 from hydro2d.deck.generated_mesh import as_segments, with_segments
 from hydro2d.deck.layout import body_groups, edges, extent, layout, slots
@@ -274,6 +274,7 @@ def _resolve(data: dict, name: str, overrides: Overrides, sources: Sources, trus
     deck = deck.model_copy(update={"materials": _materials(deck, own, complaint, trust)})
     deck = _with_defaults(deck)
     problems = [str(complaint(path, message)) for path, message in unsupported(deck)]
+    problems += [str(complaint(*wrong)) for wrong in formulas.trusted_results(deck)] if trust and not problems else []
     if problems:
         raise DeckError("\n".join(problems))
     deck._tables = data

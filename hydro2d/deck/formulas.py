@@ -1,14 +1,19 @@
-"""Derived quantities of a deck: its formulas, with the names and units that they can use."""
+"""Quantities that a deck defines: its formulas, with the names and units that they can use, and its files of results."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
+from hydro2d.base.errors import DeckError
 from hydro2d.base.formats import in_hdf5
 from hydro2d.deck.expressions import PURE, Expression, ExpressionError, in_words, parse
-from hydro2d.deck.sections import Deck
+from hydro2d.deck.sections import Deck, OwnFile
 from hydro2d.measure.result import UNITS, unit
 from hydro2d.measure.station_columns import PLACES, Point
+
+if TYPE_CHECKING:
+    from hydro2d.measure.own_results import OwnResult
 
 #: characters of a name
 LONGEST = 60
@@ -34,7 +39,28 @@ def known(deck: Deck) -> dict[str, str]:
         columns += [name for name in Projectile.model_fields if name not in WORDS]
         columns += [f"crater_{key}" for key in Hole.model_fields] + [f"ejecta_{key}" for key in Ejected.model_fields]
         short = {name: unit(column) for name, column in Projectile.short().items()}
+    columns += [name for own in own_results(deck).values() for name in own.lines]
     return short | {column: unit(column) for column in columns}
+
+
+def own_results(deck: Deck) -> dict[str, OwnResult]:
+    """The files of results of a deck by their names in it. Raises ModelError for a wrong one."""
+    return {name: _own(table) for name, table in deck.result.items()}
+
+
+def _own(table: OwnFile) -> OwnResult:
+    from hydro2d.measure import own_results  # which loads numba
+
+    return own_results.of_text(table.code or "", table.code_from)
+
+
+def trusted_results(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Runs the files of results of a checked deck, which its simulations may run then; key and message of one that fails."""
+    for name, own in own_results(deck).items():
+        try:
+            own.trust()
+        except DeckError as error:
+            yield ("result", name, "file"), str(error)
 
 
 def expressions(deck: Deck) -> dict[str, Expression]:
@@ -45,6 +71,9 @@ def expressions(deck: Deck) -> dict[str, Expression]:
 
 def problems(deck: Deck) -> Iterator[tuple[tuple, str]]:
     """Key and message of every formula that is wrong: its syntax, its names, its units, and the name that it defines."""
+    if wrong := list(_wrong_results(deck)):
+        yield from wrong
+        return
     names = known(deck) if deck.derived else {}
     used: set[str] = set()
     for name, text in deck.derived.items():
@@ -60,6 +89,27 @@ def problems(deck: Deck) -> Iterator[tuple[tuple, str]]:
             continue
         if problem := _bad_unit(name, formula):
             yield path, problem
+
+
+def _wrong_results(deck: Deck) -> Iterator[tuple[tuple, str]]:
+    """Key and message of every file of results that is wrong in its form or has a name that is taken."""
+    if not deck.result:
+        return
+    from hydro2d.measure.summary import Outcome, Summary
+
+    used: set[str] = set()
+    names = known(deck.model_copy(update={"result": {}})) | dict.fromkeys((*Summary.model_fields, *Outcome.model_fields), "")
+    for key, table in deck.result.items():
+        path = ("result", key, "file")
+        try:
+            own = _own(table)
+        except DeckError as error:
+            yield path, str(error)
+            continue
+        for name, line in own.lines.items():
+            if problem := _bad_name(name, names, used):
+                yield path, f"{own.file}:{line}: {name} {problem.replace('a derived quantity', 'a result')}"
+            used.add(in_hdf5(name))
 
 
 def _bad_name(name: str, names: dict[str, str], used: set[str]) -> str:

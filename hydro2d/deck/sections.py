@@ -187,6 +187,23 @@ class Penetration(Section):
         return self
 
 
+class OwnFile(Section):
+    """Results of your own: a Python file with one class of results and the function that measures them.
+
+    A resolved deck has the text of the file in place of its name.
+    """
+
+    file: str | None = Field(None, description="the Python file, next to the deck", examples=["rim.py"])
+    code: str | None = Field(None, description="its text, in a resolved deck", examples=["def measure(sim): ..."])
+    code_from: str = Field("result", description="the name of that file", examples=["rim.py"])
+
+    @model_validator(mode="after")
+    def _has_a_file(self) -> OwnFile:
+        if self.code is None:
+            raise ValueError("file is missing: the Python file that measures the results")
+        return self
+
+
 class Deck(Section):
     """The tables of an input deck, in SI units. Sections are attributes: deck.numerics.courant, deck.body[0].name."""
 
@@ -217,6 +234,7 @@ class Deck(Section):
         {}, description="quantities by name, each a formula of short names and columns of the history, for the history, the "
         "summary and reports", examples=[{"P/L": "depth / length0"}],
     )
+    result: dict[Words, OwnFile] = Field({}, description="files of results of your own, each under a name of your choice")
     experiment: Experiment | None = None
     penetration: Penetration | None = None
 

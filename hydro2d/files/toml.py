@@ -128,14 +128,19 @@ def model_tables(data: dict) -> Iterator[tuple[tuple, dict]]:
         waiting += [((*path, "variants", name), entry) for name, entry in _table(_table(table).get("variants")).items()]
 
 
+def result_tables(data: dict) -> Iterator[tuple[tuple, dict]]:
+    """The tables of the files of results in a deck, with their paths. The deck may contain any error."""
+    yield from ((("result", name), table) for name, table in _table(data.get("result")).items() if isinstance(table, dict))
+
+
 def _table(value) -> dict:
     return value if isinstance(value, dict) else {}
 
 
 def placed(data: dict, folder: Path) -> dict:
-    """A deck in which the files of its models (code and tables), relative to a folder, have full paths."""
+    """A deck in which the files of its models (code and tables) and results, relative to a folder, have full paths."""
     data = copy.deepcopy(data)
-    for _, table in model_tables(data):
+    for _, table in (*model_tables(data), *result_tables(data)):
         for key in ("file", "table"):
             if isinstance(table.get(key), str):
                 table[key] = os.path.abspath(folder / table[key])

@@ -33,7 +33,7 @@ def part(text: str, required: Mapping[str, tuple[str, ...]]) -> str | None:
     return next((name for name, functions in required.items() if names & set(functions)), None)
 
 
-def _imported(tree: ast.AST) -> Iterator[tuple[str, int]]:
+def imported(tree: ast.AST) -> Iterator[tuple[str, int]]:
     """Names of modules that a file imports, with lines; ``from a import b`` gives a.b, which may be a module."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -48,7 +48,7 @@ def wrong_import(text: str, package: str) -> tuple[int, str] | None:
 
     Compiled code is kept by the text of the file alone, and the file is copied alone.
     """
-    for name, line in _imported(parsed(text)):
+    for name, line in imported(parsed(text)):
         top = name.split(".")[0]
         ours = any(f"{name}.".startswith(f"{place}.") for place in (*GROUND, package))
         choosing = name.split(".")[:2] in ([package, "dispatch"], [package, "radial_return"])

@@ -123,7 +123,7 @@ class Outside:
         except (ValueError, KeyboardInterrupt):
             raise
         except BaseException as error:
-            raise ModelError(f"{self.file}{_raised(error, self.module.__name__, 'row raises')}") from None
+            raise ModelError(f"{self.file}{raised(error, self.module.__name__, 'row raises')}") from None
         if wrong := form.wrong_row(row, self.kind, values):
             raise ModelError(f"{self.file}: {wrong}")
         return row
@@ -241,7 +241,7 @@ def _module(text: str, kind: Kind) -> ModuleType:
     except (ModelError, KeyboardInterrupt):
         raise
     except BaseException as error:  # a model may raise anything, and end the process
-        raise ModelError(_raised(error, stem, "cannot be imported:")) from None
+        raise ModelError(raised(error, stem, "cannot be imported:")) from None
 
 
 def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
@@ -260,12 +260,16 @@ def _compiled(module: ModuleType, name: str, kind: Kind) -> str | None:
     return None
 
 
-def _raised(error: BaseException, stem: str, what: str) -> str:
-    """":LINE: what EXCEPTION: its message", for an exception in the text of a model whose module's name begins with `stem`."""
+def line_of(error: BaseException, stem: str) -> int:
+    """The last line that an exception passed in the text of a model whose module's name begins with `stem`."""
     frames = traceback.extract_tb(error.__traceback__)
-    lines = [frame.lineno for frame in frames if Path(frame.filename).name.startswith(stem)]
+    return [1, *(frame.lineno or 1 for frame in frames if Path(frame.filename).name.startswith(stem))][-1]
+
+
+def raised(error: BaseException, stem: str, what: str) -> str:
+    """":LINE: what EXCEPTION: its message", for an exception in the text of a model whose module's name begins with `stem`."""
     name, said = type(error).__name__, _line(error)
-    return f":{(lines or [1])[-1]}: {what} {name}" + (f": {said}" if said != name else "")
+    return f":{line_of(error, stem)}: {what} {name}" + (f": {said}" if said != name else "")
 
 
 def _line(error: BaseException) -> str:

@@ -13,6 +13,8 @@ from typing import Annotated, Any, NamedTuple, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
+from hydro2d.base.errors import unknown
+
 #: unit by ending of the name, the longest first
 UNITS = {
     "_m3_J": "m3/J", "_kg_m3": "kg/m3", "_J_kg": "J/kg", "_J_m2": "J/m2", "_m_s2": "m/s2", "_m_s": "m/s", "_N_s": "N s",
@@ -73,12 +75,17 @@ class Result(BaseModel):
     model_config = ConfigDict(frozen=True, extra="ignore", strict=True, arbitrary_types_allowed=True)
 
     def __getitem__(self, name: str) -> Any:
-        """A result by its name, as tables and formulas have it."""
+        """A result by its name, as tables and formulas have it. Raises KeyError for a name that there is not."""
+        if name not in self:
+            raise KeyError(unknown("result", name, self.keys()))
         return getattr(self, name)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.keys()
 
     def keys(self) -> list[str]:
         """The names of the results, so that ** passes them on."""
-        return list(type(self).model_fields)
+        return [*type(self).model_fields, *(self.model_extra or ())]
 
     @classmethod
     def meanings(cls) -> dict[str, str]:

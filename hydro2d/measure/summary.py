@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import create_model
 
@@ -86,6 +86,10 @@ class _Flyer(Result):
         "shorter; null if there is none")
     residual_velocity_change_over_s: Number = result("time over which that change took place")
 
+    if TYPE_CHECKING:  # the results of PROJECTILE, which a type checker does not know
+
+        def __getattr__(self, name: str) -> Any: ...
+
 
 Flyer = create_model("Flyer", __base__=_Flyer, **{
     new: (Projectile.model_fields[old].annotation, result(Projectile.model_fields[old].description or ""))
@@ -132,19 +136,27 @@ class Ended(Result):
 
 
 class Summary(Projectile, Ended):
-    """A run at its end; the results of a projectile are null without one."""
+    """A run at its end; the results of a projectile are None without one.
+
+    A result is an attribute, ``summary.outcome.depth_m``, and has its name, ``summary["outcome"]``. The summary of a run that
+    has not ended is false, and all results are None or empty.
+    """
 
     outcome: Outcome | None = result("what the shot came to")
     projectile: Flyer | None = result("")  # type: ignore[valid-type]
     crater: Hole | None = result("hole in the first target")
     targets: dict[str, Target] = result("of each target", each="TARGET", default={})
     derived: dict[str, Number] = result(
-        "a quantity that `[derived]` of the deck defines, at the end", each="DERIVED", default={})
+        "a quantity that `[derived]` of the deck defines, or a file of `[result]` measures, at the end", each="DERIVED",
+        default={})
     bodies: dict[str, Body] = result("of each body", each="BODY", default={})
     stations: dict[str, Station] = result("of each tracer and gauge", each="STATION", default={})
     experiment: Experiment | None = result("")
     conservation: Conservation | None = result("")
     provenance: Provenance | None = result("commit, machine, packages, command and times", whole=True)
+
+    def __bool__(self) -> bool:
+        return bool(self.model_fields_set)
 
 
 class Progress(Result):

@@ -11,11 +11,11 @@ from typing import TypeVar
 import numpy as np
 
 from hydro2d.base import units
-from hydro2d.base.errors import unknown
+from hydro2d.base.errors import Error, unknown
 from hydro2d.base.parameters import NON_NEGATIVE, POSITIVE, REQUIRED, Required, check_sign, collect
 
 
-class InputError(ValueError):
+class InputError(Error, ValueError):
     """An input that a model cannot take; the message is for the user."""
 
 

@@ -365,7 +365,7 @@ def histories(runs: list, quantities=HISTORIES):
 
 def holes(run) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
     """The holes of a run that are not empty: the target's name, depth below the first target's surface and radius, mm, (n,)."""
-    surface = run.surface_at(run.summary.get("time_s") or 0.0) if run.summary else run.surface
+    surface = run.surface_at(run.summary.time_s or 0.0) if run.summary else run.surface
     for target, (z, radius) in run.craters.items():
         if len(z):
             yield target, run.direction * (z - surface) * 1e3, radius * 1e3

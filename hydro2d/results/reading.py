@@ -53,8 +53,8 @@ class Results:
     directory : Path
     tables : dict
         The resolved deck as nested dicts and lists, in SI units, as in the directory.
-    summary : dict
-        The contents of summary.json; empty until the run has ended.
+    summary : Summary
+        The contents of summary.json, ``run.summary.outcome.depth_m``; false, and without results, until the run has ended.
     trust : bool
         Whether the code of outside models in the deck may be executed, which only `simulation` and `state` need.
     """
@@ -306,17 +306,17 @@ class Results:
         facts = {"shot": self.tables.get("title", "")}
         facts["run"] = "has not ended"
         if summary:
-            time = summary.get("time_s")
-            facts["run"] = (summary.get("stop_reason") or "ended") + ("" if time is None else f" at {time * 1e6:.2f} µs")
-            if summary.get("trustworthy") is False:
-                facts["not trustworthy"] = "; ".join(summary.get("faults") or ())
-        if (outcome := summary.get("outcome") or {}).get("perforated"):
-            left = outcome.get("residual_velocity_m_s")
-            facts["through"] = ", ".join(summary.get("targets") or ()) + ("" if left is None else f", {left:.1f} m/s left")
-        elif summary.get("penetration_depth_m") is not None:
-            facts["depth"] = _millimetres(summary["penetration_depth_m"])
-        if summary.get("penetration_depth_m") is not None:
-            facts[self.projectile] = f"{_millimetres(summary.get('rod_length_m'))} long, {summary.get('regime')}"
+            time = summary.time_s
+            facts["run"] = (summary.stop_reason or "ended") + ("" if time is None else f" at {time * 1e6:.2f} µs")
+            if summary.trustworthy is False:
+                facts["not trustworthy"] = "; ".join(summary.faults)
+        if summary.outcome and summary.outcome.perforated:
+            left = summary.outcome.residual_velocity_m_s
+            facts["through"] = ", ".join(summary.targets) + ("" if left is None else f", {left:.1f} m/s left")
+        elif summary.penetration_depth_m is not None:
+            facts["depth"] = _millimetres(summary.penetration_depth_m)
+        if summary.penetration_depth_m is not None:
+            facts[self.projectile] = f"{_millimetres(summary.rod_length_m)} long, {summary.regime}"
         if self.measured_depth is not None:
             facts["experiment's depth"] = _millimetres(self.measured_depth)
         facts["dumps"] = f"{len(dumps)}, the last at {dumps[-1][0] * 1e6:.2f} µs" if dumps else "none"

@@ -6,6 +6,7 @@ import numpy as np
 
 from hydro2d.base.terminal import duration, moment, number
 from hydro2d.measure.regime import REGIMES
+from hydro2d.measure.summary import Summary
 from hydro2d.output import ending
 from hydro2d.output.directory import HISTORY
 
@@ -18,20 +19,20 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
     Raises HistoryError, VtkError.
     """
     columns = run.history if (run.directory / HISTORY).exists() else {}
-    summary = {} if progress else run.summary  # the summary of a run that is being continued is out of date
-    now = _last(columns) | {name: value for name, value in (summary or progress).items() if value is not None}
+    summary = Summary() if progress else run.summary  # the summary of a run that is being continued is out of date
+    now = _last(columns) | {name: value for name, value in dict(summary or progress).items() if value is not None}
     said = {"run": run.tables.get("title") or run.label, "state": status + (f": {message}" if message else "")}
     if summary:
-        said["state"] = f"{status}: {summary.get('stop_reason') or message}"
+        said["state"] = f"{status}: {summary.stop_reason or message}"
     if now.get("time_s") is not None:
         said["time"] = f"{moment(now['time_s'])}, cycle {int(now.get('cycles', 0))}"
         if now.get("wall_s") is not None:
             said["time"] += f", {duration(now['wall_s'])} of computing"
     if not summary:
         said["end"] = _end(run.stop, columns, now, progress, run.projectile)
-    if summary and (summary.get("outcome") or {}).get("perforated"):
+    if summary.outcome and summary.outcome.perforated:
         nose = number(now.get("nose_depth_m", now["penetration_depth_m"]), 1e3, ".2f", "mm")
-        through = ", ".join(summary["targets"])
+        through = ", ".join(summary.targets)
         said["through"] = f"{through}; nose {nose} behind the first face"
     elif now.get("penetration_depth_m") is not None:
         said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")

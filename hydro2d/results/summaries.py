@@ -10,42 +10,43 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import targets
 from hydro2d.files.whole import read_json
 from hydro2d.measure import outcome
-from hydro2d.measure.penetrator import Projectile
-from hydro2d.measure.summary import Progress, Summary
+from hydro2d.measure.summary import Conservation, Progress, Sink, Summary
 from hydro2d.output.directory import DECK, PROGRESS, SUMMARY, deck_hash
 
 
-def summary_of(directory: Path, deck: str, error: type[Error]) -> tuple[dict, list[str]]:
-    """The summary of a run directory, empty if there is none, and the dotted keys of its values of the wrong kind.
+def summary_of(directory: Path, deck: str, error: type[Error]) -> tuple[Summary, list[str]]:
+    """The summary of a run directory, an empty one if there is none, and the dotted keys of its values of the wrong kind.
 
     deck : the text of the directory's deck; a summary of another deck gets this as a fault
 
     Raises `error`.
     """
-    summary, odd = Summary.sound(table_of(directory / SUMMARY, error))
-    summary = _renewed(summary, deck)
-    if deck and summary.get("deck_sha256", deck_hash(deck)) != deck_hash(deck):
+    values, odd = Summary.sound(table_of(directory / SUMMARY, error))
+    summary = _renewed(Summary(**values), deck)
+    if deck and summary.deck_sha256 not in (None, deck_hash(deck)):
         fault = f"{SUMMARY} is of another deck than {DECK}"
-        summary = summary | {"trustworthy": False, "faults": [*(summary.get("faults") or ()), fault]}
+        summary = summary.model_copy(update={"trustworthy": False, "faults": [*summary.faults, fault]})
     return summary, odd
 
 
-def _renewed(summary: dict, text: str) -> dict:
-    """A summary of version 0.3, which does not say what its shot came to, with its outcome; text : of its deck."""
-    if "outcome" in summary or summary.get("penetration_depth_m") is None:
+def _renewed(summary: Summary, text: str) -> Summary:
+    """A summary of version 0.3 with what it does not have: its set-up, and what its shot came to; text : of its deck."""
+    if not summary or {"setup", "outcome"} <= summary.model_fields_set:
         return summary
+    update: dict[str, object] = {}
     thickness, velocity, experiment = None, 0.0, None
-    with suppress(DeckError):  # of a deck that is not accepted any more, the thickness of the target is not known
-        deck = decks.loads(text)
+    with suppress(DeckError):  # of a deck that is not accepted any more, neither is known
+        deck = decks.loads(text, trust=False)
+        update |= {"setup": deck.setup, "cells_across": deck.cells_across} if summary.setup is None else {}
         if deck.penetration is not None:
             thickness, velocity, experiment = targets.thickness(deck), decks.impact_velocity(deck), deck.experiment
-    audit = summary.get("conservation") or {}
-    taken = (audit.get("sinks") or {}).get("advection") or {}
-    came = outcome.of(
-        Projectile(**{name: summary.get(name) for name in Projectile.model_fields}), status=summary.get("status") or "",
-        stop_reason=summary.get("stop_reason") or "", impact_velocity=velocity, thickness=thickness, experiment=experiment,
-        dropped=outcome.ratio(taken.get("energy_J"), audit.get("start_energy_J")))
-    return summary | {"outcome": came.model_dump()}
+    if summary.outcome is None and summary.penetration_depth_m is not None:
+        audit = summary.conservation or Conservation()
+        taken = audit.sinks.get("advection") or Sink()
+        update["outcome"] = outcome.of(
+            summary, status=summary.status or "", stop_reason=summary.stop_reason or "", impact_velocity=velocity,
+            thickness=thickness, experiment=experiment, dropped=outcome.ratio(taken.energy_J, audit.start_energy_J))
+    return summary.model_copy(update=update)
 
 
 def progress_of(directory: Path, error: type[Error]) -> dict:

@@ -233,10 +233,10 @@ def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
         summary = shot.execute(Interrupt())
         seconds = time.perf_counter() - shot.began
     phases = {name: spent for name, spent in _kernel_seconds().items() if name not in OF_OUTPUTS} | shot.beside
-    case = _case(WHOLE_SHOT, summary["cells"], summary["cycles"] - 1, seconds, phases, 0.5 * (before + bandwidth()))
+    case = _case(WHOLE_SHOT, summary.cells, summary.cycles - 1, seconds, phases, 0.5 * (before + bandwidth()))
     return case | {
-        "stop_reason": summary["stop_reason"],
-        "penetration_depth_m": summary["penetration_depth_m"],
+        "stop_reason": summary.stop_reason,
+        "penetration_depth_m": summary.penetration_depth_m,
         "wall_s": seconds,
         "peak_memory_bytes": _peak_memory(),
         "shares_beside_cycles": {name: spent / seconds for name, spent in shot.beside.items()},

@@ -9,10 +9,7 @@ from __future__ import annotations
 from hydro2d.measure.bodies import Body
 from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.station_columns import Point
-from hydro2d.measure.summary import OF_EVERY_BODY, PROJECTILE, Summary
-
-#: amounts of a sink
-AMOUNTS = {"mass_kg": "mass", "momentum_N_s": "axial momentum", "energy_J": "energy"}
+from hydro2d.measure.summary import OF_EVERY_BODY, PROJECTILE, Conservation, Sink, Summary
 
 #: summary keys that call a projectile of any shape a rod, and the keys that replace them
 OLD: dict[str, str] = {
@@ -20,20 +17,20 @@ OLD: dict[str, str] = {
     **{old: f"bodies.{'TARGET' if old.startswith('target') else 'BODY'}.{new}" for old, new in OF_EVERY_BODY.items()},
 }
 
+#: columns of the audit, and the results of the summary that they are over time
+AUDIT = {"internal_energy_J": "internal_energy_J", "kinetic_energy_J": "kinetic_energy_J", "mass_change_BODY": "mass",
+         "axial_momentum_change": "axial_momentum", "total_energy_change": "total_energy"}
+
 HISTORY: dict[str, str] = {
     "time": "time since the start",
     "cycle": "cycle number",
     "dt": "time step",
     **Projectile.meanings(),
-    "internal_energy_J": "internal energy of all bodies",
-    "kinetic_energy_J": "kinetic energy of all nodes",
-    "mass_change_BODY": "relative change of the mass of a body that no sink accounts for",
-    "axial_momentum_change": "change of the axial momentum that no sink accounts for, over sqrt(2 m E) at the start",
-    "total_energy_change": "relative change of the total energy that no sink accounts for",
+    **{column: Conservation.meanings()[name] for column, name in AUDIT.items()},
     **{f"body_BODY_{key}": f"of each body: {meaning}" for key, meaning in Body.meanings().items()},
     **{f"STATION_{key}": f"of each tracer and gauge: {meaning}" for key, meaning in Point.meanings().items()},
-    "DERIVED": "a quantity that `[derived]` of the deck defines",
-    **{f"sink_SINK_{key}": f"{meaning} that a sink has taken since the start" for key, meaning in AMOUNTS.items()},
+    "DERIVED": "a quantity that `[derived]` of the deck defines, or a file of `[result]` measures",
+    **{f"sink_SINK_{key}": f"{meaning} since the start" for key, meaning in Sink.meanings().items()},
 }
 
 SUMMARY: dict[str, str] = {

@@ -12,19 +12,19 @@ import time as clock
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from hydro2d.base.formats import in_shell, one_line
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, moment, number, say
-from hydro2d.measure.outcome import EXACT
+from hydro2d.measure.outcome import EXACT, Outcome
 from hydro2d.measure.result import unit
+from hydro2d.measure.summary import Conservation, Summary, Target
 from hydro2d.measure.wall_damage import NO_DAMAGE
 from hydro2d.output import ending
 from hydro2d.output.ending import End
 from hydro2d.output.history import Columns
-from hydro2d.running import residual_velocity
 
 T = TypeVar("T")
 
@@ -45,7 +45,7 @@ WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
 PACE_SECONDS = 60.0
 
 
-def worst_mass(conservation: dict) -> float:
+def worst_mass(conservation: Conservation | dict) -> float:
     """The largest relative change of mass of a body, with its sign."""
     return max(conservation["mass"].values(), key=abs, default=0.0)
 
@@ -234,7 +234,7 @@ class Report:
             f"changes of mass {shown['mass']}, momentum {shown['momentum']}, energy {shown['energy']}"
         )
 
-    def end(self, run, summary: dict) -> None:
+    def end(self, run, summary: Summary) -> None:
         for text in result(summary, run.theory(summary)):
             self.line(text)
 
@@ -303,24 +303,24 @@ class Live(Report):
     def close(self) -> None:
         self._live.stop()
 
-    def end(self, run, summary: dict) -> None:
+    def end(self, run, summary: Summary) -> None:
         self._live.stop()
         super().end(run, summary)
 
 
-def result(summary: dict, theory: Sequence[str] = ()) -> list[str]:
+def result(summary: Summary, theory: Sequence[str] = ()) -> list[str]:
     """The closing lines: the result, compared with the experiment.
 
     theory : lines below the depth
     """
-    conserved = summary["conservation"]
+    conserved = summary.conservation
     lines = [
         _how_it_ended(summary),
-        *(f"NOT TRUSTWORTHY: {fault}" for fault in summary["faults"] if fault not in summary["stop_reason"]),
-        *(f"note: {note}" for note in summary.get("notes") or ()),
+        *(f"NOT TRUSTWORTHY: {fault}" for fault in summary.faults if fault not in summary.stop_reason),
+        *(f"note: {note}" for note in summary.notes),
         _costs(summary),
     ]
-    if summary["penetration_depth_m"] is not None:
+    if summary.penetration_depth_m is not None:
         lines += _rod(summary, theory)
     else:
         lines += _bars(summary)
@@ -330,18 +330,18 @@ def result(summary: dict, theory: Sequence[str] = ()) -> list[str]:
         lines.append(f"residual motion       {moving}")
     return [
         *lines,
-        f"relative changes      mass {worst_mass(conserved):+.1e}, momentum {conserved['axial_momentum']:+.1e}, "
-        f"energy {conserved['total_energy']:+.1e}",
+        f"relative changes      mass {worst_mass(conserved):+.1e}, momentum {conserved.axial_momentum:+.1e}, "
+        f"energy {conserved.total_energy:+.1e}",
     ]
 
 
-def _how_it_ended(summary: dict) -> str:
+def _how_it_ended(summary: Summary) -> str:
     """'done: end time', or 'interrupted at 26.800 us (SIGINT); continue with: hydro2d run shot.toml --restart'."""
-    why = re.fullmatch(r"interrupted \((.*)\)", summary["stop_reason"])
-    if summary["status"] != "interrupted" or why is None:
-        return f"{summary['status']}: {summary['stop_reason']}"
-    return (f"interrupted at {moment(summary['time_s'])} ({why[1]}); "
-            f"continue with: {continuing(summary['provenance']['command'])}")
+    why = re.fullmatch(r"interrupted \((.*)\)", summary.stop_reason)
+    if summary.status != "interrupted" or why is None:
+        return f"{summary.status}: {summary.stop_reason}"
+    return (f"interrupted at {moment(summary.time_s)} ({why[1]}); "
+            f"continue with: {continuing(summary.provenance.command)}")
 
 
 def continuing(command: str) -> str:
@@ -353,27 +353,27 @@ def continuing(command: str) -> str:
     return in_shell(*words, "--restart")
 
 
-def _costs(summary: dict) -> str:
+def _costs(summary: Summary) -> str:
     """'450 cycles to 26.800 us in 3.1 s (31.2 ns per cell and cycle, cycles alone); compilation 1 min 17 s, outputs 0.4 s'."""
-    pace = summary["ns_per_cell_cycle"]
+    pace = summary.ns_per_cell_cycle
     others = [f"{name} {duration(summary[key], tenths=True)}" for name, key in OTHER_COSTS.items()
               if summary[key] >= LEAST_COST]
-    return (f"{summary['cycles']} cycles to {moment(summary['time_s'])} in {duration(summary['cycles_s'], tenths=True)}"
+    return (f"{summary.cycles} cycles to {moment(summary.time_s)} in {duration(summary.cycles_s, tenths=True)}"
             + (f" ({pace:.1f} ns per cell and cycle, cycles alone)" if pace else "")
             + (f"; {', '.join(others)}" if others else ""))
 
 
-def _bars(summary: dict) -> list[str]:
+def _bars(summary: Summary) -> list[str]:
     """Changed lengths of the bodies that were longer than wide at the start, with the radii of their ends.
 
     No length is reported once part of a body has left the mesh.
     """
     lines = []
-    for name, body in summary["bodies"].items():
-        first, length, radius = (body.get(key) for key in ("initial_length_m", "length_m", "r_max_m"))
+    for name, body in summary.bodies.items():
+        first, length, radius = body.initial_length_m, body.length_m, body.r_max_m
         if first is None or length is None or radius is None or first < radius or abs(length - first) <= SAME_LENGTH * first:
             continue
-        if body["outflow_kg"] > 0.0:
+        if body.outflow_kg > 0.0:
             continue
         ends = [body[f"radius_at_z_{end}_m"] for end in ("min", "max")]
         lines.append(f"{f'{name} length':<21} {length * 1e3:.2f} mm of {first * 1e3:.2f} mm, {length / first:.3f}; "
@@ -381,105 +381,105 @@ def _bars(summary: dict) -> list[str]:
     return lines
 
 
-def _derived(summary: dict) -> list[str]:
+def _derived(summary: Summary) -> list[str]:
     """Values of the quantities that [derived] of the deck defines."""
     return [f"{name:<21} {'-' if value is None else f'{value:.5g}'}" + (f" {unit(name)}" if unit(name) != "1" else "")
-            for name, value in summary["derived"].items()]
+            for name, value in summary.derived.items()]
 
 
-def _peaks(summary: dict) -> list[str]:
+def _peaks(summary: Summary) -> list[str]:
     """The largest pressure and speed at tracers and gauges."""
-    stations = {name: station for name, station in summary["stations"].items() if station.get("peak_pressure_Pa") is not None}
-    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {stations[name]['peak_pressure_Pa'] / 1e9:.3g} GPa at "
-             f"{moment(stations[name]['peak_pressure_time_s'])}, peak speed {stations[name]['peak_speed_m_s']:.0f} m/s"
+    stations = {name: station for name, station in summary.stations.items() if station.peak_pressure_Pa is not None}
+    lines = [f"{name.replace('_', ' ', 1):<21} peak pressure {stations[name].peak_pressure_Pa / 1e9:.3g} GPa at "
+             f"{moment(stations[name].peak_pressure_time_s)}, peak speed {stations[name].peak_speed_m_s:.0f} m/s"
              for name in list(stations)[:MOST_STATIONS]]
     more = len(stations) - len(lines)
     return lines + ([f"{more} more tracers and gauges are in summary.json"] if more else [])
 
 
-def _moving(summary: dict) -> str:
+def _moving(summary: Summary) -> str:
     """Mean velocity and kinetic energy of the bodies that still move, the largest energy first; and the tail of the projectile,
     which may be faster than its mean."""
-    energies = {name: body["kinetic_energy_J"] for name, body in summary["bodies"].items()}
+    energies = {name: body.kinetic_energy_J for name, body in summary.bodies.items()}
     least = SHOWN * max(energies.values(), default=0.0)
     names = [name for name in sorted(energies, key=lambda name: -energies[name]) if energies[name] > least][:MOST_SHOWN]
-    said = [f"{name} {summary['bodies'][name]['velocity_m_s']:z.1f} m/s, {energies[name]:.3g} J" for name in names]
-    projectile = summary["projectile"]
-    if projectile and projectile["tail_velocity_m_s"] is not None:
-        said.append(f"tail of the {projectile['body']} {projectile['tail_velocity_m_s']:z.1f} m/s")
+    said = [f"{name} {summary.bodies[name].velocity_m_s:z.1f} m/s, {energies[name]:.3g} J" for name in names]
+    projectile = summary.projectile
+    if projectile and projectile.tail_velocity_m_s is not None:
+        said.append(f"tail of the {projectile.body} {projectile.tail_velocity_m_s:z.1f} m/s")
     return "; ".join(said)
 
 
-def _over_length(summary: dict) -> str:
+def _over_length(summary: Summary) -> str:
     """Depth over the length of the projectile, or over its diameter if it is as long as thick, such as a ball."""
-    shape, ratio = summary["projectile"], summary["penetration_over_length"]
+    shape, ratio = summary.projectile, summary.penetration_over_length
     if ratio is None:
         return ""
-    thick = 2.0 * shape["initial_radius_m"]
-    return f", P/{'D' if abs(thick - shape['initial_length_m']) < AS_LONG * thick else 'L'} {ratio:.3f}"
+    thick = 2.0 * shape.initial_radius_m
+    return f", P/{'D' if abs(thick - shape.initial_length_m) < AS_LONG * thick else 'L'} {ratio:.3f}"
 
 
-def _unsettled(shape: dict) -> str:
+def _unsettled(shape: Any) -> str:
     """The change of the residual velocity if it is still changing."""
-    change, over = shape.get(residual_velocity.CHANGE), shape.get(residual_velocity.OVER)
-    if change is None or not abs(change) > SETTLED * abs(shape["residual_velocity_m_s"]):
+    change, over = shape.residual_velocity_change_m_s, shape.residual_velocity_change_over_s
+    if change is None or not abs(change) > SETTLED * abs(shape.residual_velocity_m_s):
         return ""
     return f"; still changing, by {change:+.1f} m/s in the last {over * 1e6:.1f} us"
 
 
-def _of_targets(targets: dict) -> Iterator[str]:
+def _of_targets(targets: dict[str, Target]) -> Iterator[str]:
     """The ejecta of the first target, where they say how much momentum it has, and the damage of the last one."""
-    for back in [target["ejecta"] for target in targets.values()][:1]:
-        if back["momentum_multiplication"] is not None and back["mass_kg"] > 0.0:
-            yield (f"ejecta                {number(back['mass_kg'], 1e3, '.3g', 'g')}, {back['momentum_N_s']:.3g} N s; "
-                   f"momentum multiplication {back['momentum_multiplication']:.3f}")
+    for back in [target.ejecta for target in targets.values()][:1]:
+        if back.momentum_multiplication is not None and back.mass_kg > 0.0:
+            yield (f"ejecta                {number(back.mass_kg, 1e3, '.3g', 'g')}, {back.momentum_N_s:.3g} N s; "
+                   f"momentum multiplication {back.momentum_multiplication:.3f}")
     for name, target in list(targets.items())[-1:]:
-        if target["damage_class"] not in (None, NO_DAMAGE):
-            hole = target["crater"]["hole_diameter_m"]
+        if target.damage_class not in (None, NO_DAMAGE):
+            hole = target.crater.hole_diameter_m
             width = "" if hole is None else f", hole of {number(hole, 1e3, '.2f', 'mm')} at its narrowest"
-            yield f"{f'damage of {name}':<21} {target['damage_class']}{width}"
+            yield f"{f'damage of {name}':<21} {target.damage_class}{width}"
 
 
-def _error(outcome: dict) -> str:
+def _error(outcome: Outcome) -> str:
     """The error of a depth, with the word for one that is a bound; empty without one."""
-    if outcome["depth_error_m"] is None:
+    if outcome.depth_error_m is None:
         return ""
-    bound = "" if outcome["depth_error_is"] == EXACT else f"{outcome['depth_error_is']} "
-    return f" (error {bound}{outcome['depth_error_m'] * 1e2:+.2f} cm, {outcome['depth_error_percent']:+.1f} %)"
+    bound = "" if outcome.depth_error_is == EXACT else f"{outcome.depth_error_is} "
+    return f" (error {bound}{outcome.depth_error_m * 1e2:+.2f} cm, {outcome.depth_error_percent:+.1f} %)"
 
 
-def _rod(summary: dict, theory: Sequence[str]) -> list[str]:
+def _rod(summary: Summary, theory: Sequence[str]) -> list[str]:
     from hydro2d.measure.regime import LEFT
 
-    experiment, shape, outcome = summary["experiment"], summary["projectile"], summary["outcome"]
-    body = shape["body"]
-    bound = "at least " if summary["regime"] == LEFT else ""
+    experiment, shape, outcome = summary.experiment, summary.projectile, summary.outcome
+    body = shape.body
+    bound = "at least " if summary.regime == LEFT else ""
     largest, at_end = (number(summary[name], 1e2, ".2f", "cm") for name in ("penetration_depth_m", "nose_depth_m"))
-    if outcome["perforated"]:
-        lines = [f"perforated            {', '.join(summary['targets'])}; nose {at_end} behind the first face"]
+    if outcome.perforated:
+        lines = [f"perforated            {', '.join(summary.targets)}; nose {at_end} behind the first face"]
     else:
         back = "" if at_end == largest else f"; {at_end} at the end"
         lines = [f"penetration depth     {bound}{largest}{_over_length(summary)}{back}"]
-    if experiment and experiment["penetration_m"]:
-        measured = experiment["penetration_m"]
-        qualifier = "" if experiment["qualifier"] == "measured" else f"{experiment['qualifier']} "
-        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(outcome)}  {experiment['source']}")
+    if experiment and experiment.penetration_m:
+        measured = experiment.penetration_m
+        qualifier = "" if experiment.qualifier == "measured" else f"{experiment.qualifier} "
+        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(outcome)}  {experiment.source}")
     lines += theory
-    if shape.get("residual_mass_kg") is not None:
-        velocity, mass = (shape[f"residual_{name}"] for name in ("velocity_m_s", "mass_kg"))
+    if shape.residual_mass_kg is not None:
+        velocity, mass = shape.residual_velocity_m_s, shape.residual_mass_kg
         lines.append(f"{f'residual {body}':<21} {number(velocity, 1, '.1f', 'm/s')}, {number(mass, 1e3, '.2f', 'g')}"
                      + _unsettled(shape))
-    if experiment and experiment["residual_velocity_m_s"] is not None:
-        measured = experiment["residual_velocity_m_s"]
-        lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment['source']}")
-    for name, plate in summary["targets"].items() if len(summary["targets"]) > 1 else ():
-        if plate["exit_time_s"] is not None:
-            velocity, mass = number(plate["exit_velocity_m_s"], 1, ".1f", "m/s"), number(plate["exit_mass_kg"], 1e3, ".2f", "g")
-            lines.append(f"  through {name} at {moment(plate['exit_time_s'])}: {velocity}, {mass}")
+    if experiment and experiment.residual_velocity_m_s is not None:
+        measured = experiment.residual_velocity_m_s
+        lines.append(f"  experiment          residual velocity {measured:.1f} m/s  {experiment.source}")
+    for name, plate in summary.targets.items() if len(summary.targets) > 1 else ():
+        if plate.exit_time_s is not None:
+            velocity, mass = number(plate.exit_velocity_m_s, 1, ".1f", "m/s"), number(plate.exit_mass_kg, 1e3, ".2f", "g")
+            lines.append(f"  through {name} at {moment(plate.exit_time_s)}: {velocity}, {mass}")
     return [
         *lines,
-        *_of_targets(summary["targets"]),
-        f"{f'{body} length':<21} {number(shape['length_m'], 1e2, '.2f', 'cm')}",
-        f"largest plastic strain of the {body} {shape['max_plastic_strain']:.3g}",
-        f"regime                {summary['regime']}",
+        *_of_targets(summary.targets),
+        f"{f'{body} length':<21} {number(shape.length_m, 1e2, '.2f', 'cm')}",
+        f"largest plastic strain of the {body} {shape.max_plastic_strain:.3g}",
+        f"regime                {summary.regime}",
     ]

@@ -30,6 +30,7 @@ from hydro2d.base.errors import UnphysicalState
 from hydro2d.base.interrupt import Interrupt, signals
 from hydro2d.base.method_version import METHOD
 from hydro2d.base.version import __version__
+from hydro2d.deck import formulas
 from hydro2d.deck.warnings import warnings
 from hydro2d.files.locks import locked, remove
 from hydro2d.files.toml import model_tables
@@ -76,21 +77,19 @@ DONE, WRONG_INPUT, UNPHYSICAL = 0, 2, 3
 COSTS = ("cycles_s", "compilation_s", "outputs_s", "set_up_s")
 
 #: function that makes lines from a deck and the summary of its run
-Theory = Callable[[Any, dict], list[str]]
+Theory = Callable[[Any, Summary], list[str]]
 
 #: sections of a deck that may differ when a run is continued
-FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived")
+FREE_SECTIONS = ("name", "title", "stop", "output", "experiment", "derived", "result")
 
 
 def check_same_deck(now: str, before: str) -> None:
     """Raises RunError if two resolved decks differ in anything that affects the state."""
-    now, before = (tomllib.loads(text) for text in (now, before))
+    decks = [tomllib.loads(text) for text in (now, before)]
     new, old = ({**{table["model"]: table["code"] for _, table in model_tables(data) if table.pop("code_from", "")},
                  **{f"{path[1]}, its table": table["table_data"] for path, table in model_tables(data)
-                    if table.pop("table_from", "")}} for data in (now, before))
-    changed = sorted(
-        key for key in now.keys() | before.keys() if key not in FREE_SECTIONS and now.get(key) != before.get(key)
-    )
+                    if table.pop("table_from", "")}} for data in decks)
+    changed = sorted(key for key in {*decks[0], *decks[1]} - {*FREE_SECTIONS} if decks[0].get(key) != decks[1].get(key))
     if changed:
         models = [f"the code of the model {name}" for name in sorted(new.keys() & old.keys()) if new[name] != old[name]]
         raise RunError(
@@ -177,9 +176,9 @@ class Run:
         kind = "compilation_s" if self.compiled and self.compiled.happened else "set_up_s"
         return self.spent | {kind: self.spent[kind] + self._first_calls()}
 
-    def theory(self, summary: dict) -> list[str]:
+    def theory(self, summary: Summary) -> list[str]:
         """Lines below the depth of a finished run."""
-        return self._theory(self.deck, summary) if self._theory and summary["status"] == "done" else []
+        return self._theory(self.deck, summary) if self._theory and summary.status == "done" else []
 
     def _history(self, rows: int, unwritten: dict[str, list[float]]) -> History:
         """The history to continue, with the rows that only the restart file has; a damaged file is renamed."""
@@ -204,7 +203,7 @@ class Run:
         """Seconds spent on the run, in this process and in earlier ones."""
         return self.wall_before + clock.perf_counter() - self.started
 
-    def execute(self, interrupt: Interrupt) -> dict:
+    def execute(self, interrupt: Interrupt) -> Summary:
         """Runs until there is a reason to stop. Returns the summary, which is also in summary.json."""
         self.report.begin(self)
         reason = self.sim.stop_reason()
@@ -367,7 +366,7 @@ class Run:
         attempts.conclude()
         raise error
 
-    def _finish(self, status: str, reason: str) -> dict:
+    def _finish(self, status: str, reason: str) -> Summary:
         """Writes the last outputs; if one fails, the others are still written.
 
         The summary comes last, and says that the run was interrupted if anything else could not be written. A restart file
@@ -379,7 +378,7 @@ class Run:
         with attempts.writing(self.directory / SUMMARY):
             summary = self.summary(*(("interrupted", attempts.failures) if attempts.failures else (status, reason)))
             remove(self.directory / PROGRESS)
-            write_json(self.directory / SUMMARY, summary)
+            write_json(self.directory / SUMMARY, summary.model_dump())
         attempts.conclude()
         with writing(self.directory / LOG):
             self.report.end(self, summary)
@@ -400,7 +399,9 @@ class Run:
         if status != "interrupted" and not wrong:
             if self.history.last_time != self.sim.time:
                 with attempts.writing(self.directory / HISTORY):
-                    self._last_row(status)
+                    if last := self._last_row(status):
+                        self.history.append(last)
+                    self.history.write()
             if self.series.last_time != self.sim.time:
                 with attempts.writing(self.directory / FOLDER):
                     self.series.dump(self.sim)
@@ -408,20 +409,21 @@ class Run:
             if text := self.team.thread_use():
                 self.report.line(text)
 
-    def _last_row(self, status: str) -> None:
-        """Writes the row of the end. A user's column may fail in an unphysical state."""
+    def _last_row(self, status: str) -> dict[str, Any]:
+        """The row of the end. A user's column or result may fail in an unphysical state; the row is then empty."""
         try:
-            self.history.append(row(self.sim))
+            return row(self.sim)
         except ColumnError as error:
             if status != "unphysical":
                 raise
             self.report.line(f"warning: {error}")
-        self.history.write()
+            return {}
 
-    def summary(self, status: str, reason: str) -> dict:
+    def summary(self, status: str, reason: str) -> Summary:
         """The contents of summary.json."""
         sim, cycles, targets = self.sim, self.stepped - 1, self.sim.of_targets()
-        last, pace = row(sim) if sim.formulas else {}, self.spent["cycles_s"] - self.timed_from
+        last = self._last_row(status) if sim.formulas or sim.own_results else {}
+        pace, own = self.spent["cycles_s"] - self.timed_from, [name for own in sim.own_results.values() for name in own.lines]
         faults = (sim.faults() or [reason] * (status == "unphysical")) + sim.doubts() + self.lacking
         if (wrong := sim.not_finite()) and wrong not in faults:
             faults.append(f"null stands for what could not be computed: {wrong}")
@@ -438,15 +440,16 @@ class Run:
             projectile=projectile and Flyer(body=sim.projectile, **{new: projectile[old] for old, new in PROJECTILE.items()},
                                             **settling),
             crater=next((target.crater for target in targets.values()), None), targets=targets,
-            derived={name: last[name] for name in sim.formulas}, bodies=sim.of_bodies(), stations=sim.stations.measure(),
-            experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance,
-        ).model_dump()
+            derived={name: last.get(name) for name in (*own, *sim.formulas)},
+            bodies=sim.of_bodies(), stations=sim.stations.measure(),
+            experiment=experiment(self.deck), conservation=Conservation(**sim.conservation()), provenance=self.provenance)
 
 
 def models_from_outside(deck) -> list[dict]:
-    """Models of a deck that are not part of hydro2d, code and tables: kind, name, file and SHA-256."""
-    return [about for material in deck.materials.values()
-            for about in (*(model.about() for model in material.from_outside()), *material.tables())]
+    """What of a deck is not part of hydro2d, code of models and results, and tables: kind, name, file and SHA-256."""
+    models = [about for material in deck.materials.values()
+              for about in (*(model.about() for model in material.from_outside()), *material.tables())]
+    return models + [own.about(name) for name, own in formulas.own_results(deck).items()]
 
 
 def experiment(deck) -> Experiment | None:
@@ -458,7 +461,7 @@ def experiment(deck) -> Experiment | None:
 
 def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, quiet=False,
         interrupt: Interrupt | None = None, columns: Mapping[str, Callable] | None = None, second: bool | None = None,
-        theory: Theory | None = None) -> dict:
+        theory: Theory | None = None) -> Summary:
     """Runs a deck in a directory and returns its summary.
 
     deck : a resolved deck, from deck.load
@@ -495,8 +498,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             return this_run.execute(interrupt)
 
 
-def exit_status(summary: dict) -> int:
+def exit_status(summary: Summary) -> int:
     """0 for done, 3 for unphysical, 128 plus its number after a signal, as in shells."""
-    if summary["status"] == "interrupted":
-        return interrupts.status(summary["stop_reason"])
-    return UNPHYSICAL if summary["status"] == "unphysical" else DONE
+    if summary.status == "interrupted":
+        return interrupts.status(summary.stop_reason or "")
+    return UNPHYSICAL if summary.status == "unphysical" else DONE

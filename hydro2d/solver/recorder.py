@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from hydro2d.base.errors import Error
+from hydro2d.materials.outside import ModelError
 from hydro2d.measure.penetrator import Projectile
 from hydro2d.measure.station_columns import PEAKS
 from hydro2d.output.history import CRATER, DEBRIS, Columns
@@ -23,7 +24,7 @@ class ColumnError(Error):
 def row(sim: Any) -> dict[str, float | str | None]:
     """One row of the history: the measurements of a simulation by name; see `running/columns.py` for all names.
 
-    Raises ColumnError for a column of the user's that fails.
+    Raises ColumnError for a column or a result of the user's that fails.
     """
     conserved = sim.conservation()
     values = {"time": sim.time, "cycle": sim.cycle, "dt": sim.dt, **sim.diagnostics()}
@@ -36,6 +37,7 @@ def row(sim: Any) -> dict[str, float | str | None]:
         values |= {f"{name}_{key}": value for key, value in point.items() if key not in PEAKS}
     for sink, amounts in conserved["sinks"].items():
         values |= {f"sink_{sink}_{name}": amount for name, amount in amounts.items()}
+    values |= own_results(sim)
     values |= derived(sim, values)
     check(sim.columns)
     for name, of in sim.columns.items():
@@ -46,6 +48,14 @@ def row(sim: Any) -> dict[str, float | str | None]:
         except Exception as error:
             raise ColumnError(f"the column {name} fails: {type(error).__name__}: {error}") from error
     return values
+
+
+def own_results(sim: Any) -> dict[str, float | None]:
+    """The results that the files of [result] of the deck measure, by name. Raises ColumnError."""
+    try:
+        return {name: value for own in sim.own_results.values() for name, value in own.measure(sim).items()}
+    except ModelError as error:
+        raise ColumnError(str(error)) from error
 
 
 def derived(sim: Any, values: Mapping[str, Any]) -> dict[str, float | None]:

@@ -72,6 +72,8 @@ class Simulation:
         Further columns of the history, each a number. The ending of a name gives its unit: ``_m``, ``_m_s``, ``_Pa``, ``_K``.
     formulas : dict of Expression by name
         Those that [derived] of the deck defines.
+    own_results : dict of OwnResult by name
+        The files that [result] of the deck names.
     lengths : dict of float by name
         Extent of every body along the axis at the start, m; None for one that filled no cell by half.
     grid, state, table, audit : the mesh, the fields, the materials, the conserved quantities
@@ -120,7 +122,7 @@ class Simulation:
         self.stops = stops.of(self)
         self.columns: dict[str, Callable[[Simulation], float]] = {}
         self.lengths = bodies.lengths(self)
-        self.formulas = formulas.expressions(deck)
+        self.formulas, self.own_results = formulas.expressions(deck), formulas.own_results(deck)
         assert deck.output.history_interval is not None, "a resolved deck has one"
         self._recorder = Recorder(deck.output.history_interval)
 

@@ -34,11 +34,11 @@ class Measure:
 
 
 def _crater(run: hydro2d.Results) -> float:
-    return 1e3 * run.summary["crater"]["depth_m"]
+    return 1e3 * run.summary.crater.depth_m
 
 
 def _body(name: str, key: str, factor: float) -> Callable[[hydro2d.Results], float]:
-    return lambda run: factor * run.summary["bodies"][name][key]
+    return lambda run: factor * run.summary.bodies[name][key]
 
 
 def _pull_back(run: hydro2d.Results) -> float:
@@ -55,7 +55,7 @@ MEASURES = {
     "flyer_spall": Measure("pull-back of the rear", "m/s", 0, "169", _pull_back),
     "bumper": Measure("mean velocity of the ball", "km/s", 2, "4.56 at least", _body("ball", "velocity_m_s", 1e-3)),
     "two_plates": Measure("residual velocity", "m/s", 0, "a little less than 897",
-                          lambda run: run.summary["rod_residual_velocity_m_s"]),
+                          lambda run: run.summary.rod_residual_velocity_m_s),
     "jacketed_rod": Measure("depth", "mm", 1, "somewhat less than 40 to 43", _crater),
     "long_rod": Measure("depth", "mm", 1, "a little less than 40", _crater),
     "block_in_hole": Measure("velocity of the block", "m/s", 1, "200", _body("block", "velocity_m_s", 1.0)),
@@ -113,13 +113,13 @@ def _kept(row: dict[str, str]) -> Result:
 def _of(case: hydro2d.Case) -> Result:
     summary, shot = case.summary, case.values["shot"]
     ended = case.status == "done"
-    sinks, start = summary["conservation"]["sinks"], summary["conservation"]["start_energy_J"]
-    discarded, clipped = (round(100.0 * sinks[name]["energy_J"] / start, 2) for name in ("advection", "ke_bound"))
+    sinks, start = summary.conservation.sinks, summary.conservation.start_energy_J
+    discarded, clipped = (round(100.0 * sinks[name].energy_J / start, 2) for name in ("advection", "ke_bound"))
     value = MEASURES[shot].of(hydro2d.open_run(case.directory)) if ended else None
-    status = ("trusted" if summary["trustworthy"] else "not trusted") if ended else "unphysical"
+    status = ("trusted" if summary.trustworthy else "not trusted") if ended else "unphysical"
     return Result(shot, case.values.get("sliding", "none"), case.values["advection"], status,
-                  None if value is None else round(value, 3), discarded, clipped, round(1e6 * summary["time_s"], 2),
-                  summary["cycles"], _short(next(iter(summary["faults"]), "")))
+                  None if value is None else round(value, 3), discarded, clipped, round(1e6 * summary.time_s, 2),
+                  summary.cycles, _short(next(iter(summary.faults), "")))
 
 
 def _short(fault: str) -> str:

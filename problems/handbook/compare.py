@@ -105,7 +105,7 @@ def gun(h: History) -> Iterator[tuple[str, float]]:
 
 
 def bumper(h: History) -> Iterator[tuple[str, float]]:
-    yield "diameter of the hole", 1e3 * h["targets"]["bumper"]["crater"]["hole_diameter_m"]
+    yield "diameter of the hole", 1e3 * h["targets"]["bumper"].crater.hole_diameter_m
 
 
 def slam(h: History) -> Iterator[tuple[str, float]]:
@@ -144,10 +144,10 @@ def rows_of(name: str, runs: Path) -> list[dict[str, str]]:
     if not (place / "summary.json").exists():
         hydro2d.run(FOLDER / f"{name}.toml", place, threads=1, overwrite=True, quiet=True, columns=OF_HISTORY.get(name))
     results = hydro2d.open_run(place)
-    trusted = "yes" if results.summary["trustworthy"] else "no"
+    trusted = "yes" if results.summary.trustworthy else "no"
     with h5py.File(place / "history.h5") as file:
         history = {key: entry[:] for key, entry in file.items() if isinstance(entry, h5py.Dataset) and entry.ndim}
-    found = dict(READ[name](history | {"targets": results.summary.get("targets", {})}))
+    found = dict(READ[name](history | {"targets": results.summary.targets}))
     rows = [row for row in expected() if row["deck"] == name]
     assert [row["quantity"] for row in rows] == list(found), name
     return [{"deck": name, "quantity": quantity, "obtained": f"{value:.4g}", "trusted": trusted}

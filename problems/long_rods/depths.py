@@ -122,13 +122,13 @@ def _kept(row: dict[str, str]) -> Result:
 
 def _of(case: hydro2d.Case) -> Result:
     summary = case.summary
-    diameter, length = 2.0 * summary["rod_initial_radius_m"], summary["rod_initial_length_m"]
-    if "velocity" not in case.values or not summary.get("crater"):
+    diameter, length = 2.0 * summary.rod_initial_radius_m, summary.rod_initial_length_m
+    if "velocity" not in case.values or summary.crater is None:
         raise hydro2d.StudyError(f"{case.name}: its study has no axis of the velocity, or it made no hole")
     velocity = hydro2d.to_si(case.values["velocity"], "m/s")
     parts = measured(hydro2d.open_run(case.directory).history, diameter)
     numbers = (velocity, parts["depth"] / length, parts["slope"], parts["end"], parts["u"], parts["v"], parts["left"] / length,
-               summary["crater"]["mean_diameter_m"] / diameter, 1e6 * parts["time"], summary["wall_s"] / 60.0)
+               summary.crater.mean_diameter_m / diameter, 1e6 * parts["time"], summary.wall_s / 60.0)
     return Result(case.name, case.values, round(length / diameter), dict(zip(NUMBERS, numbers, strict=True)))
 
 

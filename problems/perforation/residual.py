@@ -46,9 +46,9 @@ def runs(directories: list[Path]) -> list[Run]:
         for case in hydro2d.open_study(directory).cases:
             if case.status == "done" and "nose" in case.values:
                 summary, striking = case.summary, float(case.values["velocity"].split()[0])
-                through, crater = summary["outcome"]["perforated"], summary["crater"]
-                cases.append(Run(case.values["nose"], striking, summary["outcome"]["residual_velocity_m_s"] if through else 0.0,
-                                 *((crater["ejected_mass_kg"], crater["ejected_velocity_m_s"], crater["exit_diameter_m"])
+                through, crater = summary.outcome.perforated, summary.crater
+                cases.append(Run(case.values["nose"], striking, summary.outcome.residual_velocity_m_s if through else 0.0,
+                                 *((crater.ejected_mass_kg, crater.ejected_velocity_m_s, crater.exit_diameter_m)
                                    if through else ())))
     return sorted(cases, key=lambda run: (run.nose, -run.striking))
 

@@ -47,7 +47,7 @@ def _sedov_refine(j: int, cells: int) -> list[str]:
 
 
 def _sedov(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
-    exact, state, time = SEDOV[j], cells_of(run), run.summary["time_s"]
+    exact, state, time = SEDOV[j], cells_of(run), run.summary.time_s
     radius = exact.radius(time)
     fronts = np.array([front_of(state, state.mean_pressure, angle) for angle in RAYS])
     centre = state.distance < 0.25 * radius
@@ -85,7 +85,7 @@ NOH_PLATEAU = (0.08, 0.17)  # between the heated core and the smeared shock at 0
 
 
 def _noh(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
-    exact, state, time = Noh(j, speed=1000.0), cells_of(run), run.summary["time_s"]
+    exact, state, time = Noh(j, speed=1000.0), cells_of(run), run.summary.time_s
     place = state.distance if j == 3 else state.r
     here = (place > NOH_PLATEAU[0]) & (place < NOH_PLATEAU[1])
     rho, middle = exact.rho, 0.5 * (exact.rho + 4.0 ** (j - 1))
@@ -129,7 +129,7 @@ COLLAPSE = Collapse(e0=5e4, end=1e-3)
 
 
 def _collapse(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     rho, p, e = COLLAPSE.at(time)
     here = state.distance < 0.8 * COLLAPSE.untouched(1.0, time)
     core = state.distance < 0.1
@@ -222,7 +222,7 @@ def _moved(run: hydro2d.Results) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _blake(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    time, state = run.summary["time_s"], cells_of(run)
+    time, state = run.summary.time_s, cells_of(run)
     start, moved = _moved(run)
     distance = np.hypot(*start.T)
     moved = np.sum(moved * start, axis=1) / distance
@@ -254,7 +254,7 @@ def _blake_curve(run: hydro2d.Results) -> Curve:
 
 def _cylinder(run: hydro2d.Results, cells: int) -> list[Quantity]:
     start, moved = _moved(run)
-    exact = blake.cylindrical(CAVITY, start[:, 0], run.summary["time_s"])
+    exact = blake.cylindrical(CAVITY, start[:, 0], run.summary.time_s)
     return [Quantity(f"displacement at {r / CAVITY.radius:g} radii", "nm", 1e9 * right, 1e9 * computed)
             for r, right, computed in zip(start[:, 0], exact, moved[:, 0], strict=True)]
 
@@ -270,7 +270,7 @@ METAL = elastic_plastic.ALUMINIUM_EXACTPACK
 
 
 def _elastic_piston(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     wave = elastic_plastic.elastic(METAL[0], METAL[1], 20.0)
     x, stress = state.along(state.axial_stress, "z")
     front, velocity = crossing(x, stress, 0.5 * wave.sigma), state.along(state.v, "z")[1]
@@ -285,7 +285,7 @@ def _elastic_piston(run: hydro2d.Results, cells: int) -> list[Quantity]:
 
 
 def _elastic_plastic_piston(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     exact = elastic_plastic.piston(*METAL, 100.0)
     first, second = exact.elastic, exact.plastic
     x, stress = state.along(state.axial_stress, "z")
@@ -382,16 +382,16 @@ def _shell(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
     stop, time = exact.stop(speed), run.history["time"]
     radius = run.history["cavity_m"]
     last = int(np.argmin(radius))
-    conservation = run.summary["conservation"]
+    conservation = run.summary.conservation
     quantities = [
         Quantity("inner radius at the stop", "mm", 1e3 * stop, 1e3 * float(radius[last])),
         Quantity("kinetic energy that the remap discarded", "%", 0.0,
-                 100.0 * conservation["sinks"]["advection"]["energy_J"] / conservation["start_energy_J"], 100.0),
+                 100.0 * conservation.sinks["advection"].energy_J / conservation.start_energy_J, 100.0),
     ]
     if j == 3:
         axis, equator = (run.history[f"cavity_{name}_m"][last] for name in ("axis", "equator"))
         quantities.append(Quantity("axis less equator", "mm", 0.0, 1e3 * float(axis - equator), 1e3 * stop))
-    assert time[last] < run.summary["time_s"], "the shell has not stopped"
+    assert time[last] < run.summary.time_s, "the shell has not stopped"
     return quantities
 
 
@@ -411,7 +411,7 @@ DRIVEN = riemann_jwl.drive(riemann_jwl.burnt(*riemann_jwl.PBX9404), AL_5083)
 
 
 def _riemann(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     x, pressure = state.along(state.mean_pressure, "z")
     velocity, density = state.along(state.v, "z")[1], state.along(state.density, "z")[1]
     rho, u, p = DRIVEN.sample(x / time)
@@ -469,7 +469,7 @@ def _products(deck: hydro2d.Deck) -> tuple[np.ndarray, Taylor]:
 def _detonation(run: hydro2d.Results, cells: int) -> list[Quantity]:
     row, flow = _products(run.deck)
     speed, cj, _ = jwl.cj_state(row)
-    state, time, history = cells_of(run), run.summary["time_s"], run.history
+    state, time, history = cells_of(run), run.summary.time_s, run.history
     x, pressure = state.along(state.mean_pressure, "z")
     velocity = state.along(state.v, "z")[1]
     half = history["time"] > 0.5 * time

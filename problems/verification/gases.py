@@ -30,7 +30,7 @@ def _projectile(simulation: hydro2d.Simulation) -> float:
 
 
 def _gun(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, history, time = cells_of(run), run.history, run.summary["time_s"]
+    state, history, time = cells_of(run), run.history, run.summary.time_s
     x, pressure = state.along(state.mean_pressure, "z")
     velocity = state.along(state.v, "z")[1]
     simple = (x > GUN.returned(time, BREECH) + 0.05) & (x < float(GUN.position(time)) - 3.0 * state.size)
@@ -66,7 +66,7 @@ def _escape_refine(cells: int) -> list[str]:
 
 
 def _escape(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     x, density = state.along(state.density, "z")
     pressure, velocity = state.along(state.mean_pressure, "z")[1], state.along(state.v, "z")[1]
     rho, u, p = ESCAPE.sample(x, time)
@@ -75,13 +75,13 @@ def _escape(run: hydro2d.Results, cells: int) -> list[Quantity]:
     exact_rho, exact_u, exact_p = ESCAPE.sample(fine, time)
     kinetic = np.trapezoid(0.5 * exact_rho * exact_u**2, fine)
     forward = np.trapezoid(exact_rho * np.maximum(exact_u, 0.0), fine)
-    balance = run.summary["conservation"]
-    total = balance["kinetic_energy_J"] + balance["internal_energy_J"]
+    balance = run.summary.conservation
+    total = balance.kinetic_energy_J + balance.internal_energy_J
     return [
         Quantity("largest pressure", "GPa", 1e-9 * float(exact_p.max()), 1e-9 * float(pressure.max())),
         Quantity("momentum forward", "kg/(m s)", forward, float(np.sum(density * np.maximum(velocity, 0.0)) * state.size)),
         Quantity("kinetic energy", "%", 100.0 * kinetic / (ESCAPE.energy * ESCAPE.length),
-                 100.0 * balance["kinetic_energy_J"] / total),
+                 100.0 * balance.kinetic_energy_J / total),
         Quantity("mass beyond the exact ends", "%", 0.0,
                  100.0 * float(density[(x < low) | (x > high)].sum() / density.sum()), 100.0),
         profile("density", density, rho),
@@ -108,7 +108,7 @@ def _reflection_refine(cells: int) -> list[str]:
 
 
 def _reflection(run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     pressure, point = state.mean_pressure, POINT_START + POINT_SPEED * time
     once, twice = AHEAD[0] * REFLECTION.first.pressure, AHEAD[0] * REFLECTION.pressure
     behind, angle = point - state.z, np.degrees(np.arctan2(state.r, point - state.z))
@@ -146,7 +146,7 @@ METAL = {j: NohSolid(j, AL_5083, 1000.0) for j in (1, 2, 3)}
 
 
 def _metal(j: int, run: hydro2d.Results, cells: int) -> list[Quantity]:
-    exact, state, time = METAL[j], cells_of(run), run.summary["time_s"]
+    exact, state, time = METAL[j], cells_of(run), run.summary.time_s
     place = state.distance if j == 3 else state.r
     front = exact.shock_speed * time
     behind, inside = (place > 0.3 * front) & (place < 0.8 * front), place < 0.036
@@ -177,7 +177,7 @@ def _metal_curve(j: int, run: hydro2d.Results) -> Curve:
     """Pressure, with distances scaled to 3 us, because the last step of a run ends a little later."""
     state = cells_of(run)
     x, y = state.shells(state.mean_pressure, 0.036) if j == 3 else state.along(state.mean_pressure, "r")
-    return 1e3 * x[x < 0.036] * 3e-6 / run.summary["time_s"], 1e-9 * y[x < 0.036]
+    return 1e3 * x[x < 0.036] * 3e-6 / run.summary.time_s, 1e-9 * y[x < 0.036]
 
 
 def _noh_metal(j: int) -> Problem:
@@ -199,7 +199,7 @@ COLLAPSES, EXPANDS = Free(1, 1.0, 5.0 / 3.0, 1.0, 1e5 / 3.0, 1e-3), Slowed(1, 1.
 
 
 def _coggeshall(flow: Free | Slowed, run: hydro2d.Results, cells: int) -> list[Quantity]:
-    state, time = cells_of(run), run.summary["time_s"]
+    state, time = cells_of(run), run.summary.time_s
     here = state.r < (0.8 * flow.untouched(1.0, time) if isinstance(flow, Free) else 0.9)
     rho, u, p = flow.sample(state.r, time)
     exact, weight = (rho, np.abs(u), p), state.volume[here]

@@ -81,7 +81,7 @@ def _force(simulation: hydro2d.Simulation) -> float:
 
 def _jets(run: hydro2d.Results, cells: int) -> list[Quantity]:
     state, history = cells_of(run), run.history
-    mass, steady = state.vof[0] * state.rho[0], history["time"] > 0.5 * run.summary["time_s"]
+    mass, steady = state.vof[0] * state.rho[0], history["time"] > 0.5 * run.summary.time_s
     quantities = []
     for name, (low, high, top), share, way in (("slug", SLUG, jets.forward(MEET), 1.0), ("jet", JET, jets.back(MEET), -1.0)):
         here = (state.z > low) & (state.z < high) & (state.r < top)

@@ -100,9 +100,9 @@ def profile(name: str, computed: np.ndarray, exact: np.ndarray, weight: np.ndarr
 
 def lost(run: hydro2d.Results) -> Quantity:
     """Energy that the advection of velocities discarded or clipped, of the energy at the start."""
-    conservation = run.summary["conservation"]
-    discarded = sum(conservation["sinks"][name]["energy_J"] for name in ("advection", "ke_bound"))
-    return Quantity("energy discarded", "%", 0.0, 100.0 * discarded / conservation["start_energy_J"], 100.0)
+    conservation = run.summary.conservation
+    discarded = sum(conservation.sinks[name].energy_J for name in ("advection", "ke_bound"))
+    return Quantity("energy discarded", "%", 0.0, 100.0 * discarded / conservation.start_energy_J, 100.0)
 
 
 def extrema(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -57,11 +57,11 @@ def rows_of(runs: Path, problem: Problem, variant: str, cells: int) -> list[dict
     place = directory(runs, problem, variant, cells)
     results = hydro2d.open_run(place)
     facts = results.summary
-    status = facts["status"] if facts["status"] != "done" else "trusted" if facts["trustworthy"] else "not trusted"
-    common = {"problem": problem.name, "variant": variant, "cells": cells, "status": status, "time_s": f"{facts['time_s']:.6g}",
-              "seconds": json.loads((place / COST).read_text())["seconds"], "cycles": facts["cycles"],
-              "method": facts["method"]}
-    if facts["status"] != "done":
+    status = facts.status if facts.status != "done" else "trusted" if facts.trustworthy else "not trusted"
+    common = {"problem": problem.name, "variant": variant, "cells": cells, "status": status, "time_s": f"{facts.time_s:.6g}",
+              "seconds": json.loads((place / COST).read_text())["seconds"], "cycles": facts.cycles,
+              "method": facts.method}
+    if facts.status != "done":
         return [common]
     return [common | {"quantity": each.name, "unit": each.unit, "exact": f"{each.exact:.7g}", "found": f"{each.found:.7g}",
                       "error_percent": f"{each.error:.4g}"} for each in problem.measure(results, cells)

@@ -77,12 +77,12 @@ def open_through(wall: np.ndarray) -> bool:
 def of_run(directory: Path) -> tuple:
     """The row of a run, in the order of COLUMNS. Raises ValueError if the run has not ended."""
     run = hydro2d.open_run(directory)
-    if run.summary.get("stop_reason") != "end time":
+    if run.summary.stop_reason != "end time":
         raise ValueError("the run has not ended")
     ball, bumper, wall = run.deck.body
     size = float(np.diff(run.deck.edges()[0]).min())
     fraction = run.fields.volume_fraction.isel(time=-1).sel(body=wall.name).transpose("z", "r").values
-    behind = run.summary["targets"][wall.name]["debris"]["mass_kg"]
+    behind = run.summary.targets[wall.name].debris.mass_kg
     gap = wall.z_front - bumper.thickness - bumper.z_front
     lengths = (f"{1e3 * each:.4g}" for each in (bumper.thickness, gap, wall.thickness))
     hole = "yes" if open_through(fraction) else "no"

@@ -4,6 +4,7 @@ import pytest
 
 from hydro2d.analytic import beside, model_deck, models
 from hydro2d.deck import deck as decks
+from hydro2d.measure.summary import Summary
 from hydro2d.penetration.model import InputError
 
 ROD = "problems/cth_nose_shape/hemi_5083_1086.toml"
@@ -16,12 +17,12 @@ def test_the_depths_are_those_of_the_command_model():
     for name, shown in beside.SHOWN.items():
         (row,) = models.resolve(models.named(name), request).rows([1086.0])
         assert beside.depths(deck)[shown] == row["depth"]
-    assert beside.lines(deck, {"targets": {"plate": {"exit_time_s": None}}}) == [
+    assert beside.lines(deck, Summary(targets={"plate": {"exit_time_s": None}})) == [
         "analytic, at rest     Tate 27.54 cm, Walker-Anderson 35.87 cm, rigid 49.54 cm"]
 
 
 def test_behind_a_target_nothing_is_said():
-    assert beside.lines(decks.load(ROD), {"outcome": {"perforated": True}}) == []
+    assert beside.lines(decks.load(ROD), Summary(outcome={"perforated": True})) == []
 
 
 @pytest.mark.parametrize("name", ["templates/jacketed", "ceramics/tile", "perforation/sphere", "templates/taylor"])

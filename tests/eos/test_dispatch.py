@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from eos import ideal_gas, mie_grueneisen, stiffened_gas
+from eos import mie_grueneisen
 from eos.dispatch import evaluate, sound_speed_squared, zero_pressure_density
 
 NO_MEMORY = np.zeros(0)
@@ -20,10 +20,6 @@ ALUMINIUM = mie_grueneisen.row(
         "grueneisen": GAMMA,
         "specific_heat": 875.0,
     }
-)
-AIR = ideal_gas.row({"reference_density": 1.2, "adiabatic_index": 1.4})
-WATER = stiffened_gas.row(
-    {"reference_density": 1e3, "sound_speed": 1480.0, "adiabatic_index": 4.4, "specific_heat": 4180.0}
 )
 
 
@@ -40,12 +36,6 @@ def test_density_without_pressure_of_a_stretched_solid(ratio, e):
     assert zero_pressure_density(mie_grueneisen.ID, ratio * RHO0, e, NO_MEMORY, ALUMINIUM) == pytest.approx(expected, rel=1e-12)
 
 
-def test_density_without_pressure_of_a_liquid():
-    """c0^2 (rho - rho0) + (gamma - 1) rho e = 0"""
-    expected = 1e3 * 1480.0**2 / (1480.0**2 + 3.4 * 1e5)
-    assert zero_pressure_density(stiffened_gas.ID, 700.0, 1e5, NO_MEMORY, WATER) == pytest.approx(expected, rel=1e-12)
-
-
 @settings(max_examples=300)
 @given(ratio=st.floats(0.2, 2.0), e=st.floats(-2e6, 8e6))
 def test_density_without_pressure(ratio, e):
@@ -60,8 +50,3 @@ def test_density_without_pressure(ratio, e):
 
 def test_unloaded_material_stays():
     assert zero_pressure_density(mie_grueneisen.ID, RHO0, 0.0, NO_MEMORY, ALUMINIUM) == RHO0
-
-
-@pytest.mark.parametrize(("model", "row", "rho", "e"), [(ideal_gas.ID, AIR, 1.3, 2e5), (0, ALUMINIUM, RHO0, 2e9)])
-def test_without_such_a_density_the_answer_is_the_density(model, row, rho, e):
-    assert zero_pressure_density(model, rho, e, NO_MEMORY, row) == rho

@@ -67,46 +67,12 @@ def test_the_equations_as_printed(x, e):
     assert tillotson.evaluate(rho, e, ROW)[0] == pytest.approx(as_written(rho, e), rel=1e-12, abs=1e-2)
 
 
-@given(x=st.floats(1e-3, 4.0), e=st.floats(-1e5, 5e7))
-def test_derivatives(x, e):
-    """Away from the joints between regions."""
-    rho, h = 2700.0 * x, 1e-6
-    p, dpdrho, dpde, T = tillotson.evaluate(rho, e, ROW)
-    if min(abs(x - 1.0), abs(e / 3e6 - 1.0), abs(e / 13.9e6 - 1.0), abs(e) / 1e5, abs(x - 1.0 + 0.45 * 75.2 / 65.0)) > 1e-4:
-        by_rho = (tillotson.evaluate(rho * (1 + h), e, ROW)[0] - tillotson.evaluate(rho * (1 - h), e, ROW)[0]) / (2 * h * rho)
-        by_e = (tillotson.evaluate(rho, e * (1 + h), ROW)[0] - tillotson.evaluate(rho, e * (1 - h), ROW)[0]) / (2 * h * e)
-        scale = 75.2e9 * 1e-9 + abs(p) * 1e-8
-        assert dpdrho == pytest.approx(by_rho, rel=1e-5, abs=scale / (h * rho) * 1e-1)
-        assert dpde == pytest.approx(by_e, rel=1e-5, abs=scale / (h * abs(e)) * 1e-1)
-    assert np.isfinite([p, dpdrho, dpde, T]).all()
-    assert T >= 0.0
-
-
 @pytest.mark.parametrize("e", [0.0, 2.9e6, 3.1e6, 8e6, 13.8e6, 2e7])
 def test_pressure_is_continuous_in_density(e):
     """Even where material begins to expand, and where the cold curve is left."""
     for x in (1.0, 1.0 - 0.45 * 75.2 / 65.0):
         below, above = (tillotson.evaluate(2700.0 * x * (1.0 + s), e, ROW)[0] for s in (-1e-12, 1e-12))
         assert below == pytest.approx(above, rel=1e-9, abs=1.0)
-
-
-@pytest.mark.parametrize("x", [0.01, 0.3, 0.9, 1.1])
-def test_pressure_is_continuous_in_energy(x):
-    for e in (0.0, 3e6, 13.9e6):
-        below, above = (tillotson.evaluate(2700.0 * x, e + s, ROW)[0] for s in (-1e-6, 1e-6))
-        assert below == pytest.approx(above, rel=1e-9, abs=1.0)
-
-
-@given(x=st.floats(1e-3, 4.0), e=st.floats(0.0, 5e7))
-def test_sound_is_real_under_pressure(x, e):
-    """In tension down to the strength of the solid's cold curve; material fractures long before. Beyond that, cold material
-    that is torn apart has less tension the thinner it is, until its heat presses."""
-    rho = 2700.0 * x
-    p, dpdrho, dpde, _ = tillotson.evaluate(rho, e, ROW)
-    if p >= 0.0 and e > 0.0 and (x > 1.0 + ROW[tillotson.TURN] or e >= ROW[tillotson.ECV] or x < 0.1):
-        assert sound_speed_squared(rho, p, dpdrho, dpde, -1e300) > 0.0
-    if e <= 1e5 and x > 0.85:
-        assert sound_speed_squared(rho, p, dpdrho, dpde, -1e300) > 0.3 * 75.2e9 / 2700.0
 
 
 @pytest.mark.parametrize(("u", "last", "through"), [

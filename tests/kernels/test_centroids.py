@@ -13,7 +13,6 @@ push_bodies = centroids.push_bodies.source
 size_after = centroids.size_after.source
 volume_before = centroids.volume_before.source
 donor_place = centroids.donor_place.source
-forget_centroids = remap.forget_centroids.py_func
 
 #: no body has a velocity of its own
 ONE_GROUP, NO_CONTACT = np.zeros((1, 1, 1)), np.zeros((1, 2), dtype=np.int64)
@@ -111,129 +110,10 @@ def test_a_slab_between_two_wide_ones_keeps_its_centre_in_any_order(order, dj):
 # ------------------------------------------------------------------------------------------------------- cells by hand
 
 
-def crossed(dj, swept, given=None, place=(0.0, 0.0)) -> Cells:
-    """Cells of 1 m^3 with (3, 3) and the next one along the sweep, between which a face sweeps a volume.
-
-    given : how much of it is body; place : where in the strip the body lies
-    """
-    cells = Cells()
-    target = (3 + dj, 4 - dj)
-    face = cells.fz if dj else cells.fr
-    face[target] = swept
-    cells.flux_volume[0, *target] = swept if given is None else given
-    cells.flux_place[:, 0, *target] = place
-    cells.pre_sweep_volume[...] = 1.0
-    cells.pre_sweep_volume[3, 3], cells.pre_sweep_volume[target] = 1.0 + swept, 1.0 - swept
-    for row, column in ((3, 3), target):
-        cells.mixed[row, cells.mixed_count[row]] = column
-        cells.mixed_count[row] += 1
-    return cells
-
-
 def carry(cells, dj, **more) -> None:
     face = cells.fz if dj else cells.fr
     given = {"second": True, "own": ONE_GROUP, "contact_columns": NO_CONTACT, **more}
     cells.call(centroids.carry_centroids, dj=dj, di=1 - dj, face=face, **given)
-
-
-@pytest.mark.parametrize("second", [False, True])
-@pytest.mark.parametrize("dj", [0, 1])
-def test_the_flux_of_a_full_cell_lies_at_the_face_all_across(dj, second):
-    """A quarter, in the first quarter of the next cell; its place was not written, and the full cell keeps none."""
-    cells = crossed(dj, 0.25, place=(np.nan, np.nan))
-    target = (3 + dj, 4 - dj)
-    cells.vof[0, 3, 3], cells.vof[0, *target] = 1.0, 0.25
-    carry(cells, dj, second=second)
-    assert cells.centroid[dj, 0, *target] == pytest.approx(-0.375, abs=1e-15)
-    assert cells.centroid[1 - dj, 0, *target] == 0.0
-    assert np.count_nonzero(cells.centroid) == 1
-    cells = crossed(dj, -0.25, place=(np.nan, np.nan))
-    cells.vof[0, 3, 3], cells.vof[0, *target] = 0.25, 1.0
-    carry(cells, dj, second=second)
-    assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.375, abs=1e-15)
-    assert np.count_nonzero(cells.centroid) == 1
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_a_full_cell_that_gives_more_than_comes_keeps_the_rest_where_it_was(dj):
-    """It was as large as 1.25 cells; half a cell flows on and the cell behind gives nothing."""
-    cells = crossed(dj, 0.5)
-    face = cells.fz if dj else cells.fr
-    face[3, 3], cells.pre_sweep_volume[3, 3] = 0.25, 1.25
-    target = (3 + dj, 4 - dj)
-    cells.vof[0, 3, 3], cells.vof[0, *target] = 0.75, 0.5
-    carry(cells, dj)
-    assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.125, abs=1e-15)  # from a quarter on
-    assert cells.centroid[dj, 0, *target] == pytest.approx(-0.25, abs=1e-15)
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_parts_that_stay_and_that_come_have_one_centroid_by_volume(dj):
-    """Of a strip of 0.4 cells a tenth of a cell is body: at 3/4 of the strip along, and at 0.2 across."""
-    cells = crossed(dj, 0.4, given=0.1, place=(0.25, 0.2))
-    target = (3 + dj, 4 - dj)
-    cells.vof[0, 3, 3], cells.vof[0, *target] = 0.2, 0.3
-    cells.centroid[dj, 0, *target], cells.centroid[1 - dj, 0, *target] = 0.3 / 0.6, -0.1
-    cells.centroid[dj, 0, 3, 3], cells.centroid[1 - dj, 0, 3, 3] = 0.1, 0.05
-    before = cells.centroid.copy()
-    carry(cells, dj)
-    # the next one had 0.6 m^3 of its own, whose middle was 0.2 m up, and 0.2 m^3 of body in that
-    along = (0.2 * (before[dj, 0, *target] * 0.6 + 0.2) + 0.1 * (-0.5 + 0.75 * 0.4)) / 0.3
-    assert along < 0.35
-    assert cells.centroid[dj, 0, *target] == pytest.approx(along, abs=1e-15)
-    assert cells.centroid[1 - dj, 0, *target] == pytest.approx((0.2 * -0.1 + 0.1 * 0.2) / 0.3, abs=1e-15)
-    # the first one had 1.4 m^3, whose middle was 0.2 m up, and gave from 0.5 to 0.9
-    along = (0.3 * (0.1 * 1.4 + 0.2) - 0.1 * (0.5 + 0.75 * 0.4)) / 0.2
-    assert cells.centroid[dj, 0, 3, 3] == pytest.approx(along, abs=1e-15)
-    assert cells.centroid[1 - dj, 0, 3, 3] == pytest.approx((0.3 * 0.05 - 0.1 * 0.2) / 0.2, abs=1e-15)
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_a_centroid_moves_with_the_cell_where_only_void_flows(dj):
-    """Both faces move in by a tenth of a cell: the body does not flow, and is as before, in a cell of 0.8 m^3."""
-    cells = crossed(dj, -0.1, given=0.0)
-    face = cells.fz if dj else cells.fr
-    face[3, 3], cells.pre_sweep_volume[3, 3], cells.vof[0, 3, 3], cells.centroid[dj, 0, 3, 3] = 0.1, 0.8, 0.3, 0.2
-    carry(cells, dj)
-    assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.16, abs=1e-15)
-    face[3 + dj, 4 - dj], cells.pre_sweep_volume[3, 3] = 0.1, 1.0  # both forward: it is carried along
-    carry(cells, dj)
-    assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.26, abs=1e-15)
-    carry(cells, dj)
-    assert cells.centroid[dj, 0, 3, 3] == pytest.approx(0.35, abs=1e-15)  # no further than to the face
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_inflow_through_the_edge_of_the_mesh_lies_in_the_middle_of_its_strip(dj):
-    """Across, it has the place of the ghost cell, whose volumes are not kept; the place written for the face is not read."""
-    for side in (0, 1):
-        cells = Cells()
-        edge, ghost = (5, 6) if side else (2, 1)
-        cell, beyond = ((edge, 3), (ghost, 3)) if dj else ((3, edge), (3, ghost))
-        face_cell = beyond if side else cell
-        face = cells.fz if dj else cells.fr
-        face[face_cell], cells.flux_volume[0, *face_cell] = (-0.2, -0.1) if side else (0.2, 0.1)
-        cells.flux_place[:, 0, *face_cell] = np.nan
-        cells.centroid[:, 0, *beyond] = 0.15
-        cells.pre_sweep_volume[...], cells.pre_sweep_volume[cell] = 1.0, 0.8
-        cells.vof[0, *cell], cells.vof[0, *beyond] = 0.1, np.nan
-        cells.mixed_count[cell[0]], cells.mixed[cell[0], 0] = 1, cell[1]
-        carry(cells, dj)
-        assert cells.centroid[dj, 0, *cell] == pytest.approx(0.4 if side else -0.4, abs=1e-15)
-        assert cells.centroid[1 - dj, 0, *cell] == pytest.approx(0.15, abs=1e-15)
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_outflow_through_the_edge_of_the_mesh_is_removed_at_its_place(dj):
-    """A slab of 0.3 m at the lower edge, of which 0.1 m leaves; the cell had 1.1 m^3."""
-    cells = Cells()
-    face = cells.fz if dj else cells.fr
-    cell = (2, 3) if dj else (3, 2)
-    face[cell], cells.flux_volume[0, *cell], cells.pre_sweep_volume[cell], cells.vof[0, *cell] = -0.1, -0.1, 1.1, 0.2
-    cells.centroid[dj, 0, *cell] = (0.15 - 0.55) / 1.1
-    cells.mixed_count[cell[0]], cells.mixed[cell[0], 0] = 1, cell[1]
-    carry(cells, dj)
-    assert cells.centroid[dj, 0, *cell] == pytest.approx(-0.4, abs=1e-15)
 
 
 @pytest.mark.parametrize("dj", [0, 1])
@@ -250,32 +130,6 @@ def test_outflow_through_either_face_is_removed_at_its_place_in_the_strip(dj):
         left = (0.55 if side else -0.55) + 0.1 * place  # from the middle of the cell as it is after the sweep
         assert cells.centroid[dj, 0, 3, 3] == pytest.approx((0.22 * (0.11 + 0.5 * swept) - 0.02 * left) / 0.2, abs=1e-15)
         assert cells.centroid[1 - dj, 0, 3, 3] == pytest.approx(-0.01, abs=1e-15)
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_in_cells_of_a_contact_a_body_moves_with_its_group(dj):
-    """The face is at rest; the body's group moves forward by a tenth of a cell, the other one back by two tenths."""
-    cells = Cells(bodies=2, group=[1, 0])
-    cells.pre_sweep_volume[...] = 1.0
-    cells.vof[:, 3, 3] = 0.3, 0.4
-    cells.centroid[dj, :, 3, 3] = -0.3, 0.2
-    cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
-    own = np.array([-0.2, 0.1])[:, None, None] * np.ones(cells.fr.shape)
-    columns = np.zeros((cells.vof.shape[1], 2), dtype=np.int64)
-    carry(cells, dj, own=own, contact_columns=columns)
-    np.testing.assert_allclose(cells.centroid[dj, :, 3, 3], [-0.3, 0.2], atol=1e-15)
-    columns[3] = 3, 4
-    carry(cells, dj, own=own, contact_columns=columns)
-    np.testing.assert_allclose(cells.centroid[dj, :, 3, 3], [-0.2, 0.0], atol=1e-15)
-    assert not cells.centroid[1 - dj].any()
-
-
-def test_only_cells_that_are_mixed_get_centroids():
-    cells = crossed(0, 0.25)
-    cells.vof[0, 3, 3:5] = 1.0, 0.25
-    cells.mixed_count[:] = 0
-    carry(cells, 0)
-    assert not cells.centroid.any()
 
 
 def test_sizes_and_volumes_of_a_cell_around_a_sweep():
@@ -325,55 +179,6 @@ def pushed(before, after, where, axis) -> np.ndarray:
 
 
 AXES = pytest.mark.parametrize("axis", [0, 1])
-SIDES = pytest.mark.parametrize("side", [-1.0, 1.0])
-
-
-@AXES
-@SIDES
-def test_a_gas_that_grows_pushes_a_plate_into_the_void_by_what_it_grows(side, axis):
-    """Gas from the face to 0.3, the plate to 0.5, then void."""
-    offsets = pushed([0.3, 0.2], [0.4, 0.2], [-0.35 * side, -0.1 * side], axis)
-    np.testing.assert_allclose(offsets, [-0.3 * side, 0.0], atol=1e-15)
-
-
-@AXES
-@SIDES
-def test_a_body_at_a_face_stays_there_as_others_take_and_give(side, axis):
-    """Alone as it grows into void, next to a body that loses what it gains, and with another body beyond the void."""
-    assert pushed([0.3], [0.35], [-0.35 * side], axis) == pytest.approx([-0.325 * side], abs=1e-15)
-    for growth in (0.05, -0.05):
-        offsets = pushed([0.4, 0.6], [0.4 + growth, 0.6 - growth], [-0.3 * side, 0.2 * side], axis)
-        np.testing.assert_allclose(offsets, [side * (0.5 * growth - 0.3), side * (0.5 * growth + 0.2)], atol=1e-15)
-    for growth in (0.2, 0.1):
-        offsets = pushed([0.3, 0.5], [0.3 + growth, 0.5], [-0.35 * side, 0.25 * side], axis)
-        np.testing.assert_allclose(offsets, [side * (0.5 * growth - 0.35), 0.25 * side], atol=1e-15)
-
-
-@AXES
-@SIDES
-@pytest.mark.parametrize("void", [0.6, 0.1, 1e-3, 1e-9])
-def test_the_more_void_there_was_the_more_opens_next_to_it(void, side, axis):
-    """A body at the face loses a tenth: in its midst opens the share gained / (void + gained) of that."""
-    f = 1.0 - void
-    within = 0.1 * 0.1 / (void + 0.1)
-    expected = side * (0.5 * f - 0.5 - 0.5 * (0.1 - within))
-    assert pushed([f], [f - 0.1], [side * (0.5 * f - 0.5)], axis) == pytest.approx([expected], abs=1e-12)
-
-
-@AXES
-@SIDES
-def test_three_slabs_that_trade_volume_stay_side_by_side(side, axis):
-    """The middle one grows at the expense of both, three times as much of one as of the other."""
-    offsets = pushed([0.3, 0.2, 0.5], [0.27, 0.24, 0.49], np.array([-0.35, -0.1, 0.25]) * side, axis)
-    np.testing.assert_allclose(offsets, np.array([-0.365, -0.11, 0.255]) * side, atol=1e-15)
-
-
-@AXES
-@pytest.mark.parametrize("where", [-0.2, 0.0, 0.3])
-def test_a_body_in_the_midst_of_void_grows_into_either_gap_in_proportion(where, axis):
-    """It fills 0.2; the gaps on either side, of 0.4 - where and 0.4 + where, shrink by a tenth."""
-    offsets = pushed([0.2], [0.28], [where], axis)
-    assert offsets == pytest.approx([0.9 * where], abs=1e-15)
 
 
 @AXES
@@ -383,35 +188,9 @@ def test_void_that_opens_from_nothing_moves_nobody(axis):
 
 
 @AXES
-def test_void_opens_in_the_midst_of_bodies_that_shrink_by_more_than_others_grow_by(axis):
-    """The first body grows by 0.05 from the face on, the second loses 0.15: the rest opens in the middle of the second."""
-    assert pushed([0.3, 0.7], [0.35, 0.55], [-0.35, 0.15], axis) == pytest.approx([-0.325, 0.175], abs=1e-15)
-
-
-@AXES
-def test_a_push_does_not_jump_where_there_is_no_void(axis):
-    """As void opens or closes, from none or from a little: the bodies trade a tenth of the cell."""
-    where = [-0.31, 0.22]  # not quite those of slabs that fill the cell
-
-    def traded(void, opened):
-        return pushed([0.4, 0.6 - void], [0.5, 0.5 - void - opened], where, axis)
-
-    for void in (0.0, 1e-12):
-        changes_in_proportion(lambda opened: traded(void, max(opened, 0.0)), 0.0, 2.0)  # noqa: B023
-    for opened in (0.0, 1e-12, 0.05):
-        changes_in_proportion(lambda void: traded(void, opened), 0.0, 20.0, sides=(1.0,))  # noqa: B023
-    assert largest_jump(lambda void: traded(void, 0.05), 0.0, 0.2) < 1e-11
-
-
-@AXES
 def test_nothing_moves_where_nothing_changes(axis):
     where = [-0.31, 0.07, 0.2]
     np.testing.assert_array_equal(pushed([0.3, 0.2, 0.4], [0.3, 0.2, 0.4], where, axis), where)
-
-
-@AXES
-def test_a_body_that_was_not_there_before_is_not_pushed(axis):
-    assert pushed([0.0, 0.4], [0.1, 0.4], [0.0, -0.1], axis)[0] == 0.0
 
 
 @AXES
@@ -422,27 +201,6 @@ def test_a_push_changes_in_proportion_to_the_growth_of_a_body(change, axis):
 
 
 # --------------------------------------------------------------------------------------------- who has a centroid
-
-
-def test_bodies_that_fill_a_cell_and_that_are_not_in_it_have_no_centroid():
-    vof = np.array([1.0, 0.0, 0.4, 1.0 - 1e-12])[:, None, None] * np.ones((2, 2))
-    centroid = np.full((2, 4, 2, 2), 0.1)
-    forget_centroids(1, 0, vof, centroid)
-    np.testing.assert_array_equal(centroid[:, :, 1, 0], [[0.0, 0.0, 0.1, 0.1]] * 2)
-    centroid[:, :, 1, 0] = 0.1
-    assert (centroid == 0.1).all()
-
-
-def test_a_cell_that_a_sweep_fills_forgets_its_centroids():
-    """Two thirds are in it, and a third flows in."""
-    cells = Cells()
-    cells.vof[0, 3, 3:5], cells.q[RHO, 0], cells.centroid[:, 0, 3, 4] = (1.0, 0.75), 2.0, 0.1
-    cells.pre_sweep_volume[3, 3], cells.pre_sweep_volume[3, 4], cells.fr[3, 4] = 1.25, 0.75, 0.25
-    cells.vof[0, 3, 4], cells.flux_volume[0, 3, 4] = 1.0, 0.25
-    cells.mixed_count[3], cells.mixed[3, 0] = 1, 4
-    cells.call(remap.sweep_r, face=cells.fr, second=True)
-    assert cells.vof[0, 3, 4] == 1.0
-    assert not cells.centroid.any()
 
 
 def test_tidied_cells_forget_centroids_of_what_is_removed_and_of_what_is_made_full():
@@ -465,16 +223,6 @@ def with_centroids() -> Cells:
     cells.centroid[0, 0, 2:6, 2:6] = np.arange(1.0, 17.0).reshape(4, 4)
     cells.centroid[1, 0, 2:6, 2:6] = 100.0 + cells.centroid[0, 0, 2:6, 2:6]
     return cells
-
-
-def test_centroids_beyond_the_ends_of_a_row_are_mirrored_along_it_or_copied():
-    cells = with_centroids()
-    cells.call(boundaries.ghost_columns, mirror_r_min=True, mirror_r_max=False, di=0)
-    assert cells.centroid[0, 0, 3].tolist() == [-6, -5, 5, 6, 7, 8, 8, 8]
-    assert cells.centroid[1, 0, 3].tolist() == [106, 105, 105, 106, 107, 108, 108, 108]
-    cells.call(boundaries.ghost_columns, mirror_r_min=False, mirror_r_max=True, di=0)
-    assert cells.centroid[0, 0, 3].tolist() == [5, 5, 5, 6, 7, 8, -8, -7]
-    assert cells.centroid[1, 0, 3].tolist() == [105, 105, 105, 106, 107, 108, 108, 107]
 
 
 def test_centroids_below_and_above_the_mesh_are_mirrored_along_z_or_copied():

@@ -72,15 +72,6 @@ def test_a_checkerboard_of_a_deviator_fades_by_its_share(row):
     assert inner(block.q[row, 1] / block.sign) == pytest.approx(1e9 * (1 - SHARE), rel=1e-12)
 
 
-def test_a_checkerboard_of_pressure_fades_by_its_share():
-    """By the volume that its cells gain and lose; each does work on its neighbours at their mean pressure."""
-    block = Block()
-    block.pm[1] = 3e9 + 1e9 * block.sign
-    block.fade()
-    assert inner(block.pm[1] - BULK * block.grown) == pytest.approx(inner(3e9 + (1 - SHARE) * 1e9 * block.sign), rel=1e-12)
-    assert inner(block.q[E, 1]) == pytest.approx(inner(-3e9 * block.grown / DENSITY), rel=1e-9)
-
-
 @pytest.mark.parametrize("geometry", ["planar", "cylindrical"])
 def test_volume_and_energy_stay(geometry):
     """For any stress: one cell gains what another one loses."""
@@ -93,28 +84,6 @@ def test_volume_and_energy_stay(geometry):
     given = block.mass * block.q[E, 1]
     assert abs(given.sum()) < 1e-13 * abs(given).sum()
     assert (block.pm[1] * swept)[block.vof[1] == 1.0].sum() > 0.0  # higher pressures expand
-
-
-@pytest.mark.parametrize("power", [(0, 0), (1, 0), (0, 1), (3, 0), (0, 3), (1, 1)])
-def test_nothing_else_changes(power):
-    """Fields with a curvature that the mesh resolves have no cell that stands out from its neighbours."""
-    block = Block()
-    field = 1e6 * (block.i - 4.2) ** power[0] * (block.j - 6.3) ** power[1]
-    block.pm[1], block.q[SRR, 1], block.q[SRZ, 1] = field, field, -field
-    block.fade()
-    assert abs(block.grown).max() < 1e-15
-    assert block.q[SRR, 1] == pytest.approx(field, abs=1e-6)
-    assert block.q[SRZ, 1] == pytest.approx(-field, abs=1e-6)
-
-
-def test_an_extremum_loses_next_to_nothing():
-    """Its four quarters are a checkerboard of h^4/16 times the fourth derivative, here 4."""
-    block = Block()
-    block.q[SRR, 1] = field = 1e6 * (block.i - 5.0) ** 2 * (block.j - 6.0) ** 2
-    block.fade()
-    change = np.abs(block.q[SRR, 1] - field)
-    assert inner(change).max() == change[6, 5] == pytest.approx(SHARE * 4e6 / 16, rel=1e-9)
-    assert np.sum(inner(change) > 1e-6) == 1
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -137,37 +106,6 @@ def test_a_cell_that_stands_out_alone_leaves_nothing_in_its_row_and_column():
     assert abs(block.q[SZZ, 1]).max() == 0.0
 
 
-def test_a_cell_comes_in_by_degrees():
-    """As its emptiest neighbour fills: no share of it at first, all of it from INSIDE on."""
-    lost = []
-    for share in (0.0, 1e-9, 0.5 * kernels.INSIDE, kernels.INSIDE, 1.0):
-        block = Block()
-        block.vof[1, :, 9:] = 0.0
-        block.vof[1][2:12, 9] = share
-        block.q[SRR, 1] = 1e9 * block.sign
-        block.fade()
-        lost.append(abs(block.q[SRR, 1, 6, 8] / block.sign[6, 8] - 1e9))
-    assert lost[0] == 0.0
-    assert lost[1] < 1e-3
-    assert lost[2] == pytest.approx(0.25 * lost[3], rel=1e-6)
-    assert lost[3] == pytest.approx(SHARE * 1e9, rel=1e-9)
-    assert lost[4] == pytest.approx(lost[3], rel=1e-9)
-
-
-def test_the_soft_body_and_cells_that_are_not_full_are_left_alone():
-    block = Block()
-    block.vof[1, 5, 5], block.vof[0, 5, 5] = 0.999, 0.001
-    block.pm[:], block.q[SRR] = 1e9 * block.sign, 1e9 * block.sign
-    block.fade()
-    around = np.zeros(block.grid.shape, dtype=bool)
-    around[5, 5] = True
-    around[block.vof[0] > 0.0] = True
-    assert abs(block.grown[around]).max() == 0.0
-    assert (block.q[SRR, 1] == 1e9 * block.sign)[around].all()
-    assert (block.q[SRR, 0] == 1e9 * block.sign).all()
-    assert (block.q[E, 0] == 0.0).all()
-
-
 def test_the_groups_own_volumes_are_swept_with_it_where_they_are_in_use():
     block = Block()
     block.pm[1] = 1e9 * block.sign
@@ -177,12 +115,3 @@ def test_the_groups_own_volumes_are_swept_with_it_where_they_are_in_use():
         assert (own_r[2:12, 5:8] == block.fr[2:12, 5:8]).all()
         assert (own_z[3:12, 5:7] == block.fz[3:12, 5:7]).all()
         assert abs(own_r[:, [2, 3, 4, 8]]).max() == abs(own_z[:, [2, 3, 4, 7]]).max() == 0.0
-
-
-def test_no_more_than_half_of_it_fades(monkeypatch):
-    """With a large hourglass coefficient and long steps."""
-    monkeypatch.setattr("tests.kernels.test_checkerboard.SHARE", 3.0)
-    block = Block()
-    block.q[SRR, 1] = 1e9 * block.sign
-    block.fade()
-    assert inner(block.q[SRR, 1] / block.sign) == pytest.approx(1e9 * (1 - kernels.MOST_DAMPED), rel=1e-12)

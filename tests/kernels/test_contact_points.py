@@ -3,28 +3,17 @@
 import numpy as np
 import pytest
 
-from hydro2d.kernels import momentum
 from hydro2d.kernels.contact import contact_geometry, contact_velocities
-from hydro2d.kernels.contact.contact_geometry import REACH, SLIVER
+from hydro2d.kernels.contact.contact_geometry import REACH
 from hydro2d.kernels.contact.contact_velocities import heat_contact_nodes, resolve_contact
 from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED
-from hydro2d.mesh.grid import Grid
-from hydro2d.physics.momentum import SLIGHT
-from hydro2d.physics.traction import FILM
 from hydro2d.solver import contact_ties
 from tests.kernels.cells import handle, lines
 from tests.kernels.test_extension import Extensions, N, half_plane, pair, scattered
-from tests.physics.continuity import changes_in_proportion
 
-master = contact_velocities.master.py_func
-apply_impulse = contact_velocities.apply_impulse.source
-apply_tie_impulse = contact_velocities.apply_tie_impulse.source
 mismatch = contact_velocities.mismatch.source
-list_ties = contact_velocities.list_ties.source
 masters_mobility = contact_velocities.masters_mobility.source
 mobility = contact_velocities.mobility.source
-deposit_heat = contact_velocities.deposit_heat.source
-normal_force = contact_velocities.normal_force.source
 face_aperture = contact_geometry.face_aperture.source
 
 NOWHERE = lines()
@@ -46,25 +35,6 @@ def place(dj: int, di: int) -> int:
     return SPAN * (dj + REACH) + di + REACH
 
 
-def test_places_of_masters_do_not_meet():
-    places = [(dj, di) for dj in range(-REACH, REACH + 1) for di in range(-REACH, REACH + 1)]
-    where = np.zeros((1, 2, MASTERS + 1), dtype=np.int64)
-    where[0, 1] = [*(place(*each) for each in places), TIED]
-    found = [master(n, 1, 5, 6, 0, where) for n in range(MASTERS + 1)]
-    assert found == [*((1, 5 + dj, 6 + di) for dj, di in places), (0, 5, 6)]
-
-
-@pytest.mark.parametrize(("constrained", "gained"), [
-    (NOWHERE, (1.5, -2.0)), (lines(1, -1, -1, -1), (0.0, -2.0)), (lines(-1, -1, 1, -1), (1.5, 0.0)),
-    (lines(along=(1, -1, -1, -1)), (1.5, 0.0)), (lines(along=(-1, -1, -1, 1)), (0.0, -2.0))])
-def test_an_impulse_moves_what_is_not_held(constrained, gained):
-    mass, u, v, transfer = np.full((2, 3, 3), 2.0), np.zeros((2, 3, 3)), np.zeros((2, 3, 3)), np.zeros((5, 3))
-    apply_impulse(0, 1, 1, 3.0, -4.0, handle(constrained=constrained, mass=mass, u=u, v=v, transfer=transfer))
-    assert (u[0, 1, 1], v[0, 1, 1]) == gained
-    assert np.count_nonzero(u) + np.count_nonzero(v) == np.count_nonzero(gained)
-    assert mass[0, 1, 1] * v[0, 1, 1] + transfer[4, 1] == -4.0  # what moves and what a wall takes is the impulse
-
-
 def room_for_ties(slots: int, vertices=(7, 7)):
     """places and what `resolve_contact` writes of ties, which nothing has written yet."""
     ties = contact_ties.slots(slots)._asdict()
@@ -72,30 +42,6 @@ def room_for_ties(slots: int, vertices=(7, 7)):
     for values in room.values():
         values[...] = np.nan if values.dtype == np.float64 else -1
     return {"places": np.zeros((2, *vertices), dtype=np.int64), **room}
-
-
-def mismatch_of_one_tie(number, where, weights, mass, u, v, constrained):
-    """By what the slave of `one_tie`, at (3, 3), differs from its masters."""
-    count, nodes, first = np.zeros(7, dtype=np.int64), np.full((7, 7), 3), np.zeros(8, dtype=np.int64)
-    count[3] = 1
-    listed, strength = room_for_ties(1), np.array([[0.0, 1.0]])
-    ties = handle(parts=np.array([0, 6]), constrained=constrained, contact_node_count=count, contact_nodes=nodes,
-                  first_slot=first, strength=strength, masters=number, where=where, weights=weights, mass=mass, **listed)
-    assert list_ties(ties) == 1
-    assert ties.entries[3, : 1 + number[0, 1]].tolist() == list(range(1 + number[0, 1]))
-    assert not ties.places.any()
-    return mismatch(0, u, v, ties)
-
-
-def test_an_impulse_of_a_tie_goes_from_the_slave_to_its_masters():
-    number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
-    mass, u, v, transfer = np.full((2, 7, 7), 2.0), np.zeros((2, 7, 7)), np.zeros((2, 7, 7)), np.zeros((5, 7))
-    ties = handle(constrained=NOWHERE, masters=number, where=where, weights=weights, mass=mass, u=u, v=v, transfer=transfer)
-    apply_tie_impulse(1, 3, 3, 0, 8.0, -4.0, ties)
-    assert (u[1, 3, 3], u[1, 3, 2], u[1, 4, 4], u[0, 3, 3]) == (-4.0, 3.0, -1.0, 2.0)
-    np.testing.assert_array_equal(v, -0.5 * u)
-    assert mismatch_of_one_tie(number, where, weights, mass, u, v, NOWHERE) == (-7.5, 3.75)
-    assert mismatch_of_one_tie(number, where, weights, mass, u, v, lines(2, -1, 3, -1)) == (-4.0 - 0.25 - 1.0, 0.0)
 
 
 def test_a_slave_is_as_heavy_as_it_and_its_masters():
@@ -112,19 +58,6 @@ def test_a_slave_is_as_heavy_as_it_and_its_masters():
     assert mobility(1, 3, 3, 0, ties) == pytest.approx(0.25 * tied + 0.75 / 4.0)
     ties.constrained = lines(2, -1, -1, -1)
     assert masters_mobility(1, 3, 3, 0, ties)[0] == pytest.approx(0.03125)
-
-
-def test_the_heat_of_a_slave_goes_to_it_and_its_masters():
-    """By mass, times the size of the weight for a master: a tie of a heavy slave to a light node must not burn that."""
-    number, where, weights = one_tie((place(0, -1), 0.75), (place(1, 1), -0.25), (TIED, 0.5))
-    mass, heat = np.arange(1.0, 99.0).reshape(2, 7, 7), np.zeros((2, 7, 7))
-    deposit_heat(1, 3, 3, 0, 6.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
-    assert heat[1, 3, 3] == pytest.approx(6.0 / (
-        mass[1, 3, 3] + 0.75 * mass[1, 3, 2] + 0.25 * mass[1, 4, 4] + 0.5 * mass[0, 3, 3]))
-    assert heat[0, 3, 3] == pytest.approx(0.5 * heat[1, 3, 3])
-    deposit_heat(0, 3, 3, 0, 5.0, handle(masters=number, where=where, weights=weights, mass=mass, heat=heat))
-    assert np.sum(heat * mass) == pytest.approx(11.0)
-    assert heat[1, 3, 2] == pytest.approx(3.0 * heat[1, 4, 4])
 
 
 # ----------------------------------------------------------------------------------------------------------- all ties
@@ -167,27 +100,6 @@ def velocities(found: Extensions, seed: int = 0):
 
 BODIES = [(half_plane(0.4), (np.cos(0.4), np.sin(0.4))), *((scattered(seed), (0.76, 0.64)) for seed in range(3))]
 bodies = pytest.mark.parametrize(("hard", "normal"), BODIES)
-
-
-@bodies
-def test_ties_are_met_whatever_the_order_of_nodes(hard, normal):
-    """The mirrored problem, whose rows come the other way round, has the mirrored solution."""
-    found = Extensions(hard, normal, most_squares=2.0)
-    mirrored = Extensions(hard[::-1], (normal[0], -normal[1]), most_squares=2.0)
-    sign = np.array([1.0, -1.0])[:, None, None, None]
-    here = Settled(found, velocities(found))
-    there = Settled(mirrored, (sign * velocities(found))[:, :, ::-1].copy())
-    np.testing.assert_allclose(sign * there.after[:, :, ::-1], here.after, atol=1e-10 * np.abs(here.after).max())
-    assert np.abs(here.after - here.before).max() > 10.0
-
-
-@bodies
-def test_slaves_move_with_their_masters(hard, normal):
-    settled = Settled(found := Extensions(hard, normal, most_squares=2.0), velocities(found))
-    mismatch = max(np.abs(before).max() for _, before, _ in settled.slaves)
-    firm = [np.abs(after).max() for strength, _, after in settled.slaves if strength == 1.0]
-    assert len(firm) >= 8
-    assert max(firm) < 1e-9 * mismatch
 
 
 @bodies
@@ -236,14 +148,6 @@ def test_a_master_that_hardly_counts_does_not_hold_two_nodes_that_hold_each_othe
     assert np.sum(settled.heat * settled.mass) == pytest.approx(before[2] - after[2], abs=1e-14 * before[2])
 
 
-def test_ties_fade_in():
-    found = Extensions(scattered(1), (0.76, 0.64), most_squares=2.0)
-    w = velocities(found)
-    loose, half, firm = (np.sum([np.sum(after**2) for *_, after in Settled(found, w, s).slaves]) for s in (1e-9, 0.5, 1.0))
-    assert firm < 1e-15 * half < 1e-15 * loose
-    assert np.abs(Settled(found, w, 1e-12).after - w).max() < 1e-7
-
-
 @bodies
 def test_walls_and_the_axis_keep_what_they_hold(hard, normal):
     found = Extensions(hard, normal, most_squares=2.0)
@@ -264,41 +168,10 @@ def test_walls_and_the_axis_keep_what_they_hold(hard, normal):
 # ------------------------------------------------------------------------------------------------- force on a surface
 
 
-def test_pressure_on_a_flat_surface_is_force_over_its_area():
-    """A surface across the axis at a row of vertices: its area at a vertex is that of the dual cell."""
-    g = Grid(np.linspace(0.0, 8e-3, 9), np.linspace(0.0, 6e-3, 7))
-    shape = g.shape
-    contact_columns = np.tile([2, shape[1]], (shape[0], 1))
-    line = np.zeros((10, *shape))
-    j, i = 5, 7
-    line[contact_geometry.SHARE, :j] = 1.0  # the hard body lies below
-    zz = np.full(shape, -3e9)
-    nothing = np.zeros(shape)
-    force = normal_force(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
-                    sig_rr=nothing, sig_zz=zz, sig_rz=nothing))
-    area = g.az_out[i - 1] + g.az_in[i]
-    assert area == pytest.approx(g.face_r[i] * 1e-3, rel=0.02)
-    assert force == pytest.approx(3e9 * area)
-    assert normal_force(j, i, 0.0, 1.0, handle(contact_columns=contact_columns, metrics=g.metrics, dz=g.dz, line=line,
-                   sig_rr=nothing, sig_zz=-zz, sig_rz=nothing)) == 0.0
-
-
 def one_cell(line, hard: float, soft: float, inside: bool = True, gas: float = 0.0):
     """The cell (0, 0), among the contact-interface cells or not, with some gas of the soft group."""
     return handle(line=line, hard=np.full((1, 1), hard), soft=np.full((1, 1), soft + gas),
                   firm=np.array([soft, hard]).reshape(2, 1, 1), contact_columns=np.array([[0, int(inside)]]))
-
-
-def test_the_line_of_a_cell_wets_its_edges():
-    line = np.zeros((10, 1, 1))
-    line[contact_geometry.SHARE], line[contact_geometry.LINE_R] = 0.25, 1.0
-    line[contact_geometry.CONSTANT] = 0.25  # hard where x <= 1/4
-    cell = one_cell(line, 0.25, 0.75)
-    assert face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, cell) == (1.0, 1.0, 1.0)
-    assert face_aperture(0, 0, 1.0, 0.0, 1.0, 1.0, cell) == (1.0, 0.0, 0.0)
-    solid, low, high = face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, cell)
-    assert (solid, low + high) == (1.0, pytest.approx(2.0 * 0.25))  # the two ends share the quarter that is open
-    assert low > high
 
 
 @pytest.mark.parametrize("inside", [True, False])
@@ -306,70 +179,3 @@ def test_without_a_line_an_edge_has_the_share_of_its_cell(inside):
     line = np.zeros((10, 1, 1))
     line[contact_geometry.SHARE] = 0.5
     assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.3, 0.3, inside)) == (1.0, 0.5, 0.5)
-
-
-def test_an_edge_of_a_void_cell_has_no_weight():
-    line = np.full((10, 1, 1), -1.0)
-    for inside in (True, False):
-        assert face_aperture(0, 0, 0.0, 0.0, 1.0, 0.0, one_cell(line, 0.0, 0.0, inside)) == (0.0, 0.0, 0.0)
-
-
-def sliver(share: float, n_r: float, gas: bool = False) -> tuple[float, float, float]:
-    """Apertures of the left edge of a full cell, at which this share is hard (n_r = 1), or from which it is (n_r = -1). The
-    rest is a solid or a gas."""
-    line = np.zeros((10, 1, 1))
-    line[contact_geometry.SHARE] = share
-    if 0.0 < share < 1.0:
-        line[contact_geometry.LINE_R] = n_r
-        line[contact_geometry.CONSTANT] = share if n_r > 0.0 else share - 1.0
-    solid, rest = (0.0, 1.0 - share) if gas else (1.0 - share, 0.0)
-    return face_aperture(0, 0, 0.0, 0.0, 0.0, 1.0, one_cell(line, share, solid, gas=rest))
-
-
-@pytest.mark.parametrize("n_r", [1.0, -1.0])
-@pytest.mark.parametrize("share", [0.0, SLIVER, 1.0 - SLIVER, 1.0])
-def test_a_group_comes_to_a_face_without_a_jump(share, n_r):
-    """A breath of it that lies at the edge of its cell wets all of that edge, but does not count at once."""
-    sides = (1.0,) if share == 0.0 else ((-1.0,) if share == 1.0 else (-1.0, 1.0))
-    changes_in_proportion(lambda x: sliver(x, n_r), share, 2.0 / SLIVER, sides=sides)
-
-
-def test_half_a_sliver_counts_by_half_and_more_than_a_sliver_in_full():
-    assert sliver(0.5 * SLIVER, 1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
-    assert sliver(1.0 - 0.5 * SLIVER, -1.0) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
-    assert sliver(1.001 * SLIVER, 1.0) == (1.0, 1.0, 1.0)
-    assert sliver(1.0 - 1.001 * SLIVER, -1.0) == (1.0, 0.0, 0.0)
-
-
-def test_a_film_of_gas_moves_no_face():
-    """It comes in beyond FILM, as a solid does beyond nothing."""
-    assert sliver(1.0 - FILM, -1.0, gas=True) == (1.0, 1.0, 1.0)
-    assert sliver(1.0 - FILM - 0.5 * SLIVER, -1.0, gas=True) == (1.0, pytest.approx(0.5), pytest.approx(0.5))
-    assert sliver(1.0 - FILM - 1.001 * SLIVER, -1.0, gas=True) == (1.0, 0.0, 0.0)
-    changes_in_proportion(lambda x: sliver(x, -1.0, True), 1.0 - FILM, 2.0 / SLIVER)
-
-
-# ------------------------------------------------------------------------------ slopes beside vertices without mass
-
-
-def carried(last_mass: float) -> list[float]:
-    """Mass, momentum and kinetic energy that flow past the vertices of a row, the left one of which has hardly any mass."""
-    columns, g = 10, Grid(np.linspace(0.0, 7.0, 7), np.linspace(0.0, 7.0, 7), "planar")
-    ranges = np.tile(np.array([0, columns]), (1, 4, columns, 1)).reshape(1, 4, columns, 2)
-    mass, flux = np.ones((1, columns, columns)), np.full((1, columns, columns), 0.1)
-    mass[0, :, :4], mass[0, :, 4] = 0.0, last_mass
-    w = np.zeros((2, 1, columns, columns))
-    w[0, 0], w[1, 0] = 3.0 * np.arange(columns) ** 2, -np.arange(columns) ** 2
-    w[:, :, :, :4] = 0.0
-    dual = np.zeros((6, 2, columns))
-    momentum.dual_row.source(0, 5, 0, handle(dj=0, di=1, i0=4, i1=7, metrics=g.metrics, group_ranges=ranges, flux_mass=flux,
-                              steepness=2.0, mass=mass, velocity0=w, dual=dual))
-    return list(dual[:5, 0, 5:7].ravel())
-
-
-def test_a_vertex_is_not_changed_as_its_neighbour_loses_its_last_mass():
-    """Its velocity is 0 then: a slope to that would be another one than to what it was."""
-    np.testing.assert_allclose(carried(0.0), carried(1e-20), rtol=1e-14)
-    assert carried(0.0) != pytest.approx(carried(1.0), rel=1e-3)
-    for mass in (0.0, SLIGHT):
-        changes_in_proportion(carried, mass, 1e5, sides=(1.0,) if mass == 0.0 else (-1.0, 1.0))

@@ -6,10 +6,9 @@ import pytest
 from hydro2d.deck import deck
 from hydro2d.kernels import cracks
 from hydro2d.materials.rows import MEMORY
-from hydro2d.mesh.fields import CRUSHED, DMG, FAILED, INTERNAL, RHO, SRR, SZZ
+from hydro2d.mesh.fields import DMG, FAILED, INTERNAL, RHO, SRR
 from hydro2d.physics.fracture import crack_opening
 from hydro2d.solver.simulation import Simulation
-from strength import cochran_banner
 from tests.decks import box, material, mesh, stop, table, walls
 from tests.kernels.cells import handle
 
@@ -59,13 +58,6 @@ def block():
     return Block()
 
 
-def test_the_remaining_tension():
-    """By hand: 1 - D^(2/3)."""
-    row = cochran_banner.row({"opening": OPENING})
-    assert [cochran_banner.tension_left(d, row) for d in (0.0, 0.125, 1.0)] == pytest.approx([1.0, 0.75, 0.0], abs=1e-15)
-    assert cochran_banner.full_opening(row) == OPENING
-
-
 @pytest.mark.parametrize("damage", [0.0, 0.125])
 def test_a_cell_opens_to_what_it_bears(block, damage):
     block.q[RHO, 0, J, I] *= 0.97
@@ -110,32 +102,8 @@ def test_opening_a_crack_takes_two_fifths_of_tension_times_opening(block):
     assert work == pytest.approx(0.4 * TENSION * OPENING, rel=0.01)
 
 
-def test_where_all_is_gone_the_cracks_become_void(block):
-    """Mass stays; the solid keeps its density and has no stress; the void takes the share of the cracks."""
-    block.q[RHO, 0, J, I] *= 0.8
-    block.q[DMG, 0, J, I] = FAILED
-    block.q[SRR:SZZ + 1, 0, J, I] = 1e8
-    mass = block.q[RHO, 0, J, I]
-    block.open()
-    assert block.vof[0, J, I] * block.q[RHO, 0, J, I] == pytest.approx(mass, rel=1e-14)
-    assert block.vof[0, J, I] == pytest.approx(0.8, rel=1e-3)
-    assert block.pressure() == pytest.approx(0.0, abs=1e-3)
-    assert not block.q[WIDE, 0, J, I]
-    assert not block.q[SRR:SZZ + 1, 0, J, I].any()
-
-
 def test_cracks_that_fill_half_of_a_cell_have_joined(block):
     block.q[RHO, 0, J, I] *= 0.45
     block.open()
     assert block.q[DMG, 0, J, I] == FAILED
     assert block.vof[0, J, I] < 0.5
-
-
-def test_a_full_opening_is_failure(block):
-    block.q[WIDE, 0, J, I] = 1.01 * OPENING / (3 * SIZE * block.q[RHO, 0, J, I])
-    block.q[WIDE, 0, J - 1, I] = block.q[WIDE, 0, J + 1, I] = 0.999 * block.q[WIDE, 0, J, I]
-    block.q[GROWING, 0, J, I] = 1.0
-    block.q[GROWING, 0, J - 1, I] = 1.0
-    block.damage()
-    assert block.q[DMG, 0, J, I] == FAILED
-    assert block.q[DMG, 0, J - 1, I] == CRUSHED, "the cell beside it has less of the crack and bears nothing"

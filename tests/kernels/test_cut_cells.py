@@ -5,26 +5,18 @@ import pytest
 
 from hydro2d.kernels import cut_cells
 from hydro2d.kernels.cut_cells import BESIDE_GAS, FREE_SURFACE, INTERFACE, JOINT, KIND, MOST_TIED, NORMAL_R, NORMAL_Z, WHOLE
-from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, HEAT, MODULUS, NORMAL, SIZE
-from hydro2d.mesh.fields import INTERNAL, RHO, SRR, SRZ, SZZ, E
+from hydro2d.kernels.mixed_scratch import ACROSS, ALONG, BESIDE, FLOW, GROWTH, MODULUS, SIZE
+from hydro2d.mesh.fields import INTERNAL, RHO, E
 from hydro2d.mesh.grid import CM_IN, CM_OUT, VOL_R
 from hydro2d.physics import contents, traction
-from hydro2d.physics.traction import LEAST_LEFT, SURE
 from tests.kernels.cells import handle
-from tests.physics.continuity import changes_in_proportion, largest_jump
 
 common_traction = cut_cells.common_traction.source
-bodies_stress = cut_cells.bodies_stress.source
 pull_of = contents.pull_of.py_func
 cut_pressure = cut_cells.cut_pressure.source
-growth_at = cut_cells.growth_at.source
-pressure_for_growth = cut_cells.pressure_for_growth.source
 traction_of_change = cut_cells.traction_of_change.source
 fill_cut_cell = cut_cells.fill_cut_cell.source
 pressure_with_gas = cut_cells.pressure_with_gas.source
-is_free_gas = cut_cells.is_free_gas.source
-gas_exponent = cut_cells.gas_exponent.source
-film_heat = traction.film_heat.py_func
 
 RIGID = 1e6  # a yield stress, in units of the modulus, that nothing reaches
 
@@ -92,105 +84,6 @@ def test_a_fluid_next_to_void_goes_to_the_pressure_that_it_bears_and_void_takes_
     assert cut_pressure(0, 0, 0.0, names) == pytest.approx(0.7 * 0.002)
 
 
-@pytest.mark.parametrize("change", [0.0, 0.01, -0.01])
-def test_a_body_next_to_void_relaxes_and_void_takes_the_rest(change):
-    cell = Cell((0.7, 0.006, *STEEL), kind=FREE_SURFACE).strained(-0.001, 0.002)
-    assert cell.meet(change) == 0.0
-    e = (0.006 + 0.001 - 0.002) / (1.0 + 4.0 / 3.0 * 0.5)
-    assert cell.mix[0, ACROSS, 0] == pytest.approx(e, rel=1e-12)
-    assert cell.mix[0, GROWTH, 0] == pytest.approx(e + 0.002, rel=1e-12)
-    assert cell.normal_pressures() == pytest.approx([0.0], abs=1e-15)
-
-
-@pytest.mark.parametrize("change", [-0.02, -0.003, 0.0])
-def test_two_bodies_without_void_share_the_change_and_the_traction(change):
-    cell = Cell((0.3, 0.012, *STEEL), (0.7, 0.004, *ALUMINIUM)).strained([-0.002, 0.001], [0.003, -0.001])
-    target = cell.meet(change)
-    assert target > 0.0
-    assert cell.grown == pytest.approx(change, abs=1e-14)
-    assert cell.normal_pressures() == pytest.approx([target] * 2, abs=1e-14)
-
-
-def test_two_bodies_that_flow_share_the_change():
-    cell = Cell((0.5, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM), flow=np.array([0.002, 0.001]))
-    cell.meet(-0.01)
-    assert cell.grown == pytest.approx(-0.01, rel=1e-6)
-
-
-def test_a_body_that_flows_and_is_stiff_in_shear_fills_its_cell():
-    cell = Cell((1.0, 0.0, 1.0, 0.9), kind=FREE_SURFACE, flow=0.01)
-    cell.meet(-0.01)
-    assert cell.grown == pytest.approx(-0.01, rel=1e-6)
-
-
-def test_bodies_that_are_strained_apart_open_void_at_no_pressure():
-    cell = Cell((0.3, 0.002, *STEEL), (0.7, 0.001, *ALUMINIUM))
-    assert cell.meet(0.05) == 0.0
-    assert cell.grown < 0.05
-    assert cell.normal_pressures() == pytest.approx([0.0, 0.0], abs=1e-15)
-
-
-def test_a_crack_without_void_pulls_and_a_wider_one_the_less():
-    """Of one group, far from a surface: all of the tension while it is shut, half of it half open."""
-    shut = Cell((0.4, 0.0, *STEEL), (0.6, 0.0, *STEEL), kind=WHOLE, weight=0.0)
-    assert shut.meet(0.01) == pytest.approx(-0.01, rel=1e-9)
-    assert shut.grown == pytest.approx(0.01, rel=1e-9)
-    opened = Cell((1.0 - 0.5 * SURE, -0.01 * (1.0 - 0.5 * SURE), *STEEL), kind=FREE_SURFACE, weight=0.0)
-    before = -0.01 / (1.0 - 0.5 * SURE) * (1.0 - 0.5 * SURE) ** 2
-    assert opened.meet(0.0) == pytest.approx(0.5 * before, rel=1e-6)
-    assert Cell((1.0 - SURE, -0.01, *STEEL), kind=FREE_SURFACE, weight=0.0).meet(0.0) == 0.0
-
-
-@pytest.mark.parametrize("weight", [0.0, 0.4, 1.0])
-@pytest.mark.parametrize(("kind", "bodies"), [(FREE_SURFACE, ((0.8, 0.0, *STEEL),)),
-                                              (INTERFACE, ((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM)))])
-def test_void_is_shut_before_the_traction_rises(kind, bodies, weight):
-    """Without a jump where it just closes."""
-    def with_void(void):
-        scaled = [((1.0 - void) * f / sum(b[0] for b in bodies), *rest) for f, *rest in bodies]
-        cell = Cell(*scaled, kind=kind, weight=weight)
-        return cell.meet(-0.02), cell.grown, *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
-
-    assert with_void(0.0202)[0] == 0.0
-    assert with_void(0.0198)[0] > 0.0
-    assert with_void(0.01)[1] == pytest.approx(-0.01, abs=1e-12)
-    changes_in_proportion(with_void, 0.02, 10.0)
-    assert largest_jump(with_void, 0.0, 0.05) < 1e-11
-
-
-@pytest.mark.parametrize("weight", [0.0, 0.4, 1.0])
-@pytest.mark.parametrize("void", [0.0, 0.003])
-@pytest.mark.parametrize("kind", [FREE_SURFACE, INTERFACE])
-def test_the_traction_does_not_jump_as_a_cell_shuts_or_opens(kind, void, weight):
-    def after(change):
-        cell = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
-        return cell.meet(change), *cell.mix[0, GROWTH], *cell.mix[0, ACROSS]
-
-    free = Cell((0.4, 0.004, *STEEL), (0.6 - void, 0.004, *ALUMINIUM), kind=kind, weight=weight)
-    total, _ = growth_at(0, 0, 0.0, free.names())
-    for change in (total, total - void):
-        changes_in_proportion(after, change, 10.0)
-    assert largest_jump(after, total - 0.02, total + 0.02) < 1e-11
-
-
-def test_growth_of_bodies_falls_with_the_pressure_as_stated():
-    cell = Cell((0.3, 0.012, *STEEL), (0.5, 0.004, *ALUMINIUM), weight=0.6).strained([-0.002, 0.001], [0.003, -0.001])
-    low, compliance = growth_at(0, 0, 0.0, cell.names())
-    by_hand = sum(f * (0.6 / (k + 0.6 * 4.0 / 3.0 * g) + 0.4 / k) for f, (k, g) in ((0.3, STEEL), (0.5, ALUMINIUM)))
-    assert compliance == pytest.approx(by_hand, rel=1e-12)
-    high, _ = growth_at(0, 0, 1e-3, cell.names())
-    assert (low - high) / 1e-3 == pytest.approx(compliance, rel=1e-9)  # no body flows, so that is exact
-    assert high == pytest.approx(cell.grown)
-
-
-@pytest.mark.parametrize("start", [-0.01, 0.0, 0.03])
-def test_a_room_is_filled_from_anywhere(start):
-    cell = Cell((0.3, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM))
-    target = pressure_for_growth(0, 0, -0.004, start, cell.names())
-    assert cell.grown == pytest.approx(-0.004, rel=1e-9)
-    assert cell.normal_pressures() == pytest.approx([target] * 2, rel=1e-9)
-
-
 # ---------------------------------------------------------------------------------------------------- beside a gas
 
 
@@ -201,44 +94,11 @@ def film(share: float, change: float, p: float = 1e-6) -> Cell:
     return cell
 
 
-@pytest.mark.parametrize(("share", "change"), [(0.5, -0.3), (0.5, 0.03), (0.05, -0.049), (0.01, -0.0099), (0.01, -0.02),
-                                               (0.5, 0.0), (1e-4, -1e-3)])
-def test_a_gas_and_a_solid_meet_at_one_pressure_however_much_of_the_gas_is_left(share, change):
-    cell = film(share, change)
-    assert cell.grown == pytest.approx(change, abs=1e-13)
-    exponent = gas_exponent(1, 0, 0, cell.names())
-    assert exponent == pytest.approx(1.0 + film_heat(share) * 0.4)
-    left = 1.0 + cell.mix[0, GROWTH, 1]
-    if left > LEAST_LEFT:
-        assert cell.target == pytest.approx(1e-6 * left**-exponent, rel=1e-6)
-    assert cell.mix[0, GROWTH, 0] < max(change, 0.0) + 1e-15
-
-
-def test_a_solid_yields_only_by_what_the_gas_cannot():
-    """A film of a hundredth closes by more than its volume: the steel takes the rest of it."""
-    assert film(0.01, -0.02).target == pytest.approx((0.01 / 0.99) / (1.0 / (1.0 + 4.0 / 3.0 * 0.5)), rel=0.02)
-    assert film(0.01, -0.0099).target < 1e-3
-
-
-def test_a_gas_next_to_void_closes_it_first():
-    cell = Cell((0.4, 1e-6, *STEEL), (0.5, 1e-6, 1.4e-6, 0.0), gas=1)
-    assert cell.meet(-0.02) == 0.0
-    assert cell.meet(-0.5) > 1e-6
-
-
 def test_the_room_of_a_gas_is_filled_from_anywhere():
     for start in (0.0, 1e-6, 1.0):
         cell = Cell((0.5, 1e-6, *STEEL), (0.5, 1e-6, 1.4e-6, 0.0), gas=1)
         pressure_with_gas(0, 0, -0.2, start, cell.names(p=np.full((1, 1), 1e-6)))
         assert cell.grown == pytest.approx(-0.2, abs=1e-13)
-
-
-def test_which_gases_have_an_isentrope():
-    cell = Cell((0.5, 1e-6, *STEEL), (0.5, 1e-6, 1.4e-6, 0.0), gas=1)
-    assert [is_free_gas(m, 0, 0, cell.names()) for m in (0, 1)] == [False, True]
-    for pressure, shear in ((-1e-6, 0.0), (1e-6, 1e-6), (2e-6, 0.0)):
-        cell.pm[1], cell.mix[0, MODULUS, 1] = pressure, shear
-        assert not is_free_gas(1, 0, 0, cell.names())
 
 
 @pytest.mark.parametrize("share", [0.5, 0.1, 0.01])
@@ -255,94 +115,6 @@ def test_a_gas_has_the_energy_of_its_isentrope_and_a_film_less(share):
     assert before @ (cell.q[E, :, 0, 0] - e) == pytest.approx(0.01, rel=1e-9)
     left = cell.q[E, 1, 0, 0] - 0.01 / before.sum()  # the rest of the work is shared by mass
     assert 0.4 * cell.q[RHO, 1, 0, 0] * left == pytest.approx(cell.target, rel=1e-3)
-
-
-# ------------------------------------------------------------------------------------------------ before the step
-
-
-def test_bodies_meet_at_the_mean_of_their_normal_stresses_by_compressibility():
-    cell = Cell((0.25, 0.008, 1.0, 0.5), (0.5, 0.002, 0.5, 0.1), (0.0, np.nan, 0.0, 0.0))
-    cell.q[SRR, :, 0, 0] = 0.004, -0.003, np.nan
-    assert cell.common() == pytest.approx(((0.25 * 0.004 + 1.0 * 0.005) / 1.25, 1.0 / 1.25))
-
-
-@pytest.mark.parametrize(("by_what_is_solid", "scale"), [(True, 2.0), (False, 1.0)])
-def test_bodies_act_by_their_shares_with_what_is_left_beside_their_normal_stress(by_what_is_solid, scale):
-    """The normal is along r: a body contributes nothing along it, and its other stresses less its normal one."""
-    cell = Cell((0.25, 0.0, *STEEL), (0.5, 0.0, *ALUMINIUM), (0.0, np.nan, 0.0, 0.0))
-    cell.q[SRR, :, 0, 0], cell.q[SZZ, :, 0, 0], cell.q[SRZ, :, 0, 0] = (0.004, -0.003, np.nan), (0.001, 0.002, np.nan), 0.0005
-    given = handle(skin=cell.skin, vof=cell.vof, q=cell.q, group=np.array([1, 0, 0]), by_what_is_solid=by_what_is_solid,
-                   solid=np.full((1, 1), 0.5))
-    hard = np.array([0.0, 0.25 * (0.001 - 0.004), -0.25 * (0.001 + 2.0 * 0.004), 0.25 * 0.0005])
-    soft = np.array([0.0, 0.5 * (0.002 + 0.003), -0.5 * (0.002 - 2.0 * 0.003), 0.5 * 0.0005])
-    assert bodies_stress(1, 0, 0, given) == pytest.approx(scale * hard)
-    assert bodies_stress(0, 0, 0, given) == pytest.approx(scale * soft)
-    assert bodies_stress(-1, 0, 0, given) == pytest.approx(scale * (hard + soft))
-
-
-def test_groups_do_not_pull_at_each_other():
-    for weight in (0.0, 0.5, 1.0):
-        groups, group = (Cell((1.0, 0.0, *STEEL), kind=kind, weight=weight).skin for kind in (INTERFACE, FREE_SURFACE))
-        assert pull_of(0, 0, 0.0, groups) == 0.0
-        assert pull_of(0, 0, 0.0, group) == pytest.approx(1.0 - weight)
-
-
-def test_at_half_the_step_half_of_the_strain_has_come():
-    cell, one = Cell((0.99, 0.0, *STEEL)), np.ones((1, 1))
-    names = handle(dt=0.1, skin=cell.skin, p=0.005 * one, bulk=one, solid=0.99 * one, borne=cell.borne)
-    assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.005 + 0.02 - 0.01)
-    assert cut_pressure(0, 0, 0.4, names) == 0.0
-    names.solid = (1.0 + 1e-15) * one
-    assert cut_pressure(0, 0, -0.4, names) == pytest.approx(0.025)
-
-
-# ------------------------------------------------------------------------------------------------- after the step
-
-
-def filled(change: float, target: float, void: float, growth):
-    """(cell before and after `fill_cut_cell`), of 3 m^3, with work and heat of its own."""
-    before, after = (Cell((0.3, 0.012, *STEEL), (0.7 - void, 0.004, *ALUMINIUM)) for _ in range(2))
-    for cell in (before, after):
-        cell.mix[0, GROWTH], cell.mix[0, NORMAL], cell.mix[0, HEAT] = growth, (0.001, -0.002), (0.02, 0.05)
-        cell.q[E, :, 0, 0] = 0.4, 0.9
-    fill_cut_cell(0, 0, 3.0 * change, 3.0, target, 0.07, after.names(q=after.q))
-    return before, after
-
-
-CASES = [(-0.02, 0.01, 0.0, (-0.01, -0.0243)), (0.03, 0.0, 0.1, (0.002, 0.004)), (-0.03, 0.0, 0.1, (0.002, -0.004)),
-         (-0.2, 0.01, 0.1, (-0.7, -0.05)), (-0.2, 0.0, 0.05, (0.0, 0.0))]
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_a_cell_keeps_mass_and_gains_the_energy_of_the_work(case):
-    before, after = filled(*case)
-    masses = [c.vof[:, 0, 0] * c.q[RHO, :, 0, 0] * volume for c, volume in ((before, 3.0), (after, 3.0 * (1.0 + case[0])))]
-    assert masses[1] == pytest.approx(masses[0], rel=1e-14)
-    gained = masses[0] @ (after.q[E, :, 0, 0] - before.q[E, :, 0, 0])
-    assert gained == pytest.approx(0.07 + 0.02 + 0.05, rel=1e-14)
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_bodies_fill_a_cell_under_pressure_and_never_more_than_it(case):
-    _, after = filled(*case)
-    if case[1] > 0.0:
-        assert after.vof.sum() == pytest.approx(1.0, rel=1e-14)
-    else:
-        assert after.vof.sum() <= 1.0 + 1e-15
-
-
-def test_a_body_with_room_grows_by_what_it_grows():
-    _, after = filled(*CASES[1])
-    assert after.vof[:, 0, 0] * 1.03 == pytest.approx([0.3 * 1.002, 0.6 * 1.004], rel=1e-14)
-
-
-def test_each_body_does_the_work_of_its_own_normal_stress():
-    """The rest of the cell's work is shared by mass."""
-    _, after = filled(*CASES[0])
-    mass = 3.0 * np.array([0.3, 0.7]) * (2.0, 3.0)
-    own = 3.0 * np.array([0.3 * -0.01 * 0.5 * (0.011 + 0.01), 0.7 * -0.0243 * 0.5 * (0.006 + 0.01)])
-    expected = (np.array([0.02, 0.05]) - own) / mass + (0.07 + own.sum()) / mass.sum()
-    assert after.q[E, :, 0, 0] - (0.4, 0.9) == pytest.approx(expected, rel=1e-12)
 
 
 # ------------------------------------------------------------------------------------------------ where surfaces are

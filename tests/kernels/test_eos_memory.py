@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from eos import p_alpha
 from hydro2d.deck import deck
 from hydro2d.kernels import eos_memory
-from hydro2d.materials.rows import EOS, MEMORY
-from hydro2d.mesh.fields import DMG, EP, INTERNAL, SRR, SZZ, carried
+from hydro2d.mesh.fields import DMG, EP, INTERNAL, SRR, SZZ
 from hydro2d.output import derived_quantities
 from hydro2d.solver.simulation import Simulation
 from tests.kernels.cells import handle
@@ -50,26 +48,6 @@ def simulation(text=POROUS, *overrides):
     return Simulation(deck.loads(text, ['mesh.geometry="planar"', *overrides]))
 
 
-def test_virgin_material_is_everywhere_at_first():
-    state = simulation(TWO).state
-    assert state.q.shape[0] == INTERNAL + 3
-    assert np.all(state.q[INTERNAL, 0] == 2700.0 / 2000.0)
-    assert np.all(state.q[INTERNAL:, 1] == 0.0)
-    assert state.before.shape[:2] == (3, 2)
-
-
-def test_a_body_with_memory_alone_carries_no_deviators():
-    fields = (p_alpha.INTERNAL[0],)
-    assert carried(fields, strength=False, damage=False) == [1, INTERNAL]
-    assert carried(fields, strength=True, damage=True) == [1, 2, 3, 4, 5, 6, INTERNAL]
-
-
-def test_no_memory_is_used_without_an_equation_of_state_that_has_it():
-    sim = Simulation(deck.loads(BLOCK))
-    assert not hasattr(sim.state, "before")
-    assert sim.engine.given.handle.before.size == 0
-
-
 def test_a_model_receives_the_changes_of_a_step(monkeypatch):
     """Density, strain and damage before and after; work is stress times strain; damage weakens nothing here."""
     received = {}
@@ -94,15 +72,6 @@ def test_a_model_receives_the_changes_of_a_step(monkeypatch):
     assert received[0] == pytest.approx(expected, rel=1e-12)
     assert len(received) == 1
     assert s.q[INTERNAL, 0, j, i] == 1.25
-
-
-def test_the_variables_of_strength_come_first():
-    plain = 'model = "elastic-plastic"\nshear_modulus = "26 GPa"\nyield_stress = "1e6 GPa"'
-    assert plain in POROUS
-    own = simulation(POROUS.replace(plain, plain.replace("elastic-plastic", "kinematic-hardening")))
-    assert own.engine.given.handle.models[0, MEMORY] == INTERNAL + 3
-    assert own.engine.given.handle.models[0, EOS] == p_alpha.ID
-    assert np.all(own.state.q[INTERNAL + 3, 0] == 1.35)
 
 
 MOVES = f"""

@@ -5,14 +5,12 @@ import pytest
 
 from hydro2d.kernels.contact import extension
 from hydro2d.kernels.contact.contact_geometry import REACH
-from hydro2d.kernels.contact.extension import MASTERS, SLACK, SPAN, SURE, TIED, UNDERFILLED, find_extensions, find_filled
+from hydro2d.kernels.contact.extension import MASTERS, SPAN, TIED, UNDERFILLED, find_extensions, find_filled
 from hydro2d.mesh.fields import DMG, RHO
 from hydro2d.mesh.grid import Grid
 from tests.kernels.cells import handle
 from tests.physics.continuity import changes_in_proportion, largest_jump
 
-filled_share = extension.filled_share.source
-sureness = extension.sureness.py_func
 in_debris = extension.in_debris.source
 cell_weight = extension.cell_weight.source
 
@@ -114,29 +112,6 @@ def block(**cells: float) -> np.ndarray:
 # ---------------------------------------------------------------------------------------------------- small pieces
 
 
-def test_a_share_of_a_dual_cell_is_none_without_mass_or_beyond_the_mesh():
-    g = Grid(np.linspace(0.0, 4e-3, 5), np.linspace(0.0, 4e-3, 5), "planar")
-    mesh_box = np.array([2, 6, 2, 6])
-    hard, soft, mass = np.zeros(g.shape), np.zeros(g.shape), np.ones((2, *g.vertex_shape))
-
-    def share(j, i):
-        return filled_share(1, j, i, hard, soft, handle(mesh_box=mesh_box, volume=g.volume, metrics=g.metrics, mass=mass))
-
-    hard[3, 3:5], hard[4, 4] = 1.0, 0.4
-    assert share(4, 4) == pytest.approx(0.6)
-    hard[3, 3] = 0.2
-    assert share(4, 4) == pytest.approx(0.4)
-    assert share(1, 4) == share(4, 7) == 0.0
-    mass[1, 4, 4] = 0.0
-    assert share(4, 4) == 0.0
-
-
-def test_a_node_counts_as_filled_by_degrees():
-    assert sureness(0.2) == sureness(UNDERFILLED) == 0.0
-    assert sureness(0.5 * (UNDERFILLED + SURE)) == pytest.approx(0.5)
-    assert sureness(SURE) == sureness(1.0) == 1.0
-
-
 def test_debris_is_failed_material_of_the_other_group_that_fills_half_of_a_cell():
     vof, q = np.zeros((2, 6, 6)), np.zeros((DMG + 1, 2, 6, 6))
     vof[1, 2, 3], q[DMG, 1, 2, 3] = 0.5, 1.0
@@ -189,41 +164,8 @@ def test_a_solid_is_not_tied_to_the_gas_beside_it():
     assert min(dj for dj, _ in deep) < 0 < max(dj for dj, _ in deep)
 
 
-def test_gas_alone_is_tied_as_a_solid_whose_gradients_are_reduced():
-    hard = half_plane(0.4)
-    gas, solid = Extensions(hard, (0.9, 0.4), np.zeros((N, N)), gas=1.0 - hard), Extensions(hard, (0.9, 0.4), most_squares=1.0)
-    np.testing.assert_allclose(gas.strength, solid.strength, rtol=1e-14)
-    np.testing.assert_allclose(gas.weights[0], solid.weights[0], atol=1e-14)
-
-
 def test_a_solid_comes_into_a_gas_without_a_jump():
     assert largest_jump(lambda firm: beside_gas(firm).everything(0, 5, 4), 0.0, 1.0) < 1e-9
-
-
-# ------------------------------------------------------------------------------------------------- its own direction
-
-
-def test_a_slave_looks_into_its_own_body_whatever_the_normal():
-    """At the rim of a flat surface that ends in void: the normal of the contact is aslant, the body lies below."""
-    hard, soft = np.zeros((2, N, N))
-    soft[:5], soft[5] = 1.0, 0.3
-    hard[5:, :6] = 0.7
-    straight, aslant = (Extensions(hard, normal, soft) for normal in ((0.0, 1.0), (1.0, 0.3)))
-    masters = straight.of(0, 6, 5)
-    assert masters
-    assert max(dj for dj, _ in masters) < 0
-    np.testing.assert_array_equal(aslant.weights[0, 6, 5], straight.weights[0, 6, 5])
-
-
-def test_at_the_axis_a_slave_of_a_flat_surface_looks_straight_into_it():
-    """As in a mesh that goes on; at an edge that is not held it looks aslant, away from nothing."""
-    hard, soft = np.zeros((2, N, N))
-    soft[:5], soft[5], hard[5:] = 1.0, 0.3, 0.7
-    axis, free = (Extensions(hard, (0.0, 1.0), soft, constrained=(first, -1, -1, -1)) for first in (2, -1))
-    assert {dj for dj, _ in axis.of(0, 6, 0)} == {dj for dj, _ in axis.of(0, 6, 5)}
-    assert max(dj for dj, _ in axis.of(0, 6, 0)) < 0
-    assert np.abs(axis.weights[0, 6, 0] - free.weights[0, 6, 0]).max() > 0.01
-    np.testing.assert_array_equal(axis.weights[0, 6, 5], free.weights[0, 6, 5])
 
 
 # ---------------------------------------------------------------------------------------------------- extensions
@@ -258,19 +200,6 @@ def test_a_linear_field_is_met(angle, edges):
     assert extended >= 8
 
 
-@pytest.mark.parametrize("most_squares", [1.0, 1.6, 2.5])
-def test_squares_of_weights_are_bounded(most_squares):
-    """One cell alone has four full vertices: some of those on the edges of the block would need more."""
-    free, capped = (Extensions(block(), (1.0, 0.0), most_squares=most) for most in (1e6, most_squares))
-    squares = {most: [] for most in ("free", "capped")}
-    for b, j, i in free.slaves:
-        if b == 1 and set(free.of(b, j, i)) == {(dj - j, di - i) for dj in (5, 6) for di in (5, 6)}:
-            squares["free"].append(sum(w * w for w in free.of(b, j, i).values()))
-            squares["capped"].append(sum(w * w for w in capped.of(b, j, i).values()))
-    assert max(squares["free"]) > most_squares
-    np.testing.assert_allclose(squares["capped"], np.minimum(squares["free"], most_squares), rtol=1e-12)
-
-
 @pytest.mark.parametrize(("hard", "normal"), MESHES)
 def test_means_of_cells_are_bounded_too(hard, normal):
     extensions = Extensions(hard, normal, most_squares=1.5)
@@ -288,13 +217,6 @@ def test_a_mirrored_slave_has_mirrored_masters(hard, normal):
         turned = np.flip(mirrored.weights[..., :MASTERS].reshape(square), (axis, axis + 2))
         np.testing.assert_allclose(turned, here.weights[..., :MASTERS].reshape(square), atol=1e-14)
         np.testing.assert_allclose(np.flip(mirrored.weights[..., TIED], axis), here.weights[..., TIED], atol=1e-14)
-
-
-def test_groups_that_change_places_change_slaves():
-    hard = scattered(7)
-    here, swapped = Extensions(hard, (0.6, 0.8)), Extensions(1.0 - hard, (-0.6, -0.8))
-    np.testing.assert_allclose(swapped.strength[::-1], here.strength, atol=1e-14)
-    np.testing.assert_allclose(swapped.weights[::-1], here.weights, atol=1e-12)
 
 
 # ---------------------------------------------------------------------------------------------- continuity
@@ -370,31 +292,3 @@ def pair(beyond: float) -> Extensions:
     hard[4:6, 2:4] = UNDERFILLED + beyond
     hard[5, 5] = soft[5, 5] = 0.2
     return Extensions(hard, (1.0, 0.0), soft)
-
-
-def test_two_nodes_that_are_tied_to_each_other_let_go_by_a_little():
-    """While neither has masters of its own group: the other one's slack ends with its weight."""
-    alone, tied = pair(0.0), pair(0.05)
-    assert (alone.weights[:, 5, 5, TIED] == 1.0).all()
-    np.testing.assert_allclose(alone.strength[:, 5, 5], 1.0 - SLACK, rtol=1e-15)
-    assert tied.weights[:, 5, 5, TIED].tolist() == [1.0, 0.0]
-    assert tied.strength[:, 5, 5].tolist() == [1.0, 1.0]
-    assert largest_jump(lambda beyond: pair(beyond).everything(1, 5, 5), 0.0, 0.05) < 1e-9
-
-
-# ---------------------------------------------------------------------------------------------------------- debris
-
-
-def test_a_crumb_in_debris_asks_two_vertices_away_others_three():
-    hard = np.zeros((N, N))
-    hard[:, :7] = 1.0
-    hard[:, 6] = 0.7
-    hard[6, 4] = 0.999  # with a crumb of the soft body
-    sound, failed = (Extensions(hard, (1.0, 0.0), damage=damage) for damage in (0.9, 1.0))
-    for j in (6, 7):
-        assert min(di for _, di in sound.of(0, j, 5)) == 2
-        assert sound.weights[0, j, 5, TIED] == 0.0
-        assert failed.of(0, j, 5) == {}
-        assert failed.weights[0, j, 5, TIED] == 1.0
-    np.testing.assert_array_equal(failed.weights[1], sound.weights[1])
-    np.testing.assert_array_equal(failed.strength, sound.strength)

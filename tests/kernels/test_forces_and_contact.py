@@ -21,27 +21,11 @@ from hydro2d.kernels.contact.contact_geometry import (
 )
 from hydro2d.kernels.contact.contact_motion import SEED
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
-from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ, E
+from hydro2d.mesh.fields import RHO, SRR, SRZ, SZZ
 from hydro2d.physics.contact_faces import GAP, weights_beside
 from tests.kernels.cells import Cells, lines
 
 ROWS = slice(2, 6)
-
-
-def test_a_vertex_has_a_quarter_of_every_cell_around():
-    cells = Cells()
-    cells.cell_mass[0, 3, 3:5] = 4.0, 8.0
-    cells.call(vertex_forces.vertex_masses, i1=7)
-    assert cells.mass[0, 3, 2:7].tolist() == cells.mass[0, 4, 2:7].tolist() == [0, 1, 3, 2, 0]
-    assert cells.mass.sum() == 12.0
-
-
-def test_a_vertex_of_revolution_has_more_of_the_cell_inside_of_it():
-    """From r = 1 to 2 m: (2 r1 + r2)/(6 (r1 + r2)) = 2/9 of the cell at an inner vertex, 5/18 at an outer one."""
-    cells = Cells(geometry="cylindrical")
-    cells.cell_mass[0, 3, 3] = 18.0
-    cells.call(vertex_forces.vertex_masses, i1=7)
-    assert cells.mass[0, 3, 2:6] == pytest.approx([0, 4, 5, 0])
 
 
 def stressed(**q) -> Cells:
@@ -64,17 +48,6 @@ def sums(cells: Cells, **given) -> list:
 def test_the_stress_of_a_pure_cell():
     """The pressure at half the step is 100 - 0.2 * 50 * 1 = 90 Pa."""
     assert sums(stressed()) == pytest.approx([90.0, 10 - 90 - 5, -4 - 90 - 7, -6 - 90 - 2, 3.0 - 0.5])
-
-
-def test_the_stress_of_a_mixed_cell_is_that_of_its_bodies_by_volume():
-    """Half void, then the same in mode solid, then in the hard zone of a slip layer, where only the hard body counts."""
-    cells = stressed()
-    cells.vof[:, 3, 3], cells.solid[3, 3] = (0.25, 0.25), 0.5
-    cells.q[SRR, 1] = 30.0
-    cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
-    assert sums(cells)[1] == pytest.approx(0.25 * (10 + 30) - 90 - 5)
-    assert sums(cells, by_what_is_solid=True)[1] == pytest.approx(0.5 * (10 + 30) - 90 - 5)
-    assert sums(cells, hard_bodies=np.array([False, True]), threshold=0.2)[1] == pytest.approx(0.5 * 30 - 90 - 5)
 
 
 def test_the_deviator_of_a_crumb_is_not_swallowed_by_the_pressure_of_a_full_cell():
@@ -100,51 +73,6 @@ def accelerated(pushed: np.ndarray = NOTHING, **fields) -> Cells:
     return cells
 
 
-def test_a_pressure_pushes_the_corners_of_its_cell_apart():
-    """8 Pa on half of a face of 1 m^2, on either side of a corner: 4 N each way."""
-    cells = accelerated(sig_rr=-8.0, sig_zz=-8.0, sig_tt=-8.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, 0.4], [-0.4, 0.4]]))
-    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[-0.4, -0.4], [0.4, 0.4]]))
-    assert np.count_nonzero(cells.u) == 4
-
-
-def test_shear_turns_a_cell():
-    cells = accelerated(sig_rz=8.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, 0.4], [-0.4, -0.4]]))
-    assert cells.v[0, 3:5, 3:5] == pytest.approx(np.array([[0.4, -0.4], [0.4, -0.4]]))
-
-
-def test_the_filter_works_against_the_hourglass():
-    """40 N on 1 kg in 0.1 s, against u0 - u1 + u2 - u3 > 0."""
-    cells = accelerated(filter_r=40.0)
-    assert cells.u[0, 3:5, 3:5] == pytest.approx(np.array([[-4, 4], [4, -4]]))
-    assert not cells.v.any()
-    assert accelerated(filter_z=40.0).v[0, 3:5, 3:5] == pytest.approx(np.array([[-4, 4], [4, -4]]))
-
-
-def pushes_of(mode) -> np.ndarray:
-    """What the filters of cells of 1 kg and 10 kg/s push with along r where mode[j, i] (m/s) is their hourglass mode."""
-    cells = Cells()
-    cells.hg_coefficient[...], cells.cell_mass[0] = 10.0, 1.0
-    cells.u0[0, 1:, 1:] = np.cumsum(np.cumsum(mode, axis=0), axis=1)[: cells.u0.shape[1] - 1, : cells.u0.shape[2] - 1]
-    for row in range(2, 6):
-        cells.call(vertex_forces.filter_row, as_python=True, j=row)
-    return cells.filter_r[0, 2:6, 2:6]
-
-
-def test_the_filter_acts_on_what_alternates_alone():
-    """A mode of one sign everywhere belongs to a smooth field; the shortest wave changes it from cell to cell."""
-    one = np.ones((8, 8))
-    checkers = one * (-1.0) ** np.add.outer(np.arange(8), np.arange(8))
-    assert pushes_of(4.0 * one) == pytest.approx(0.0, abs=1e-11)
-    assert np.abs(pushes_of(4.0 * checkers)) == pytest.approx(40.0)
-    both = pushes_of(3.0 * one + checkers)  # 4 and 2 m/s: (4 - 2)/2, and nothing where the excess has the other sign
-    assert both[both > 1.0] == pytest.approx(10.0)
-    assert np.count_nonzero(both > 1.0) == 8
-    assert both[both < 1.0] == pytest.approx(0.0, abs=1e-11)
-    assert np.unique(np.sign(pushes_of(checkers))).tolist() == [-1.0, 1.0]
-
-
 def test_the_push_of_sources_is_added():
     pushed = np.zeros((2, 1, 9, 9))
     pushed[0, 0, 3, 3], pushed[1, 0, 4, 4] = 2.0, 3.0
@@ -160,27 +88,12 @@ def limited(**given) -> Cells:
     return cells
 
 
-def test_the_speed_of_a_thinly_filled_node_is_limited():
-    """The energy is that of the mean velocity of the step."""
-    cells, end = limited(), 0.2 / np.sqrt(2.0)
-    assert cells.u[0, 3, 3:5] == pytest.approx([-end, end])
-    assert cells.limited[:, 3] == pytest.approx([2 * (end - 0.4), 2 * (0.4 - end) * end, 2.0])
-
-
 def test_a_limited_node_ends_the_step_with_the_velocity_that_an_edge_gives():
     """Column 3 is fixed and row 4 moves at 0.5 m/s: of each row one component of one node ends as limited."""
     end = 0.2 / np.sqrt(2.0)
     cells = limited(constrained=lines(3, -1, -1, 4), edge_velocity=np.array([0.0, 9.0, 9.0, 0.5, 0.0, 0.0, 0.0, 0.0]))
     assert cells.limited[:, 3] == pytest.approx([2 * (end - 0.4), 0.5 * (0.4 - end) * (0.0 + end + 2 * end), 2.0])
     assert cells.limited[:, 4] == pytest.approx([2 * (0.4 - end), 0.5 * (0.4 - end) * (0.0 + end + 2 * 0.5), 2.0])
-
-
-def test_a_limited_node_ends_the_step_with_the_velocity_along_a_held_edge():
-    """Column 3 is held with 0.5 m/s along z, row 4 with 0 along r: one component of one node each, and one of both."""
-    end = 0.2 / np.sqrt(2.0)
-    cells = limited(constrained=lines(along=(3, -1, -1, 4)), edge_velocity=np.array([0.0, 0.0, 0.0, 0.0, 0.5, 9.0, 9.0, 0.0]))
-    assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (2 * end - 0.5 + end))
-    assert cells.limited[1, 4] == pytest.approx(0.5 * (0.4 - end) * (0.5 + end + 0.0 + 0.0))
 
 
 def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave():
@@ -190,16 +103,6 @@ def test_a_limited_node_ends_the_step_at_rest_on_an_anvil_that_it_does_not_leave
     assert cells.limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
     assert cells.limited[1, 4] == pytest.approx(0.5 * (0.4 - end) * (0.0 + end + 2 * end))
     assert limited(pushing=np.array([-1, 3, -1, 3])).limited[1, 3] == pytest.approx(0.5 * (0.4 - end) * 4 * end)  # all leave
-
-
-def test_faces_sweep_what_their_vertices_move():
-    """From 4 to 2 m/s in 0.1 s along r, from 0 to 1 m/s at one end along z."""
-    cells = Cells()
-    cells.u0[0, 3:5, 4], cells.u[0, 3:5, 4], cells.v[0, 4, 3] = 4.0, 2.0, 1.0
-    cells.call(vertex_forces.swept_volumes, dt=0.1)
-    assert cells.fr[2:5, 4] == pytest.approx([0.15, 0.3, 0.15])
-    assert cells.fz[4, 2:4] == pytest.approx([0.025, 0.025])
-    assert np.count_nonzero(cells.fz) == 2
 
 
 # -------------------------------------------------------------------------------------------------------- contact
@@ -286,12 +189,6 @@ def test_the_aperture_of_a_face_is_a_mean_whatever_the_weights_add_up_to(left, r
     assert cells.aperture_z[:, 4, 4].tolist() == [0.5, 0.5]  # along z both cells are alike
 
 
-def test_a_cell_of_both_groups_without_void_has_the_face_to_a_gap_for_itself():
-    assert void_and_void(0.0, 0.0).aperture_r[:, 3, 5] == pytest.approx([0.35, 0.35])
-    assert void_and_void(0.0, 0.3).aperture_r[:, 3, 5].tolist() == [0.5, 0.5]
-    assert void_and_void(0.3, 0.0).aperture_r[:, 3, 5].tolist() == [0.2, 0.2]
-
-
 def test_the_contact_cell_has_the_stress_of_its_one_rate_of_volume():
     cells = halves()
     cells.p[...], cells.bulk[...], cells.rate[...], cells.ph[...] = 100.0, 50.0, 1.0, 70.0
@@ -307,36 +204,6 @@ def seen(cells: Cells, dt: float = 0.0) -> np.ndarray:
     cells.call(contact_motion.contact_viscosity, viscosity_linear=0.5, viscosity_quadratic=2.0, courant=0.5,
                shock_courant=0.5, dt=dt, row_step=step)
     return step
-
-
-def test_viscosity_answers_to_the_one_rate_of_volume():
-    """The cell loses 0.3 of its volume per second; the mean density by compressibility is (3 * 1 + 1 * 4)/4 = 1.75 kg/m^3."""
-    cells = halves()
-    cells.km[0], cells.km[1] = 1.0, 3.0
-    cells.solid[...], cells.p[...], cells.bulk[...], cells.cl[...], cells.rhobar[...] = 1.0, 1.0, 7.0, 10.0, 2.5
-    cells.v[...] = -0.3 * np.arange(9.0)[:, None]
-    step = seen(cells)
-    assert cells.rate[3, 3:6] == pytest.approx(3 * [-0.3])
-    q = 1.75 * 0.3 * (2.0 * 0.3 + 0.5 * 2.0)
-    assert cells.qr[3, 4] == cells.qz[3, 4] == pytest.approx(q)
-    assert step[3] == pytest.approx(0.5 / np.sqrt(100.0 + 2.0 * max(q / 1.75, cells.qr[3, 3] / 2.5)))
-    assert step[6] == 1e300
-
-
-def test_a_full_cell_whose_groups_part_is_given_room():
-    cells = halves()
-    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = cells.solid[...] = 1.0
-    cells.u[0] = 1.0  # the soft body leaves the hard one
-    seen(cells)
-    assert cells.skin[KIND, 3, 4] == WHOLE  # both were in this cell before: `find_surfaces` has handled it
-    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 5] == WHOLE  # they have only the cell of both next to them
-    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[1.0], [0.0]], 0.0, 1.0
-    seen(cells)
-    assert cells.skin[KIND, 3, 3] == cells.skin[KIND, 3, 4] == INTERFACE
-    assert cells.vof[0, 3, 4] == cells.solid[3, 4] == 1.0 - SEED
-    assert cells.q[RHO, 0, 3, 4] == 1.0 / (1.0 - SEED)
-    assert cells.mixed_count[3] == 2
-    assert cells.mixed[3, :2].tolist() == [3, 4]
 
 
 def parting(soft: float, pressure: float, dt: float, closing: float = 0.0) -> list[bool]:
@@ -355,31 +222,9 @@ def parting(soft: float, pressure: float, dt: float, closing: float = 0.0) -> li
     return (cells.solid[3, 3:5] == 1.0 - SEED).tolist()
 
 
-def test_a_seed_is_given_to_a_cell_that_would_be_under_tension_after_the_step():
-    """K = 1 Pa: at a pressure of 0.5 Pa after half a second; the hard cell, which does not grow, keeps its pressure."""
-    assert parting(1.0, 0.5, 0.499) == [False, False]
-    assert parting(1.0, 0.5, 0.501) == [False, True]
-    assert parting(1.0, 0.0, 0.0) == [True, True]
-    assert parting(1.0, -0.1, 0.5) == [True, True]
-
-
 def test_a_cell_whose_volume_falls_gets_no_seed_before_its_pressure_is_gone():
     assert parting(1.0, 1e-6, 0.5, closing=3.0) == [False, False]
     assert parting(1.0, -1e-6, 0.5, closing=3.0) == [True, True]
-
-
-def test_groups_that_do_not_part_get_no_seed():
-    for soft in (0.0, -1.0):
-        assert parting(soft, -1.0, 0.5) == [False, False]
-
-
-def test_a_gap_next_to_the_other_group_is_no_free_surface():
-    cells = halves()
-    cells.km[...] = cells.bulk[...] = cells.cl[...] = cells.rhobar[...] = 1.0
-    cells.vof[:, :, 4], cells.hard[:, 4], cells.soft[:, 4] = [[0.9], [0.0]], 0.0, 0.9
-    cells.skin[KIND, 3, 4], cells.solid[...] = FREE_SURFACE, 0.9
-    seen(cells)
-    assert cells.skin[KIND, 3, 4] == INTERFACE
 
 
 def pushed(**given) -> Cells:
@@ -406,14 +251,6 @@ def test_pressure_acts_on_each_group_by_its_aperture():
     assert constrained_cells.u[:, 3, 4].tolist() == [0.0, 0.0]
 
 
-def test_deviators_of_a_group_act_on_it_alone():
-    """s_rz = 6 Pa of the hard body left of the nodes pulls them along z: -(-1/2 * 1 * 6) N from each of two cells."""
-    cells = halves()
-    cells.q[SRZ, 1, :, :4] = 6.0
-    cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False, pushed=NOTHING)
-    assert cells.v[:, 3, 4] == pytest.approx([0.0, -0.1 * 6.0 / 3.0])
-
-
 def test_both_ways_of_summing_the_corner_forces_agree():
     """Four cells a vertex row by row (`accelerate`), and cell by cell for one group (`contact_node_forces`)."""
     random = np.random.default_rng(3)
@@ -433,29 +270,6 @@ def test_both_ways_of_summing_the_corner_forces_agree():
     cells.call(contact_motion.contact_node_forces, dt=0.1, by_what_is_solid=False, pushed=NOTHING)
     np.testing.assert_allclose([cells.u[inside], cells.v[inside]], by_rows, rtol=1e-12, atol=1e-13)
     assert np.abs(by_rows - [cells.u0[inside], cells.v0[inside]]).min() > 1e-4
-
-
-def test_faces_of_the_contact_are_swept_by_aperture():
-    cells = halves()
-    cells.u[1], cells.u[0], cells.u0[1], cells.u0[0], cells.v[1], cells.v[0] = 2.0, 4.0, 2.0, 4.0, 10.0, 2.0
-    cells.even_r[3, 4] = 0.01
-    cells.aperture_r[...] = 0.5
-    cells.call(contact_volumes.contact_swept_volumes, dt=0.1)
-    assert cells.fr[3, 4:6] == pytest.approx([0.31, 0.3])
-    assert cells.own_r[:, 3, 5] == pytest.approx([0.4, 0.2])
-    assert cells.own_r[:, 3, 4] == pytest.approx([0.41, 0.21])
-    assert cells.own_z[:, 4, 4] == pytest.approx([0.1, 0.5])  # at rest at the beginning of the step
-    assert cells.fz[4, 4] == pytest.approx(0.5 * (0.1 + 0.5))
-
-
-def test_a_pure_cell_does_the_work_of_the_volume_that_it_loses():
-    cells = halves()
-    cells.fr[3, 4:6], cells.ph[...], cells.qr[...] = (0.1, -0.1), 7.0, 1.0
-    cells.call(contact_volumes.contact_work, dt=0.1)
-    assert cells.q[E, :, 3, 3:6].tolist() == [[0, 0, -(7 + 1) * 0.1], [pytest.approx(-(7 + 1) * 0.1 / 4), 0, 0]]
-    cells.u[0] = np.arange(10.0)  # the group's own rate of volume is in `deform`
-    cells.call(contact_volumes.contact_work, dt=0.2)
-    assert cells.q[E, 0, 3, 5] == pytest.approx(-0.8 - 8.0 * (0.1 - 0.5 * 0.2))
 
 
 def test_no_cell_gives_more_through_both_faces_than_it_has():

@@ -1,7 +1,6 @@
 """Interfaces: circles, bodies and spheres in prescribed flows."""
 
 from functools import partial
-from itertools import permutations
 
 import numpy as np
 import pytest
@@ -162,58 +161,11 @@ INSIDE, NO_CONTACT = np.array([0, 5, 0, 5]), np.zeros((5, 2), dtype=np.int64)
 ONE_ROW = np.array([2, 3])
 
 
-def given(dj: int, void: float, w_low: float = 0.1, w_high: float = 0.2, everywhere: bool = False) -> np.ndarray:
-    """Volumes of a body with a corner in a cell, and of the one around it, that leave through both faces of the cell.
-
-    The void is in the cell alone, or everywhere as a share of the body around.
-    """
-    edge = np.clip(2.5 - np.arange(5), 0.0, 1.0)
-    body = np.outer(edge, edge)
-    rest = 1.0 - body
-    if everywhere:
-        rest *= 1.0 - void / 0.75
-    else:
-        rest[2, 2] -= void
-    vof = np.array([body, rest])
-    mixed, face, flux = np.full((5, 5), 2, dtype=np.int64), np.zeros((5, 5)), np.zeros((2, 5, 5))
-    face[2, 2], face[2 + dj, 3 - dj] = -w_low, w_high
-    interfaces.interface_volumes.source(0, handle(
-        parts=ONE_ROW, dj=dj, di=1 - dj, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
-        interface_order=np.arange(2), group=ONE_GROUP[:2], gases=SOLIDS[:2], mixed_count=np.ones(5, dtype=np.int64),
-        mixed=mixed, face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=np.zeros((2, 2, 5, 5)), flux_volume=flux,
-        flux_place=np.zeros((2, 2, 5, 5)), strips=np.zeros((5, 3, 4, 2))))
-    return np.array([flux[:, 2, 2], flux[:, 2 + dj, 3 - dj]])
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_the_flux_of_a_cell_does_not_jump_as_its_void_opens(dj):
-    np.testing.assert_allclose(given(dj, 0.0).sum(axis=1), [-0.1, 0.2], rtol=1e-15)
-    np.testing.assert_allclose(given(dj, 0.3)[:, 0], [-0.05, 0.0], rtol=1e-15)
-    for void in (0.0, 1e-12):
-        changes_in_proportion(lambda share: given(dj, share), void, 5.0, sides=(1.0,))
-    assert largest_jump(lambda share: given(dj, share), 0.0, 0.5) < 1e-11
-    assert largest_jump(lambda share: given(dj, share), 0.5e-12, 1.5e-12) < 1e-14
-
-
-@pytest.mark.parametrize("dj", [0, 1])
-def test_the_flux_of_a_cell_does_not_jump_as_the_body_around_a_corner_becomes_thin(dj):
-    """With void everywhere the body around fills no cell any more: it comes first, by a box of its own."""
-    def amidst_void(void):
-        return given(dj, void, everywhere=True)
-
-    np.testing.assert_allclose(amidst_void(0.3)[:, 1], [-0.1 * 0.45, 0.2 * 0.45], rtol=1e-14)  # it continues next to the cell
-    for void in (0.0, 0.75 * 0.05):
-        changes_in_proportion(amidst_void, void, 30.0, sides=(1.0,))
-    assert largest_jump(amidst_void, 0.0, 0.5) < 1e-11
-
-
 # ------------------------------------------------------------------------------------------- thin bodies among others
 
 fill_strips = interfaces.fill_strips.source
 nest = interfaces.nest.source
-next_body = interfaces.next_body.py_func
 thinnest_body = interfaces.thinnest_body.py_func
-place_of = interfaces.place_of.py_func
 keeps_order = interfaces.keeps_order.py_func
 SHARE, ALONG, ACROSS, THIN = interfaces.SHARE, interfaces.ALONG, interfaces.ACROSS, interfaces.THIN
 
@@ -249,17 +201,6 @@ def strips_of(vof, centroid, order, along_z=False, widths=(0.4, 0.6, 1.0), gases
     return strips
 
 
-@pytest.mark.parametrize("along_z", [False, True])
-@pytest.mark.parametrize("order", list(permutations(range(3))))
-def test_a_plate_between_two_bodies_keeps_its_place_in_any_order(order, along_z):
-    """Each body has in each strip the part of it that is there, where it is; only the plate is thin."""
-    strips = strips_of(*stack(along_z=along_z), order, along_z)
-    for n, ends in enumerate([(-0.5, -0.1), (-0.1, 0.5), (-0.5, 0.5)]):
-        expected = np.transpose([in_strip(slab, *ends) for slab in SLABS])
-        np.testing.assert_allclose(strips[n, :THIN], expected, atol=1e-14)
-    np.testing.assert_array_equal(strips[0, THIN], [0.0, 1.0, 0.0])
-
-
 def test_a_plate_next_to_void_keeps_its_place_too():
     """A gas from the left, a plate 0.2 thick behind a gap of 0.1, and no other body."""
     slabs = ((-2.5, -0.2), (-0.1, 0.1))
@@ -270,13 +211,6 @@ def test_a_plate_next_to_void_keeps_its_place_too():
             np.testing.assert_allclose(strips[n, SHARE, 1], expected[SHARE, 1], atol=1e-14)
             np.testing.assert_allclose(strips[n, ALONG, 1], expected[ALONG, 1], atol=1e-14)
         assert strips[2, SHARE] == pytest.approx([0.3, 0.2], abs=1e-14)
-
-
-def test_a_strip_that_is_left_out_stays_as_it_is():
-    vof, centroid = stack()
-    strips = strips_of(vof, centroid, (0, 1, 2), widths=(0.0, 0.6, 0.0))
-    assert np.isnan(strips[[0, 2], :THIN]).all()
-    np.testing.assert_array_equal(strips[1, :THIN], strips_of(vof, centroid, (0, 1, 2))[1, :THIN])
 
 
 def test_no_two_bodies_are_thin_without_each_other():
@@ -295,22 +229,6 @@ def test_no_two_bodies_are_thin_without_each_other():
     vof, _ = stack(((-2.5, 0.0), (0.0, 2.5)))
     vof[0, 2, 1], vof[0, [1, 3], 1], vof[0, :, 0] = 0.975, 0.975, 0.5
     assert thinnest_body(2, 2, False, np.arange(2), vof, thin[:2]) == pytest.approx(0.5)
-
-
-def test_where_a_gas_is_no_body_is_thin_and_void_has_no_box():
-    vof, centroid = stack()
-    thin = np.full(3, np.nan)
-    assert thinnest_body(2, 2, 1.0, np.arange(3), vof, thin) == 0.0
-    strips = strips_of(vof, centroid, (1, 0, 2), gases=GAS_BETWEEN)  # the stated order holds
-    np.testing.assert_allclose(strips[2, SHARE], [0.3, 0.2, 0.5], atol=1e-14)
-    assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.0) == (1.0, 1.0)
-    assert keeps_order(2, 1, ONE_GROUP, GAS_BETWEEN, vof, 0.0) == (0.0, 0.0)
-    assert keeps_order(2, 2, ONE_GROUP, SOLIDS, vof, 0.0) == (0.0, 0.0)
-    vof, centroid = np.zeros((2, 5, 5)), np.zeros((2, 2, 5, 5))
-    vof[0], vof[:, 2, 2] = 1.0, (0.6, 0.1)  # a body that fills all cells around, a gas, and void
-    for gases, low in ((GAS_BETWEEN[:2], [0.06, 0.01]), (SOLIDS[:2], [0.1, 0.0])):
-        pieces = strips_of(vof, centroid, (0, 1), widths=(0.1, 0.1, 1.0), gases=gases)
-        np.testing.assert_allclose(pieces[:2, SHARE], [low, low], atol=1e-14)
 
 
 def test_bodies_keep_their_order_next_to_another_group():
@@ -337,15 +255,6 @@ def test_void_parts_the_groups_of_a_contact_and_the_order_ends():
     for void in (0.0, interfaces.PARTING):
         changes_in_proportion(order, void, 1.5 / interfaces.PARTING, sides=(1.0,))
     assert keeps_order(2, 2, ONE_GROUP, GAS_BETWEEN, vof, 0.5) == (1.0, 1.0)  # a gas keeps it
-
-
-def test_bodies_after_the_requested_one_are_left_out():
-    vof, centroid = stack()
-    all_of_them = strips_of(vof, centroid, (0, 1, 2))
-    for m in range(3):
-        pieces = strips_of(vof, centroid, (0, 1, 2), last=m)
-        np.testing.assert_array_equal(pieces[:, :THIN, m], all_of_them[:, :THIN, m])
-    assert not strips_of(vof, centroid, (0, 1, 2), gases=GAS_BETWEEN, last=0)[:, :THIN, 1:].any()
 
 
 @pytest.mark.parametrize("along_z", [False, True])
@@ -397,36 +306,6 @@ def test_nested_bodies_come_in_their_order_or_the_thin_ones_first():
     np.testing.assert_allclose(strips[0, SHARE], [0.3, 0.75 * 0.1], atol=1e-14)  # the plate follows the gas
 
 
-def test_the_next_body_has_what_it_and_those_before_have_without_theirs():
-    strip = np.zeros((4, 2))
-    before, box = (0.1, 0.1, 0.01, -0.01), (0.0, 0.0, 0.0)
-    below = next_body(1, 0.3, 0.0, box, (0.25, 0.05, -0.02), 0.5, 0.1, 0.4, 0.5, before, strip)
-    assert below == (0.25, 0.25, 0.05, -0.02)
-    assert strip[:THIN, 1] == pytest.approx([0.5 * 0.15, 0.5 * 0.04, 0.5 * -0.01])
-    assert not strip[:, 0].any()
-
-
-def test_a_thin_body_has_what_its_box_has():
-    strip, box = np.zeros((4, 2)), (0.05, 0.01, 0.02)
-    below = next_body(1, 0.3, 1.0, box, (0.25, 0.05, -0.02), 0.5, 0.1, 0.4, 1.0, (0.1, 0.1, 0.01, -0.01), strip)
-    assert below == pytest.approx((0.15, 0.25, 0.05, -0.02))
-    assert strip[:THIN, 1] == pytest.approx(box)
-
-
-def test_a_body_that_gets_less_than_its_interface_gives_lies_where_that_lies():
-    """No more than its fraction: it has 0.2 of the 0.3 that the interface gives it."""
-    strip = np.zeros((4, 1))
-    below = next_body(0, 0.2, 0.0, (0.0, 0.0, 0.0), (0.3, 0.06, -0.03), 0.2, 0.0, 0.4, 1.0, (0.0, 0.0, 0.0, 0.0), strip)
-    assert below[0] == 0.2
-    assert strip[:THIN, 0] == pytest.approx([0.2, 0.04, -0.02])
-
-
-def test_the_place_in_a_strip_is_the_moment_over_the_share():
-    strip = np.array([[0.2, 1e-15], [0.05, 1e-15], [-0.02, 1e-15], [0.0, 0.0]])
-    assert place_of(strip, 0) == pytest.approx((0.25, -0.1))
-    assert place_of(strip, 1) == (0.0, 0.0)
-
-
 @pytest.mark.parametrize("along_z", [False, True])
 def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     """A tenth goes to the left, and six tenths to the right: places in these, and centroids that were not known."""
@@ -448,18 +327,3 @@ def test_a_mixed_cell_says_where_its_bodies_lie_in_what_it_gives(along_z):
     np.testing.assert_allclose(place[0, :, 2 + dj, 2 + di], [0.0, (0.05 - 0.3) / 0.6, (0.35 - 0.3) / 0.6], atol=1e-14)
     np.testing.assert_allclose(place[1, :, 2 + dj, 2 + di], 0.0, atol=1e-14)
     np.testing.assert_allclose(centroid, exact, atol=1e-14)
-
-
-def test_the_less_a_cell_gives_the_less_its_interfaces_say_of_its_centroids():
-    """A cell that a body fills by half from the left, whose centroid was not known."""
-    vof, exact = stack(((-2.5, 0.0),))
-    mixed = np.full((5, 5), 2, dtype=np.int64)
-    for swept, known in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
-        centroid, face = np.zeros_like(exact), np.zeros((5, 5))
-        face[2, 3] = swept * interfaces.SWEPT
-        interfaces.interface_volumes.source(0, handle(
-            parts=ONE_ROW, dj=0, di=1, mesh_box=INSIDE, contact_columns=NO_CONTACT, dr=np.ones(5), dz=np.ones(5),
-            interface_order=np.arange(1), group=ONE_GROUP[:1], gases=SOLIDS[:1], mixed_count=np.ones(5, dtype=np.int64),
-            mixed=mixed, face=face, pre_sweep_volume=np.ones((5, 5)), vof=vof, centroid=centroid,
-            flux_volume=np.zeros((1, 5, 5)), flux_place=np.zeros((2, 1, 5, 5)), strips=np.zeros((5, 3, 4, 1))))
-        assert centroid[:, 0, 2, 2] == pytest.approx([known * -0.25, 0.0], abs=1e-15)

@@ -164,14 +164,6 @@ def test_a_signed_variable_is_carried_and_not_cut_off():
     assert np.all(s.ep == 0.0)
 
 
-def test_the_mirror_turns_the_sign_of_the_shear_alone():
-    e, _, _ = block()
-    e.state.q[RR:RZ + 1, 0][:, *e.grid.inside] = np.array([3.0, 5.0, 7.0])[:, None, None]
-    e.remap_bodies(0, 1, 0)
-    ghost = e.state.q[RR:RZ + 1, 0, e.grid.g + 1, e.grid.g - 1]
-    np.testing.assert_array_equal(ghost, [3.0, 5.0, -7.0])
-
-
 IMPACT = MOVES.replace('velocity = 100.0', 'velocity = 300.0') + """
 [[body]]
 name = "wall"

@@ -172,12 +172,6 @@ def test_the_digitised_paths(case):
     assert np.mean(away) < 0.05 * stress.max()
 
 
-def test_without_bulking_no_pressure_is_gained():
-    up, down = path("B", 500, beta=0.0)
-    assert not up[:, 3].any()
-    assert down[-1, 0] == pytest.approx(0.0, abs=1.0)
-
-
 def test_the_size_of_the_steps_does_not_matter():
     coarse, fine = (path("B", steps)[0][-1] for steps in (500, 8000))
     assert coarse == pytest.approx(fine, rel=0.02, abs=1e5)

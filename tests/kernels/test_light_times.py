@@ -90,12 +90,6 @@ def test_around_an_obstacle_of_first_order(inert, exact, largest):
     assert np.log2(means[0] / means[2]) / 2.0 > 0.95
 
 
-def test_unreachable_explosive_is_never_lit():
-    r, z, light, share = arrival([(*POINT, 0.0)], 20, lambda r, z: (z > 0.0) & (z < 1.0) & (r >= 0.0))
-    assert np.isinf(light[(z[:, 0] > 1.0)]).all()
-    assert np.isfinite(light[(z[:, 0] < 0.0)]).all()
-
-
 def test_corners_that_touch_let_nothing_through():
     """Two quarters of explosive that touch at one corner."""
     _, _, light, share = arrival([(*POINT, 0.0)], 20, lambda r, z: (r < 4.0) == (z > 0.0))

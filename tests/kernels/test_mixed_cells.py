@@ -12,7 +12,6 @@ from hydro2d.kernels import cut_cells, mixed, mixed_strength
 from hydro2d.kernels.cut_cells import BESIDE_GAS, FREE_SURFACE, INTERFACE, KIND, NORMAL_R, WHOLE
 from hydro2d.kernels.mixed_scratch import (
     ACROSS,
-    ALONG,
     FLOW,
     HEAT,
     HOURGLASS,
@@ -35,8 +34,8 @@ from hydro2d.kernels.mixed_scratch import (
     ZZ,
 )
 from hydro2d.kernels.mixed_strength import MATERIAL, MAX, SOLID, VOLUME, ZERO
-from hydro2d.materials.rows import CUTOFF_DENSITY, DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
-from hydro2d.mesh.fields import DMG, EP, RHO, SRR, SRZ, SZZ, E
+from hydro2d.materials.rows import DAMAGE_AT, EOS, EOS_AT, FACTOR, STRENGTH, STRENGTH_AT, TENSILE
+from hydro2d.mesh.fields import DMG, RHO, SRR, SRZ, E
 from strength import STRENGTH_MODELS
 from tests.kernels.cells import Cells
 
@@ -81,20 +80,6 @@ class Cell(Cells):
 # ------------------------------------------------------------------------------------------------ motion and shares
 
 
-def test_the_motion_of_a_cell():
-    """u = r at the beginning and 3 r at the end, a shear of v by r; then an hourglass in u, against 10 N of the filter."""
-    cell = Cell()
-    cell.u0[0, 2:4, 2:4], cell.u[0, 2:4, 2:4] = [[0, 1], [0, 1]], [[0, 3], [0, 3]]
-    cell.v0[0, 2:4, 2:4] = cell.v[0, 2:4, 2:4] = [[0, 2], [0, 2]]
-    cell.filter_r[0, *AT], cell.filter_z[0, *AT] = 10.0, 10.0
-    cell.run(mixed.cell_motion, g=0)
-    assert cell.motion[2, 0, [RR, TT, ZZ, RBZ, ZBR]].tolist() == [3, 0, 0, 0, 2]
-    assert cell.motion[2, 0, [MEAN_RR, MEAN_TT, MEAN_ZZ, MEAN_RZ, HOURGLASS]].tolist() == [2, 0, 0, 2, 0]
-    cell.u0[0, 2:4, 2:4], cell.u[0, 2:4, 2:4] = [[1, -1], [-1, 1]], [[0.5, -0.5], [-0.5, 0.5]]
-    cell.run(mixed.cell_motion, g=0)
-    assert cell.motion[2, 0, HOURGLASS] == 0.5 * 0.1 * 10.0 * (4.0 + 2.0)
-
-
 def test_shares_in_a_change_of_volume():
     """By f/K they are 0.005 and 0.00125, so that the softer body takes four fifths; if strained alike, they are by volume. A
     pressure of 300 Pa makes the softer body three times as stiff."""
@@ -108,18 +93,6 @@ def test_shares_in_a_change_of_volume():
     assert mean == 15.0
     inverse, _ = cell.run(mixed.soften, pressure=300.0, tipton=True)
     assert (cell.mix[2, SOFT] * inverse).tolist() == pytest.approx([4 / 7, 3 / 7])
-
-
-def test_the_heat_of_the_filter_goes_to_the_group_whose_motion_it_damps():
-    """In shares of the mass of the cell, 1 to 4; within a group, by mass."""
-    cell = Cell(group=(0, 1))
-    cell.motion[2, :, HOURGLASS] = 10.0, 0.0
-    cell.run(mixed.heat_of_filter)
-    assert cell.mix[2, HEAT].tolist() == pytest.approx([2.0, 0.0])
-    cell = Cell(group=(1, 1))
-    cell.motion[2, :, HOURGLASS] = 0.0, 10.0
-    cell.run(mixed.heat_of_filter)
-    assert cell.mix[2, HEAT].tolist() == pytest.approx([2.0, 8.0])
 
 
 def test_the_pressure_of_a_cell():
@@ -144,25 +117,10 @@ def test_motion_lost_to_ties_heats_the_body_next_to_the_gas():
     assert cell.mix[2, HEAT].tolist() == [0.0, 0.0]
 
 
-# ------------------------------------------------------------------------------------------------- after the step
-
-
 def filled(cell: Cell, **given) -> Cell:
     """0.9 m^3 of the cell remain, of which the bodies lose 0.08 and 0.02."""
     cell.run(mixed.fill_cell, **{"change": -0.1, "work": 1.5, "relaxation": 0.0, "tipton": True, **given})
     return cell
-
-
-def test_each_body_takes_the_work_of_its_own_pressure_and_the_rest_goes_by_mass():
-    """Strains of -0.16 and -0.04 at 10 + 8 and 20 + 8 Pa: 1.44 and 0.56 J; what is left of 1.5 J, by 1 and 4 kg."""
-    cell = Cell()
-    cell.mix[2, HEAT], cell.pm[:, *AT] = (0.01, 0.02), (10.0, 20.0)
-    filled(cell)
-    assert cell.vof[:, *AT] * 0.9 == pytest.approx([0.42, 0.48])
-    assert cell.q[RHO, :, *AT] == pytest.approx([1.0 / 0.42, 4.0 / 0.48])
-    heat = [1.44 - 0.2 * 0.5 + 0.01, 0.56 - 0.8 * 0.5 + 0.02]
-    assert cell.q[E, :, *AT] == pytest.approx([1 + heat[0], 1 + heat[1] / 4])
-    assert sum(heat) == pytest.approx(1.5 + 0.03)
 
 
 def test_pressures_relax_by_changes_of_volume_that_sum_to_zero():
@@ -175,26 +133,7 @@ def test_pressures_relax_by_changes_of_volume_that_sum_to_zero():
     assert cell.q[E, :, *AT] == pytest.approx([1 + 10.5 * 0.005 + 0.2 * left, 1 + (-18.0 * 0.005 + 0.8 * left) / 4])
 
 
-def test_no_body_is_pressed_below_half_of_its_volume():
-    cell = filled(Cell(), change=-0.5, relaxation=0.0)
-    assert cell.vof[:, *AT] * 0.5 == pytest.approx([0.25, 0.4])
-
-
-def test_a_cell_without_change_keeps_its_bits():
-    cell = Cell()
-    cell.vof[:, *AT], cell.pm[:, *AT] = (1 / 3, 2 / 3), 12.0
-    filled(cell, change=0.0, work=0.0)
-    assert cell.vof[:, *AT].tolist() == [1 / 3, 2 / 3]
-    assert cell.q[[RHO, E], :, *AT].tolist() == [[2, 8], [1, 1]]
-
-
-def test_a_sliver_of_thin_gas_takes_only_its_share_of_an_expansion():
-    """1e-3 of gas at 1 Pa beside 0.999 at 1e4 Pa: as stiff as the cell presses, it grows by as much as its neighbour allows."""
-    cell = Cell()
-    cell.vof[:, *AT], cell.pm[:, *AT], cell.km[:, *AT] = (1e-3, 0.999), (1.0, 1e4), (1.4, 1.4e4)
-    filled(cell, change=0.02, work=-197.0)
-    assert cell.vof[0, *AT] * 1.02 < 1.04e-3
-    assert cell.q[E, 0, *AT] == pytest.approx(1.0, abs=0.2)
+# ------------------------------------------------------------------------------------------------- after the step
 
 
 def test_the_whole_step_of_a_cell_of_two_gases():
@@ -298,22 +237,6 @@ def test_gas_has_no_part_in_the_yield_stress_of_a_cell():
     assert cell.run(cut_cells.firm_share) == 1.0
 
 
-def test_the_strain_across_a_surface_is_left_for_the_traction_to_find():
-    cell = Cell(strong=True)
-    cell.skin[[NORMAL_R, KIND], *AT] = 1.0, FREE_SURFACE
-    cell.moving(rr=3.0, zz=3.0)
-    cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME)
-    assert cell.mix[2, [TRIAL_RR, TRIAL_ZZ], 0] == pytest.approx([-1, 2])
-    assert cell.mix[2, ALONG, 0] == pytest.approx(-1)
-
-
-def test_failed_or_thin_material_has_no_yield_stress():
-    cell = Cell(strong=True)
-    cell.q[DMG, 0, *AT], cell.known["materials"][1, CUTOFF_DENSITY] = 2.0, 8.0
-    assert cell.run(mixed_strength.strain_deviators, strength_mode=VOLUME) == 0.0
-    assert cell.mix[2, YIELD].tolist() == [0.0, 0.0]
-
-
 def test_bodies_are_strained_across_by_what_their_traction_needs():
     """The strain across the surface from `traction_of_change` is added to the trial: 2 G (n n - 1/3) times the strain."""
     cell = Cell(strong=True)
@@ -334,14 +257,6 @@ def returned(own: bool, dominant: int = -1) -> Cell:
     cell.mix[2, TRIAL_RR], cell.mix[2, TRIAL_ZZ], cell.mix[2, MODULUS], cell.mix[2, YIELD] = 4.0, -2.0, 5.0, (3.0, 6.0)
     cell.run(mixed_strength.return_deviators, own=own, cell_yield=1.5, dominant=dominant)
     return cell
-
-
-def test_bodies_return_each_to_its_own_surface_or_to_that_of_the_cell():
-    cell = returned(own=True)
-    assert cell.q[[SRR, SZZ], :, *AT] == pytest.approx(np.array([[2, 4], [-1, -2]]))
-    assert cell.q[EP, :, *AT] == pytest.approx([3.0 / 15.0, 0.0])
-    assert cell.mix[2, HEAT].tolist() == [0, 0]
-    assert returned(own=False).q[[SRR, SZZ], :, *AT] == pytest.approx(np.array([[1, 1], [-0.5, -0.5]]))
 
 
 def test_the_plastic_heat_of_the_dominant_body_is_shared_by_fraction_over_yield_stress():

@@ -47,11 +47,6 @@ def test_the_outer_row_of_vertices_is_held(share, sign, along):
     assert np.all(np.delete(found, 4, axis=0) == 0.0)
 
 
-def test_no_vertex_is_held_where_all_cells_are_full():
-    assert np.all(held(layer(1.0)) == 0.0)
-    assert 0.0 < held(layer(0.995)).max() < 1.0
-
-
 @pytest.mark.parametrize("along", [RADIAL, AXIAL])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_what_sinks_is_held_momentum_is_kept_and_motion_becomes_heat(sign, along):
@@ -81,23 +76,6 @@ def test_a_body_takes_its_layer_along_as_far_as_its_tensile_strength_goes(limit,
     cells.call(outer_vertices.hold_vertices, tension=np.array([limit]), km=np.full(cells.vof.shape, 1e12))
     assert (cells.mass[0] * v[0]).sum() == pytest.approx(before, rel=1e-14)
     assert v[0][cells.held > 0.0] * sign == pytest.approx(left, rel=1e-12) if limit else np.all(cells.held == 0.0)
-
-
-@pytest.mark.parametrize("speed", [0.0, 3.0])
-def test_what_parts_or_flies_with_its_body_keeps_its_velocity(speed):
-    cells = layer(0.5)
-    cells.v[0] = cells.v0[0] = np.where(cells.held > 0.0, 1.0 + speed, 1.0) * (cells.mass[0] > 0.0)
-    before = cells.v.copy()
-    cells.known["constrained"] = np.array([*cells.known["constrained"][:2], *6 * [-1]])
-    cells.call(outer_vertices.hold_vertices)
-    np.testing.assert_array_equal(cells.v, before)
-
-
-def test_a_vertex_beside_an_open_edge_is_not_held():
-    cells = layer(0.5)
-    cells.call(outer_vertices.find_held, constrained=np.full(8, -1))
-    assert np.all(held(cells)[:, [0, 1, -2, -1]] == 0.0)
-    assert np.all(held(cells)[4, 2:-2] == 1.0)
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])

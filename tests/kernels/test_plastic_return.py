@@ -6,17 +6,13 @@ import pytest
 from hydro2d.kernels import plastic_return
 from hydro2d.materials.rows import DAMAGE_AT, FACTOR, GAS, RECORD, STRENGTH_AT, TENSILE
 from hydro2d.mesh.fields import BY_DAMAGE, BY_TENSION, DMG, EP, FAILED, INTERNAL, RHO
-from hydro2d.physics import plasticity
-from hydro2d.physics.stress import von_mises
 from strength import DAMAGE_MODELS as DAMAGES
 from strength import STRENGTH_MODELS
 from tests.kernels.cells import handle
 
 flow, return_to_surface = plastic_return.flow.source, plastic_return.return_to_surface.source
-from_centre = plasticity.from_centre.py_func
 
 HARDENS, PLAIN = STRENGTH_MODELS["kinematic-hardening"], STRENGTH_MODELS["elastic-plastic"]
-ROW = HARDENS.row({"shear_modulus": 26e9, "yield_stress": 3e8, "hardening_modulus": 5e9, "isotropic_share": 0.2})
 
 
 class Cell:
@@ -42,17 +38,7 @@ class Cell:
                 "dr": np.full(1, 2e-4), "dz": np.full(1, 5e-5)}
 
 
-STEEP = (-0.5e9, 1e9, 0.0)  # a tension of 1.5 GPa along z
 PLASTIC = PLAIN.row({"shear_modulus": 26e9, "yield_stress": 3e8})
-
-
-def test_plastic_strain_and_damage_grow_together():
-    cell = Cell(PLAIN, PLASTIC)
-    flow(0, 0, 0, 0.1, 3e8, handle(**cell.names()))
-    assert cell.q[EP, 0, 0, 0] == 0.1
-    assert cell.q[DMG, 0, 0, 0] == pytest.approx(0.2)
-    flow(0, 0, 0, 0.4, 3e8, handle(**cell.names()))
-    assert cell.q[DMG, 0, 0, 0] >= 1.0
 
 
 @pytest.mark.parametrize(("exponent", "faster"), [(0.0, 1.0), (0.5, 0.5), (1.0, 0.25)])
@@ -79,37 +65,11 @@ def test_a_cell_that_damage_breaks_is_noted_once(row):
     assert (cell.q[RHO], cell.q[DMG]) == (2700.0, FAILED)
 
 
-def test_a_body_returns_to_its_own_surface():
-    cell = Cell(PLAIN, PLASTIC, STEEP)
-    rr, zz, rz, dep, final = cell.back()
-    assert (rr, zz, rz) == pytest.approx((-1e8, 2e8, 0.0))
-    assert final == 3e8
-    assert dep == pytest.approx(1.2e9 / (3 * 26e9)) == cell.q[EP, 0, 0, 0]
-
-
-def test_or_to_the_flow_stress_of_its_cell():
-    cell = Cell(PLAIN, PLASTIC, STEEP)
-    rr, zz, rz, dep, final = cell.back(own=False, cell_yield=9e8)
-    assert (rr, zz, rz) == pytest.approx((-3e8, 6e8, 0.0))
-    assert final == 9e8
-    assert dep == pytest.approx(0.6e9 / (3 * 26e9)) == cell.q[EP, 0, 0, 0]
-
-
 @pytest.mark.parametrize(("own", "cell_yield"), [(True, 0.0), (False, 3e8)])
 def test_within_the_surface_nothing_flows(own, cell_yield):
     cell = Cell(PLAIN, PLASTIC, (-1e7, 2e7, 3e7))
     assert cell.back(own, cell_yield)[:4] == (-1e7, 2e7, 3e7, 0.0)
     assert cell.q[EP, 0, 0, 0] == cell.q[DMG, 0, 0, 0] == 0.0
-
-
-def test_a_surface_that_hardens_moves_along():
-    """The modulus of the centre adds to the stiffness; the deviator ends on the surface around the new centre."""
-    cell = Cell(HARDENS, ROW, STEEP)
-    rr, zz, rz, dep, final = cell.back()
-    assert dep == pytest.approx(1.2e9 / (3 * 26e9 + 5e9))
-    around = from_centre(rr, zz, rz, HARDENS.ID, cell.q[INTERNAL:, 0, 0, 0].copy())
-    assert von_mises(*around) == pytest.approx(final)
-    assert final == pytest.approx(3e8 + 0.2 * 5e9 * dep)
 
 
 def test_a_stress_that_is_no_number_stays_one():

@@ -9,7 +9,6 @@ from hydro2d.kernels import deformation, mixed, thermodynamics
 from hydro2d.kernels.cut_cells import KIND, WHOLE
 from hydro2d.materials.rows import EOS, EOS_AT, TENSILE
 from hydro2d.mesh.fields import RHO, E
-from hydro2d.physics.waves import STABLE
 from tests.kernels.cells import Cells
 
 GAMMA = 1.5
@@ -51,44 +50,12 @@ def test_a_gas_at_rest():
     assert not cells.p[2].any()
 
 
-def test_viscosity_along_the_one_direction_that_is_pressed_together():
-    """du = -2 m/s next to cells without a difference: q = rho (2 du^2 + c |du|/2). Its slope 2 b = 4 du + c/2 sets the step."""
-    cells = gas()
-    cells.v[0, 4:] = -2.0
-    closed(cells)
-    q = 2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0)
-    assert (cells.qr[AT], cells.qz[AT]) == (0.0, pytest.approx(q))
-    b = 0.5 * (4.0 * 2.0 + 0.5 * np.sqrt(7.5))
-    assert cells.row_step[3] == pytest.approx(STABLE / (b + np.sqrt(7.5 + b * b)))
-    assert cells.row_step[3] < min(0.5 / np.sqrt(7.5 + q), 0.2 / 2.0)
-
-
 def test_a_cell_has_the_linear_viscosity_that_its_last_step_carries():
     """Sound crosses 0.7 of the cell of 1 m in it: (0.75 - 0.49)/1.4 instead of 0.5."""
     cells = gas()
     cells.v[0, 4:] = -2.0
     closed(cells, dt=0.7 / np.sqrt(7.5))
     assert cells.qz[AT] == pytest.approx(2.0 * (2.0 * 4.0 + 0.26 / 1.4 * np.sqrt(7.5) * 2.0))
-
-
-def test_another_bound_of_the_step_is_kept():
-    """For example that of a contact, which is in row_step when the cells are processed."""
-    cells = closed(gas())
-    cells.row_step[3] = 0.01
-    limit(cells)
-    assert cells.row_step[3] == 0.01
-
-
-@pytest.mark.parametrize("along", ["u", "v"])
-def test_viscosity_acts_along_the_strongest_compression_alone(along):
-    """And the hoop direction gets none of it."""
-    cells = gas()
-    velocity = getattr(cells, along)[0]
-    velocity[(slice(None), slice(4, None)) if along == "u" else slice(4, None)] = -2.0
-    closed(cells)
-    q = pytest.approx(2.0 * (2.0 * 4.0 + 0.5 * np.sqrt(7.5) * 2.0))
-    assert (cells.qr[AT], cells.qz[AT]) == ((q, 0.0) if along == "u" else (0.0, q))
-    assert (cells.qt[AT], cells.qrz[AT]) == (0.0, 0.0)
 
 
 def test_an_oblique_shock_meets_the_same_viscosity_as_one_along_the_mesh():
@@ -101,13 +68,6 @@ def test_an_oblique_shock_meets_the_same_viscosity_as_one_along_the_mesh():
     q = 0.5 * 2.0 * (2.0 * jump * jump + 0.5 * np.sqrt(7.5) * jump)
     assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == pytest.approx((q / 2, q / 2, q / 2))
     assert cells.qt[AT] == 0.0
-
-
-def test_shear_alone_has_no_viscosity():
-    cells = gas()
-    cells.u[0, 4:] = 3.0
-    closed(cells)
-    assert (cells.qr[AT], cells.qz[AT], cells.qrz[AT]) == (0.0, 0.0, 0.0)
 
 
 def test_cells_that_are_not_finite_are_counted():

@@ -26,14 +26,6 @@ def test_a_body_lies_from_its_first_column_to_its_last(anew):
     assert cells.occupied[0, 4].tolist() == EMPTY
 
 
-def test_a_body_is_looked_for_no_farther_than_a_column_from_where_it_was():
-    cells = Cells()
-    cells.body_ranges[1, 0, 3] = 2, 3
-    cells.vof[0, 3, [2, 5]] = 1.0
-    cells.call(column_ranges.find_body_ranges, anew=False)
-    assert cells.body_ranges[0, 0, 3].tolist() == [2, 3]
-
-
 def test_cells_are_active_within_two_of_a_body():
     cells = Cells(nr=12, nz=12)
     cells.occupied[...] = EMPTY
@@ -100,17 +92,6 @@ def test_ghost_columns_are_images_at_a_mirror_and_copies_at_an_open_edge():
     assert (32 * cells.q[SRZ, 0, 3]).tolist() == [-6, -5, 5, 6, 7, 8, 8, 8]
 
 
-def test_ghost_rows_likewise_but_at_the_edge_that_leads():
-    cells = ghosts()
-    cells.call(boundaries.ghost_rows, mirror_z_min=False, mirror_z_max=True, leading=-1, dj=1)
-    assert (32 * cells.vof[0, :, 4]).tolist() == [3, 3, 3, 7, 11, 15, 15, 11]
-    assert (32 * cells.q[SRZ, 0, :, 4]).tolist() == [3, 3, 3, 7, 11, 15, -15, -11]
-    cells = ghosts()
-    cells.call(boundaries.ghost_rows, mirror_z_min=True, mirror_z_max=True, leading=1, dj=0)
-    assert (32 * cells.vof[0, :, 4]).tolist() == [7, 3, 3, 7, 11, 15, 0, 0]
-    assert not cells.q[:, 0, :2].any()
-
-
 def test_ghost_vertices_are_images_at_a_mirror_and_copies_at_an_open_edge():
     cells = Cells()
     cells.u[0] = cells.v[0] = 10.0 * np.arange(9.0)[:, None] + np.arange(9.0)
@@ -150,21 +131,6 @@ def test_a_held_edge_takes_the_velocity_along_it_but_not_that_across_another_edg
     assert not cells.u[0, 2].any()
     assert cells.u[0, 3].all()
     assert cells.walls[2, 1, 2] == 9 * 0.5 * 3.0 * (1 * 4 + 2 * 6)  # along r, and along z of what has 2 m/s
-
-
-def test_an_edge_that_only_pushes_lets_go_what_leaves_it():
-    """Inward is up at the low edges and down at the high ones."""
-    cells = Cells()
-    cells.u[0, 3, [2, 6]] = cells.v[0, [2, 6], 3] = 4.0
-    cells.u[0, 4, [2, 6]] = cells.v[0, [2, 6], 4] = -4.0
-    cells.mass[...] = 3.0
-    cells.v0[...] = 2.0
-    cells.call(boundaries.constrain, pushing=np.array([2, 6, 2, 6]), edge_velocity=np.zeros(8))
-    assert cells.u[0, 3, [2, 6]].tolist() == cells.v[0, [2, 6], 3].tolist() == [4.0, 0.0]
-    assert cells.u[0, 4, [2, 6]].tolist() == cells.v[0, [2, 6], 4].tolist() == [0.0, -4.0]
-    assert cells.walls[2, :, 2].tolist() == [3.0 * -4, 0.5 * 3.0 * -4 * 2]
-    assert cells.walls[3, :, 6].tolist() == [3.0 * 4, 0.5 * 3.0 * 4 * 2]
-    assert not cells.walls[:2, 0].any()  # for momentum along z
 
 
 def test_no_mass_flows_beyond_the_edges_but_on_through_an_open_one():
@@ -304,16 +270,6 @@ def test_what_a_sweep_discards_is_summed(both):
     assert cells.momentum_sum.tolist() == [36.0, 117.0, 198.0, 279.0, 360.0]
     assert cells.removed_sum.tolist() == [36.0, 117.0, 198.0, 279.0, 360.0, 441.0]
     assert cells.deposited_sum.tolist() == [36.0 if both else 0.0]
-
-
-def test_the_first_cell_turned_inside_out():
-    cells = Cells(bodies=2)
-    cells.turned[...] = -1
-    cells.call(audit_sums.find_turned)
-    assert cells.first_turned[0] == -1
-    cells.turned[1], cells.turned[4], cells.turned[5] = (3, 0), (5, 1), (2, 0)  # the first is not in the active box
-    cells.call(audit_sums.find_turned)
-    assert cells.first_turned.tolist() == [4, 5, 1]
 
 
 # ------------------------------------------------------------------------------------------------ a mesh that travels

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.kernels import momentum, remap
+from hydro2d.kernels import momentum
 from hydro2d.solver.simulation import Simulation
 from tests.decks import body, box, mesh, stop, table, walls
-from tests.kernels.cells import handle
-from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces, tidy
+from tests.kernels.pieces import constrain, ghost_vertices, sweep_faces
 from tests.kernels.test_interfaces import by_stream_function, carry, in_a_box, vortex
-from tests.physics.continuity import changes_in_proportion, largest_jump
 
 GEOMETRIES = ("cylindrical", "planar")
 
@@ -188,78 +186,3 @@ def test_passive_velocity_by_kinetic_energy(profile, gained):
     first, after, _ = carried("ke", profile, 0.5, 400)
     assert np.sum(after**2) == pytest.approx(np.sum(first**2), rel=1e-12)
     assert np.sum(after) / np.sum(first) == pytest.approx(gained, abs=5e-3)
-
-
-def test_a_cell_with_a_little_of_another_body_is_not_full():
-    """Scaling a cell that is a little too full takes the small body below the cutoff: if the rest were then called full, the
-    cell would count as pure and as mixed, and be deformed twice."""
-    e = engine(WITH_VOID)
-    s = e.state
-    j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    limit = e.method.numerics.cutoff
-    s.vof[:, j, i], s.rho[1, j, i] = (1.0005, 2.0003 * limit), 2770.0
-    mass = s.vof[:, j, i] * s.rho[:, j, i]
-    tidy(e)
-    assert s.vof[1, j, i] == pytest.approx(2.0 * limit, rel=1e-3)
-    assert 1.0 - 3.0 * limit < s.vof[0, j, i] < 1.0
-    assert s.vof[:, j, i] * s.rho[:, j, i] == pytest.approx(mass, rel=1e-12)
-
-
-@pytest.mark.parametrize("shares", [1.0, 2.0])
-def test_a_small_share_goes_without_a_jump(shares):
-    """At the cutoff none of it remains, at twice that all of it; masses and the amount removed add up."""
-    kept_share = remap.kept_share.py_func
-    changes_in_proportion(lambda x: kept_share(x, 0.005), 0.005 * shares, 3.0)
-    assert kept_share(0.005, 0.005) == kept_share(-1.0, 0.005) == kept_share(-1.0, 0.0) == 0.0
-    assert kept_share(0.01, 0.005) == 0.01
-    e = engine(WITH_VOID)
-    s = e.state
-    j, i = np.argwhere(s.vof[0] == 1.0)[0]
-    small = 0.75 * shares * 2.0 * e.method.numerics.cutoff
-    s.vof[:, j, i], s.rho[1, j, i] = (1.0 - small, small), 2770.0
-    tidy(e)
-    left = s.vof[1, j, i]
-    assert left == pytest.approx(kept_share(small, e.method.numerics.cutoff), rel=1e-7, abs=0.0)
-    assert s.removed[5, j] == pytest.approx((small - left) * 2770.0 * e.grid.volume[j, i], rel=1e-7, abs=0.0)
-
-
-def carried_along(share: float, swept: float = 0.2, steep: float = 1.0) -> np.ndarray:
-    """Mass, energy and a stress that flow through the faces of a row in which a body fills one cell only in part."""
-    columns = 12
-    vof, q = np.ones((1, 5, columns)), np.zeros((5, 1, 5, columns))
-    vof[0, 2, 6] = share
-    q[:] = (3.0 + steep * np.sin(np.arange(columns)) + 0.1 * np.arange(5)[:, None])[:, None, None, :]
-    rules = np.zeros((1, 5, 4))
-    rules[0, :3, remap.PER_MASS] = 1.0
-    body_ranges = np.zeros((3, 1, 5, 2), dtype=np.int64)
-    body_ranges[..., :] = 2, columns - 2
-    flux = np.zeros((5, 1, 1, columns))
-    carried = np.array([[4, 1, 2, 3, 4]])
-    remap.flux_row.source(0, 2, 0, 0, 0, handle(i0=2, i1=columns - 2, carried=carried, rules=rules, body_ranges=body_ranges,
-                           pre_sweep_volume=np.ones((5, columns)), flux_volume=np.full((1, 5, columns), swept), steepness=2.0,
-                           vof=vof, q=q, scratch=np.zeros((4, 1, columns)), flux=flux))
-    return flux[:, 0, 0]
-
-
-@pytest.mark.parametrize("swept", [0.2, -0.2])
-@pytest.mark.parametrize("share", [1.0, remap.FILLED])
-def test_the_second_order_goes_by_degrees_where_a_cell_is_not_full(swept, share):
-    changes_in_proportion(lambda filled: carried_along(filled, swept), share, 20.0, sides=(-1.0,))
-    assert largest_jump(lambda filled: carried_along(filled, swept), 0.5, 1.0) < 1e-11
-
-
-def test_second_order_where_the_body_fills_the_cells_around_and_first_order_next_to_others():
-    whole, part = carried_along(1.0)[0], carried_along(0.5)[0]
-    first = 0.2 * (3.0 + np.sin(np.arange(12)))
-    assert np.abs(whole[3:10] - first[2:9]).max() > 1e-3
-    np.testing.assert_array_equal(part[5:9], carried_along(0.89)[0][5:9])
-    np.testing.assert_allclose(part[6:9], first[5:8], rtol=1e-15)  # out of cells 5, 6 and 7, next to or in the one
-
-
-@pytest.mark.parametrize("share", [0.93, 0.97, 1.0])
-def test_a_body_that_leaves_a_cell_takes_along_what_is_there_and_no_more(share):
-    leaves = carried_along(share, swept=share)
-    density, energy, stress = (3.0 + np.sin(6.0) + 0.1 * k for k in (0, 1, 4))
-    assert leaves[0, 7] == pytest.approx(share * density, rel=1e-14)
-    assert leaves[1, 7] == pytest.approx(share * density * energy, rel=1e-14)
-    assert leaves[4, 7] == pytest.approx(share * stress, rel=1e-14)

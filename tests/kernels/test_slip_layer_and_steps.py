@@ -66,19 +66,6 @@ def test_the_viscosity_of_the_slip_layer_transmits_no_shear():
 # --------------------------------------------------------------------------------------------------------- the step
 
 
-def test_the_row_of_the_least_step_and_of_what_is_not_finite():
-    cells = Cells()
-    cells.row_step[...] = 1.0
-    cells.row_step[[4, 5]] = 0.5
-    cells.call(thermodynamics.least_step)
-    assert cells.least_row[0] in (4, 5)
-    assert cells.least_row[1:].tolist() == [-1, -1]
-    cells.bad[3, 0], cells.bad[[3, 2], 3] = 1, 4
-    cells.row_step[5] = 0.4
-    cells.call(thermodynamics.least_step)
-    assert cells.least_row.tolist() == [5, 3, 2]
-
-
 @pytest.mark.parametrize(("u", "v", "cause"), [(1.0, 0.0, "sound"), (60.0, 0.0, "radial velocity"),
                                                (0.0, -60.0, "axial velocity")])
 def test_causes_of_the_step(u, v, cause):

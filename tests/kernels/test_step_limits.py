@@ -53,22 +53,8 @@ def row(first: float, last: float) -> list[float]:
 # ---------------------------------------------------------------------------------------------------------- sound
 
 
-def test_sound_may_cross_half_of_the_smaller_side():
-    """0.5 * 1 mm at 5 km/s."""
-    assert limits()["sound"] == pytest.approx(1e-7)
-
-
 def test_the_height_counts_where_it_is_the_smaller_side():
     assert limits(h=0.25e-3)["sound"] == pytest.approx(0.25e-7)
-
-
-def test_viscosity_adds_twice_its_pressure_over_density_to_the_square_of_the_speed():
-    """q = 3/2 rho c^2 makes the wave twice as fast."""
-    assert limits(q=1.5 * 8000.0 * 5000.0**2)["sound"] == pytest.approx(0.5e-7)
-
-
-def test_courant_and_the_wave_bear_on_the_sound_limit_alone():
-    assert changed_by(courant=0.25) == changed_by(cl=6000.0) == changed_by(q=1e9) == {"sound"}
 
 
 # ------------------------------------------------------------------------------------------------------- velocity
@@ -83,15 +69,6 @@ def test_the_fastest_vertex_may_cross_two_fifths_of_the_width(speed, name, end):
     assert changed_by(**changed) - {"volume change"} == {"radial velocity"}
 
 
-@pytest.mark.parametrize("speed", [800.0, -800.0])
-@pytest.mark.parametrize("name", ["vb", "vt"])
-@pytest.mark.parametrize("end", [0, 1])
-def test_the_fastest_vertex_may_cross_two_fifths_of_the_height(speed, name, end):
-    changed = {name: row(*((speed, 1.0) if end == 0 else (1.0, speed)))}
-    assert limits(**changed)["axial velocity"] == pytest.approx(0.4 * 2e-3 / 800.0)
-    assert changed_by(**changed) - {"volume change"} == {"axial velocity"}
-
-
 @pytest.mark.parametrize(("name", "end"), [("vb", 0), ("vb", 1), ("vt", 0), ("vt", 1)])
 def test_along_the_axis_only_the_motion_through_the_mesh_counts(name, end):
     """Three vertices go with the mesh, one is 200 m/s slower."""
@@ -99,15 +76,3 @@ def test_along_the_axis_only_the_motion_through_the_mesh_counts(name, end):
     moving[name] = row(*((800.0, 1000.0) if end == 0 else (1000.0, 800.0)))
     assert limits(mesh_speed=1000.0, **moving)["axial velocity"] == pytest.approx(0.4 * 2e-3 / 200.0)
     assert limits(mesh_speed=1000.0, **moving)["radial velocity"] == limits()["radial velocity"]
-
-
-def test_a_cell_at_rest_in_the_mesh_is_bound_by_sound_alone():
-    still = {name: row(0.0, 0.0) for name in ("ub", "ut", "vb", "vt")}
-    with np.errstate(divide="ignore"):
-        bounds = limits(**still)
-    assert min(bounds, key=bounds.get) == "sound"
-    assert min(bound for cause, bound in bounds.items() if cause != "sound") >= 1e300
-
-
-def test_the_advective_share_bears_on_both_velocities():
-    assert changed_by(advective_courant=0.2) == {"radial velocity", "axial velocity"}

@@ -7,9 +7,7 @@ from hydro2d.kernels.contact.contact_geometry import HARD_R, HARD_Z
 from hydro2d.kernels.contact.surface_volumes import even_out, heat_evened_cells
 from hydro2d.kernels.cut_cells import FREE_SURFACE, INTERFACE, KIND, WHOLE
 from hydro2d.mesh.fields import RHO, E
-from hydro2d.physics.contact_faces import GAP
 from tests.kernels.cells import Cells
-from tests.physics.continuity import changes_in_proportion
 
 #: cells of the mesh along either side, the first of them after the ghosts, and the rows and columns of all
 N, FIRST = 6, 2
@@ -110,24 +108,6 @@ def test_what_is_linear_along_the_surface_or_bends_stays(pressure):
     assert heat == pytest.approx(0.0, abs=1e-13)
 
 
-def test_of_a_pattern_on_a_slope_the_pattern_evens_out():
-    """The pairs next to the ends stay: there a cell does not know what alternates."""
-    slope, pattern = 0.01 * np.arange(N), 0.2 * (-1.0) ** np.arange(N)
-    z, volume = along_z(slope + pattern).moved()[1], 2.0 + 3.0 + np.arange(N)
-    np.testing.assert_allclose(z[2:5, 3], 0.05 * volume[1:4] / 5.0 * np.array([-0.4, 0.4, -0.4]), atol=0.05 * 8 / 5 * 0.011)
-    assert (z[[1, 5], 3] == 0.0).all()
-
-
-def test_nothing_evens_out_off_the_surface():
-    kind = np.full((N, N), INTERFACE)
-    kind[:, 3] = FREE_SURFACE
-    r, z, _, heat = Surface(CHECKERS, kind).moved()
-    assert (r[:, 3:5] == 0.0).all()
-    assert (z[:, 3] == 0.0).all()
-    assert (heat[:, :, 3] == 0.0).all()
-    assert (r[:, [1, 2, 5]] != 0.0).all()
-
-
 # --------------------------------------------------------------------------------------------------- equation 9: closing
 
 
@@ -147,41 +127,6 @@ def between(kind=WHOLE, void=0.1, soft=(-9.0, -9.0, -9.0), hard=(-9.0, -9.0, -9.
     return cells
 
 
-def test_full_soft_cells_close_void_between_the_groups_hard_ones_do_not():
-    """By p/(rho c) through a face across the surface."""
-    r, z, change, _ = between().moved()
-    assert r[2, 3] == pytest.approx(9.0 * CLOSED)
-    assert r[2, 4] == 0.0
-    assert (z == 0.0).all()
-    assert change[2, 2] == -change[2, 3] == pytest.approx(9.0 * CLOSED)
-    assert np.count_nonzero(r) == 1
-
-
-def test_through_a_face_aslant_they_close_its_part_across_the_surface():
-    r, z, *_ = between(normal=(1.0, 1.0)).moved()
-    part = 9.0 * CLOSED / np.sqrt(2.0)
-    assert (r[2, 3], z[2, 3], z[3, 3]) == pytest.approx((part, part, -part))
-
-
-def test_they_close_with_their_least_principal_pressure():
-    """A bar under axial load presses on nothing beside it, whatever its pressure."""
-    assert between(soft=(-9.0, -2.0, -6.0)).moved()[0][2, 3] == pytest.approx(2.0 * CLOSED)
-    assert between(soft=(-9.0, -9.0, -3.0)).moved()[0][2, 3] == pytest.approx(3.0 * CLOSED)
-    for soft in ((0.0, -9.0, -3.0), (-9.0, -9.0, 1.0)):
-        assert (between(soft=soft).moved()[0] == 0.0).all()
-
-
-def test_void_on_which_one_group_does_not_press_stays():
-    assert between(hard=(-4.0, -9.0, -9.0)).moved()[0][2, 3] == pytest.approx(4.0 * CLOSED)
-    for hard in ((0.0, 0.0, 0.0), (3.0, -9.0, -9.0)):
-        assert (between(hard=hard).moved()[0] == 0.0).all()
-
-
-def test_they_close_with_what_exceeds_the_pressure_in_the_void():
-    for pressure in (2.0, 9.0, 12.0):
-        assert between(pressure=pressure).moved()[0][2, 3] == pytest.approx(max(9.0 - pressure, 0.0) * CLOSED)
-
-
 def around() -> np.ndarray:
     """Pressure of 3 Pa everywhere but in cell (2, 3)."""
     pressure = np.full((N, N), 3.0)
@@ -193,18 +138,6 @@ def around() -> np.ndarray:
 AROUND = ((0, (2, 3), 1.0), (0, (2, 4), -1.0), (1, (2, 3), 1.0), (1, (3, 3), -1.0))
 
 
-def test_cells_of_the_surface_close_void_between_the_groups():
-    """By p/(rho c) through each whole face, and with heat as for what evens out."""
-    cells = between(INTERFACE, pressure=around())
-    found = cells.moved()
-    for way, at, sign in AROUND:
-        assert found[way][at] == pytest.approx(sign * 3.0 * CLOSED), at
-    assert np.count_nonzero(found[0]) + np.count_nonzero(found[1]) == 4
-    change, heat = found[2:]
-    assert heat.sum() == pytest.approx(np.sum(change * around()), rel=1e-12)
-    assert heat.sum() == pytest.approx(4.0 * 3.0 * CLOSED * 3.0)
-
-
 @pytest.mark.parametrize("slip", [0.0, 0.1, 0.5])
 def test_cells_of_the_surface_close_void_no_faster_than_the_groups_slip(slip):
     """0.6 m/s otherwise; a full soft cell does not ask for the slip."""
@@ -214,26 +147,7 @@ def test_cells_of_the_surface_close_void_no_faster_than_the_groups_slip(slip):
     assert between(slip=slip).moved()[0][2, 3] == pytest.approx(9.0 * CLOSED)
 
 
-def test_beside_void_alone_and_under_tension_nothing_closes():
-    cells = between()
-    cells.solid[MESH, MESH] = 0.9
-    assert (cells.moved()[0] == 0.0).all()
-    assert (between(soft=(9.0, 9.0, 9.0)).moved()[0] == 0.0).all()
-    assert (between(INTERFACE, pressure=-around()).moved()[0] == 0.0).all()
-
-
 def test_void_in_a_free_surface_is_no_void_between_the_groups():
     cells = between()
     cells.skin[KIND, FIRST + 2, FIRST + 3] = FREE_SURFACE
     assert (cells.moved()[0] == 0.0).all()
-
-
-@pytest.mark.parametrize("kind", [WHOLE, INTERFACE])
-def test_closing_comes_in_with_the_void(kind):
-    def closed(void):
-        return between(kind, void, pressure=around()).moved()[0][2, 3]
-
-    for void in (0.0, 0.5 * GAP, GAP):
-        changes_in_proportion(closed, void, 2.0 / GAP, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
-    assert kind == INTERFACE or closed(0.5 * GAP) == pytest.approx(0.5 * closed(GAP))
-    assert closed(GAP) == pytest.approx(closed(0.5), rel=1e-12)

@@ -8,29 +8,8 @@ from hydro2d.kernels.momentum import BOTH, KE, MOMENTUM
 from hydro2d.mesh.fields import DMG, FAILED, RHO, SRR, E
 from tests.kernels.cells import Cells
 
-NO_GAS = np.zeros(1, dtype=bool)
 #: (dj, di), the cell that a volume comes from, the one that it goes to, and the array of the swept volumes
 WAYS = [(0, 1, (3, 3), (3, 4), "fr"), (1, 0, (3, 3), (4, 3), "fz")]
-
-
-@pytest.mark.parametrize(("dj", "di", "source", "target", "face"), WAYS, ids=["r", "z"])
-def test_a_pure_cell_gives_what_its_face_sweeps(dj, di, source, target, face):
-    cells = Cells()
-    cells.vof[0, *source] = 1.0
-    getattr(cells, face)[target] = 0.25
-    whole_mesh = np.array([2, 6, 2, 6])
-    swept = {"dj": dj, "di": di, "face": getattr(cells, face)}
-    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=False)
-    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
-    assert cells.pre_sweep_volume[source] == 1.25
-    assert cells.pre_sweep_volume[target] == 0.75
-    assert cells.flux_volume[0, *target] == 0.25
-    assert np.count_nonzero(cells.flux_volume) == 1
-    getattr(cells, face)[target] = -0.25
-    cells.call(interfaces.sweep_volumes, dj=dj, di=di, second=True)
-    cells.call(interfaces.donor_volumes, void_only=whole_mesh, **swept)
-    assert cells.pre_sweep_volume[source] == 0.75
-    assert not cells.flux_volume.any()
 
 
 @pytest.mark.parametrize("first", [True, False])
@@ -54,23 +33,6 @@ def test_nothing_but_void_flows_in_at_an_edge():
     assert cells.flux_volume[0, 3, [2, 6]].tolist() == [0.0, 0.1]
 
 
-@pytest.mark.parametrize(("dj", "di", "source", "target", "face"), WAYS, ids=["r", "z"])
-def test_a_mixed_cell_gives_the_material_at_its_face(dj, di, source, target, face):
-    """A cell half full, on the side away from the face: the body has one of the six tenths at the face."""
-    cells = Cells()
-    along = np.arange(8) - 3
-    cells.vof[0] = np.clip(0.5 - along, 0.0, 1.0)[:, None] if dj else np.clip(0.5 - along, 0.0, 1.0)[None, :]
-    cells.mixed_count[3], cells.mixed[3, 0] = 1, 3
-    getattr(cells, face)[target] = 0.6
-    cells.call(interfaces.interface_volumes, dj=dj, di=di, interface_order=np.array([0]), gases=NO_GAS,
-               face=getattr(cells, face))
-    assert cells.flux_volume[0, *target] == pytest.approx(0.1)
-    getattr(cells, face)[target], getattr(cells, face)[source] = 0.0, -0.3
-    cells.call(interfaces.interface_volumes, dj=dj, di=di, interface_order=np.array([0]), gases=NO_GAS,
-               face=getattr(cells, face))
-    assert cells.flux_volume[0, *source] == pytest.approx(-0.3)
-
-
 def carried(dj, di, source, target, face) -> tuple[Cells, dict]:
     """A cell of 1.25 m^3, full, of which a quarter of a cubic metre flows on; the next one has 0.75 m^3 of void."""
     cells = Cells()
@@ -89,21 +51,6 @@ def arrived(cells: Cells, source, target) -> None:
     assert cells.cell_mass[0, *source] == 2.0
     assert cells.cell_mass[0, *target] == 0.5
     assert (cells.mixed_count[target[0]], cells.mixed[target[0], 0]) == (1, target[1])
-
-
-def test_a_body_is_carried_along_r():
-    way = WAYS[0]
-    cells, given = carried(*way)
-    cells.call(remap.sweep_r, **given)
-    arrived(cells, *way[2:4])
-    assert cells.mixed_count.sum() == 1
-
-
-def test_a_body_is_carried_along_z():
-    way = WAYS[1]
-    cells, given = carried(*way)
-    cells.call(remap.sweep_z, **given)
-    arrived(cells, *way[2:4])
 
 
 def test_two_parts_share_the_fluxes_between_them():
@@ -158,24 +105,6 @@ def test_failed_material_stays_failed_and_bears_no_deviator():
     assert cells.q[[DMG, SRR], 0, 3, 4].tolist() == cells.q[[DMG, SRR], 0, 3, 3].tolist() == [FAILED, 0.0]
 
 
-def test_a_mass_too_small_to_divide_by_has_no_energy():
-    """A worn rod left 1e-305 of a cell: its energy per mass was infinite, and so was the energy tidied away."""
-    cells, given = carried(*WAYS[0])
-    cells.vof[...] *= 1e-310
-    cells.flux_volume[...] *= 1e-310
-    cells.call(remap.sweep_r, **given)
-    assert cells.vof[0, 3, 3:5].all()
-    assert np.isfinite(cells.q).all()
-
-
-def test_the_mass_of_a_group_is_that_of_its_bodies():
-    cells = Cells(bodies=3, group=[0, 1, 0])
-    cells.vof[:, 3, 3], cells.q[RHO, :, 3, 3] = (0.5, 0.25, 0.125), (4.0, 8.0, 16.0)
-    cells.call(remap.sum_cell_mass)
-    assert cells.cell_mass[:, 3, 3].tolist() == [4.0, 2.0]
-    assert cells.cell_mass.sum() == 6.0
-
-
 def tidied(*fractions: float) -> Cells:
     """Bodies of 2 and 8 kg/m^3 with 10 J/kg in the cell (3, 3), whose vertices move at 3 m/s along z."""
     cells = Cells(bodies=2)
@@ -202,12 +131,6 @@ def test_void_below_the_cutoff_closes_and_a_full_cell_is_no_longer_mixed():
     assert cells.q[RHO, 0, 3, 3] == pytest.approx(2 * 0.9995)
     assert cells.removed[3, 3] == pytest.approx(5e-4)
     assert cells.mixed_count[3] == 0
-
-
-def test_a_body_above_twice_the_cutoff_stays():
-    cells = tidied(0.5, 0.002)
-    assert cells.vof[:, 3, 3].tolist() == [0.5, 0.002]
-    assert not cells.removed.any()
 
 
 # ---------------------------------------------------------------------------------------------------------- momentum
@@ -247,18 +170,6 @@ def test_flow_beyond_an_edge_that_only_pushes_stops_there(dj, di, side):
     along = cells.v[0, :, 6] if dj else cells.u[0, 6, :]
     assert along[7] == pytest.approx(0.0 if side else 0.8)
     assert (cells.momentum_sums[4, 7] > 0.5) == bool(dj and side)
-
-
-def test_a_vertex_at_rest_on_an_edge_that_only_pushes_stays_at_rest():
-    """Only forces lift it: the 0.2 kg come from matter that moves into the mesh, and the edge takes their momentum."""
-    cells = Cells(nr=8, nz=8)
-    cells.cell_mass[...] = cells.mass[...] = 1.0
-    cells.flux_mass[...] = 0.2
-    cells.velocity0[1, 0] = np.where(np.arange(13) == 7, 0.0, 1.0)[:, None]
-    cells.call(momentum.sweep_momentum, dj=1, di=0, advection=MOMENTUM, ke_bound=2.0, pushing=np.array([-1, -1, 7, -1]),
-               edge_velocity=np.zeros(8))
-    assert not cells.v[0, 7].any()
-    assert cells.momentum_sums[4, 7] > 0.0
 
 
 def test_vertices_where_nothing_flows_keep_every_bit():

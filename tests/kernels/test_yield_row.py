@@ -87,14 +87,6 @@ def test_a_row_is_its_cells(name, columns):
     np.testing.assert_array_equal(result[EP] > row.q[EP, 0, 0], expected[EP] > row.q[EP, 0, 0])
 
 
-def test_cells_below_the_least_flow_stress_keep_every_bit():
-    row = Row("power-law", 40)
-    shrink = 0.99 * FACTORED * STRENGTH_CASES["power-law"]["yield_stress"] / row.scratch[1, 0, :-1].max()
-    row.q[DEVIATOR, 0, 0] *= shrink
-    row.scratch[1] *= shrink
-    np.testing.assert_array_equal(row.yields(), row.q[:, 0, 0])
-
-
 @pytest.mark.parametrize("what", ["trial", "strain", "T"])
 def test_a_nan_reaches_the_stress_of_its_cell_alone(what):
     row, clean = Row("johnson-cook", 20), Row("johnson-cook", 20).yields()

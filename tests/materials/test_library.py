@@ -12,7 +12,7 @@ from hydro2d.cli import info
 from hydro2d.deck import deck
 from hydro2d.materials import library, rows
 from hydro2d.measure.reach import Material, stagnation
-from strength.layout import SHEAR, YIELD
+from strength.layout import SHEAR
 
 TEXT = """\
 numbers = "SI"
@@ -190,53 +190,6 @@ def test_cold_flow_stress_of_steinbergs_metals(name, strain, stress):
     assert model.flow_stress(strain, 1e5, 300.0, 0.0, material.reference_density, row) == pytest.approx(stress, rel=1e-12)
 
 
-def test_the_numbers_of_the_study():
-    W, soft, hard = (library.load(name) for name in ("W_alloy", "Al5083", "Al7039"))
-    expected = {
-        "reference_density": (18160.0, 2660.0, 2770.0),
-        "sound_speed": (4030.0, 5340.0, 5200.0),
-        "hugoniot_slope": (1.237, 1.40, 1.36),
-        "grueneisen": (1.67, 1.97, 2.20),
-    }
-    for key, values in expected.items():
-        assert tuple(material.eos.values[key] for material in (W, soft, hard)) == values
-        assert {material.eos.numbers[key].confidence for material in (W, soft, hard)} == {"printed"}
-    assert [material.fracture_pressure.value for material in (W, soft, hard)] == [3.5e9, 0.45e9, 0.50e9]
-    assert [material.strength.name for material in (W, soft, hard)] == ["steinberg-guinan", "power-law", "johnson-cook"]
-    assert W.strength.values["pressure_coefficient"] == 1.03e-11
-
-
-def test_the_sintered_tungsten_names_recalled_and_adopted_constants():
-    material, W = library.load("W_sintered"), library.load("W_alloy")
-    recalled = {key: n.value for key, n in material.strength.numbers.items() if n.confidence == "recalled"}
-    assert recalled == {
-        "yield_stress": 1197e6, "hardening": 580e6, "hardening_exponent": 0.05, "rate_coefficient": 0.025,
-        "thermal_exponent": 1.9, "melt_temperature": 1752.0,
-    }
-    adopted = [(number, W.eos.numbers[key]) for key, number in material.eos.numbers.items() if number.confidence == "chosen"]
-    adopted += [(material.strength.numbers["shear_modulus"], W.strength.numbers["shear_modulus"])]
-    adopted += [(material.fracture_pressure, W.fracture_pressure)]
-    assert len(adopted) == 6
-    for number, other in adopted:
-        assert number.value == other.value
-        assert "W_alloy" in number.source
-    row = strength.STRENGTH_MODELS["johnson-cook"].row(material.strength.values)
-    flow = strength.STRENGTH_MODELS["johnson-cook"].flow_stress(0.1, 1000.0, 298.0, 0.0, 17600.0, row)
-    assert flow == pytest.approx((1197e6 + 580e6 * 0.1**0.05) * (1 + 0.025 * np.log(1000.0)), rel=1e-12)
-
-
-def test_doubtful_numbers_are_variants():
-    assert library.load("W_alloy").eos.values["specific_heat"] == 143.0
-    assert library.load("W_alloy", "cv-printed").eos.values["specific_heat"] == 1430.5
-    assert library.load("Al5083", "c0-5240").eos.values["sound_speed"] == 5240.0
-    for name in ("W_alloy", "Al5083", "Al7039"):
-        damage = library.load(name, "strain-failure").damage
-        assert (damage.name, damage.values["D1"], damage.values["D2"]) == ("johnson-cook", 1.5, 0.0)
-    refit = library.load("copper_OFHC", "johnson-cook")
-    assert refit.strength.name == "johnson-cook"
-    assert refit.strength.values["yield_stress"] == 90e6
-
-
 def test_describe_shows_sources_and_variants():
     page = library.describe("W_alloy")
     for fragment in ("specific_heat", "143", "J/(kg*K)", "cv-printed", "steinberg-guinan", "Table 1", "printed"):
@@ -302,17 +255,6 @@ def test_a_material_based_on_another():
     assert A.strength.numbers["shear_modulus"] == W.strength.numbers["shear_modulus"]
 
 
-def test_the_decks_numbers_stand_above_a_variant():
-    d = with_material('based_on = "W_alloy"\nvariant = "cv-printed"\neos.specific_heat = 150\n')
-    assert d.materials["A"].eos.values["specific_heat"] == 150.0
-
-
-def test_several_variants():
-    d = with_material('based_on = "W_alloy"\nvariant = ["cv-printed", "strain-failure"]\n')
-    assert d.materials["A"].eos.values["specific_heat"] == 1430.5
-    assert d.materials["A"].damage.values["D1"] == 1.5
-
-
 def test_another_model_replaces_the_whole_part():
     other = 'strength = { model = "elastic-plastic", shear_modulus = 1e9, yield_stress = 0 }'
     d = with_material(f'based_on = "W_alloy"\n{other}\n')
@@ -357,23 +299,6 @@ def test_a_library_name_without_based_on_says_so():
     text = TEXT.replace("[materials.A]", "[materials.W_alloy]\nstrength.yield_stress = 1e9")
     with pytest.raises(deck.DeckError, match='to change a material of the library, write based_on = "W_alloy"'):
         deck.loads(text)
-
-
-def test_the_table():
-    d = with_material('based_on = "Al7039"\n')
-    table = library.resolve(d)
-    assert table.names == ("a", "b")
-    assert len(table) == 2
-    assert list(table.rho0) == [2770.0, 2660.0]
-    assert list(table.e0) == [0.0, 0.0]
-    assert table.eos_par.shape == (2, eos.ROW)
-    assert table.strength_par.shape == (2, strength.ROW)
-    assert table.damage_par.shape == (2, strength.DAMAGE_ROW)
-    assert list(table.eos_model) == [eos.MODELS["mie-grueneisen"].ID] * 2
-    assert table.strength_model.dtype == table.eos_model.dtype == np.int64
-    assert list(table.strength_par[:, YIELD]) == [337e6, 276e6]
-    assert list(table.fracture_pressure) == [0.5e9, 0.45e9]
-    assert list(table.damage_model) == [0, 0]
 
 
 def test_failure_is_switched_by_the_deck():

@@ -1,5 +1,6 @@
 """The code carried by a stranger's run is not executed by commands that only read the run."""
 
+import json
 import tomllib
 from dataclasses import replace
 
@@ -65,6 +66,20 @@ def test_reading_a_run_in_python_executes_none_of_its_code(strange, mark):
     assert stored.velocity == 1086.0
     assert stored.setup.rod == "W_alloy"
     assert stored.problems == []
+    assert not mark.exists()
+
+
+def test_a_summary_of_version_0_3_is_completed_without_running_its_code(strange, mark):
+    """Its set-up and its outcome follow from the deck."""
+    now = hydro2d.open_run(strange).summary
+    written = json.loads((strange / "summary.json").read_text())
+    later = ("setup", "cells_across", "outcome", "sha256")
+    (strange / "summary.json").write_text(json.dumps({key: value for key, value in written.items() if key not in later}))
+    old = hydro2d.open_run(strange).summary
+    assert old.outcome.depth_m == now.outcome.depth_m
+    assert old.setup == decks.loads((strange / "deck.toml").read_text(), trust=False).setup
+    assert not mark.exists()
+    assert hydro2d.runs(strange)["setup"].iloc[0] == old.setup
     assert not mark.exists()
 
 

@@ -7,46 +7,15 @@ from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck
 from hydro2d.mesh.boundary_conditions import BoundaryConditions
 from hydro2d.mesh.edges.base import EDGES
-from hydro2d.mesh.edges.registry import BY_NAME, KINDS, made, words
-from hydro2d.mesh.sinks import SINKS
+from hydro2d.mesh.edges.registry import BY_NAME, made
 from tests.sources.test_heating import TEXT
 
-#: mirrors, fixes, opens, supplies, drives, loads, pushes, holds
-FLAGS = {
-    "axis": (True, True, False, False, False, False, False, False),
-    "anvil": (True, False, True, False, False, False, True, False),
-    "wall": (True, True, False, False, False, False, False, False),
-    "held": (False, True, True, True, True, False, False, True),
-    "outflow": (False, False, True, False, False, False, False, False),
-    "transmit": (False, False, True, True, False, True, False, False),
-    "velocity": (False, True, True, True, True, False, False, False),
-    "piston": (False, True, True, True, True, False, False, False),
-    "pressure": (False, False, True, True, True, True, False, False),
-}
-#: keys of the kinds that have some
-VALUES = {"velocity": {"velocity": 1.0}, "held": {"radial": 1.0, "axial": 0.0}, "pressure": {"pressure": 1e5}}
 PISTON = ((0.0, 0.0), (1e-6, 100.0), (3e-6, -50.0))
 
 
 def of(kind, **values):
     """Conditions with this kind at every edge that allows it, and walls elsewhere."""
     return BoundaryConditions(tuple(BY_NAME[kind if edge in BY_NAME[kind].edges else "wall"](**values) for edge in EDGES))
-
-
-@pytest.mark.parametrize("kind", [kind.name for kind in KINDS])
-def test_flags(kind):
-    conditions = of(kind, **(VALUES | {"piston": {"piston": PISTON}}).get(kind, {}))
-    flags = "mirrors", "constrains", "opens", "supplies", "drives", "loads", "pushes", "holds"
-    assert tuple(conditions.having(flag)[0] for flag in flags) == FLAGS[kind]
-
-
-def test_the_axis_is_an_inner_edge_alone():
-    assert "axis" in words("r_min")
-    assert "axis" not in {*words("r_max"), *words("z_min"), *words("z_max")}
-
-
-def test_every_sink_is_described():
-    assert [kind.name for kind in KINDS if not (kind.sink in SINKS or kind.sink_meaning)] == []
 
 
 def test_a_piston_moves_by_its_table():

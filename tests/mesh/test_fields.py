@@ -3,23 +3,9 @@
 import numpy as np
 import pytest
 
-from hydro2d import jit
 from hydro2d.mesh import fields
 from hydro2d.mesh.grid import Grid
 from hydro2d.mesh.state import State
-
-
-def test_constants_are_positions_in_the_table():
-    named = {"rho": fields.RHO, "e": fields.E, "srr": fields.SRR, "szz": fields.SZZ, "srz": fields.SRZ, "ep": fields.EP,
-             "dmg": fields.DMG}
-    assert {field.symbol: k for k, field in enumerate(fields.BODY)} == named
-
-
-def test_the_state_has_a_view_of_every_row():
-    state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 5)), 2)
-    for k, field in enumerate(fields.BODY):
-        state.q[k] = k
-        assert (getattr(state, field.symbol) == k).all()
 
 
 def test_the_state_has_a_view_of_either_offset_of_the_centroids_which_a_restart_needs():
@@ -29,11 +15,6 @@ def test_the_state_has_a_view_of_either_offset_of_the_centroids_which_a_restart_
     assert (state.centroid_r == 1.0).all()
     assert (state.centroid_z == 2.0).all()
     assert state.restartable()["centroid"] is state.centroid
-
-
-def test_offsets_along_r_and_components_of_r_change_sign_in_a_mirror():
-    odd = {field.symbol for field in fields.FIELDS if field.parity < 0}
-    assert odd == {"srz", "centroid_r", "qrz", "sig_rz", "u", "u0"}
 
 
 def test_the_rules_are_the_table_and_the_internal_variables_behind_it():
@@ -67,26 +48,6 @@ def test_every_array_of_the_state_is_in_a_table(groups):
     assert arrays - set(symbols) == {"group", "rules", "initial", "q", "centroid", "velocity", "velocity0", "body_range",
                                      "active_range"}
     assert set(symbols) <= arrays
-
-
-def test_axes_of_work_are_lengths():
-    state = State(Grid(np.linspace(0.0, 1.0, 4), np.linspace(0.0, 1.0, 71)), 2, [0, 1])
-    assert state.flux.shape == (7, 2, 6 * jit.max_threads(), 8)
-    assert state.scratch.shape == (4, jit.max_threads(), 8)
-    assert state.removed.shape == (6, 75)
-    assert state.strips.shape == (74, 3, 4, 2)
-    assert state.flux_place.shape == (2, 2, 75, 8)
-    assert state.edge_dual.shape == (2, 2, 5, 75)
-    assert state.body_ranges.shape == (3, 2, 74, 2)
-    assert (state.body_ranges.dtype, state.zone.dtype, state.fr.dtype) == (np.int64, np.int8, np.float64)
-
-
-@pytest.mark.parametrize("field", fields.FIELDS, ids=lambda field: field.name)
-def test_rows_make_sense(field):
-    assert field.centring in ("body", "cell", "vertex")
-    assert field.remap in ("volume", "mass", "momentum", "")
-    assert field.parity in (-1, 1)
-    assert field.least < field.most
 
 
 def test_fields_that_a_body_carries():

@@ -55,20 +55,6 @@ def test_import_needs_nothing_heavy():
 
 
 @by_name(MODELS)
-def test_it_says_what_it_is(model):
-    assert all(text.strip() for text in (model.name, model.title, model.source, model.validity))
-    assert model.name == model.name.lower()
-    assert not set(" _/.") & set(model.name)
-    entries = [*model.inputs, *model.outputs]
-    assert [entry.name for entry in entries if not entry.description.strip()] == []
-    assert len({entry.name for entry in model.inputs}) == len(model.inputs)
-    assert len({entry.name for entry in model.outputs}) == len(model.outputs)
-    main = [entry for entry in model.outputs if entry.name == model.main]
-    assert len(main) == 1
-    assert main[0].unit != "", "a figure shows a number"
-
-
-@by_name(MODELS)
 def test_arguments_are_the_inputs(model):
     """evaluate and transition take every input by keyword, and name none that the model does not have."""
     keywords = {entry.keyword: None for entry in model.inputs}

@@ -99,26 +99,6 @@ def test_force_of_the_rings_converges_with_the_second_order(shape, friction):
         assert all(1.9 < order < 2.1 for order in orders)
 
 
-@settings(max_examples=40)
-@given(st.sampled_from(SHAPES), st.floats(0.5, 8.0), st.floats(0.1, 1.4), st.floats(0.0, 1.0), st.floats(0.0, 0.2))
-def test_factors_grow_as_the_nose_goes_in(shape, crh, half_angle, share, friction):
-    """To round-off of antiderivatives of the size 2 (S/a)^2, at most 512 here, of which a factor is a difference."""
-    nose = Nose(a_nose(shape, 0.02, crh, half_angle), friction)
-    some, more, whole = (nose.factors(s * nose.length) for s in (share, min(1.2 * share, 1.0), 1.0))
-    assert all(0.0 <= a <= b * (1.0 + 1e-12) + 1e-13 for a, b in zip(some, more, strict=True))
-    assert whole == pytest.approx(nose.factors(), rel=1e-12)
-
-
-@settings(max_examples=40)
-@given(st.sampled_from(SHAPES), st.floats(1.0, 2000.0), st.floats(0.001, 1.0), st.floats(0.0, 0.2))
-def test_depth_rises_with_velocity_and_falls_with_friction(shape, velocity, mass, friction):
-    smooth, rough = Nose(a_nose(shape, 0.02), friction), Nose(a_nose(shape, 0.02), friction + 0.05)
-    depth = deep(velocity, mass, smooth, ALUMINIUM)[0]
-    assert depth < deep(1.01 * velocity, mass, smooth, ALUMINIUM)[0]
-    assert shape == "flat" or depth > deep(velocity, mass, rough, ALUMINIUM)[0]
-    assert entering(velocity, mass, smooth, ALUMINIUM)[0] >= depth * (1.0 - 1e-9)
-
-
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("solve", [deep, entering])
 def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, solve):
@@ -139,19 +119,6 @@ def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, solve):
         assert work == pytest.approx(0.5 * STEEL * 781.0**2, rel=1e-5)
 
 
-def test_duration_is_the_time_of_the_motion():
-    velocities = np.linspace(0.0, 781.0, 20001)
-    slowing = np.array([force(v, BALL, ALUMINIUM) for v in velocities]) / STEEL
-    assert deep(781.0, STEEL, BALL, ALUMINIUM)[1] == pytest.approx(np.trapezoid(1.0 / slowing, velocities), rel=1e-7)
-
-
-def test_small_velocity_and_no_inertia_are_constant_deceleration():
-    half_square = 0.5 * STEEL * 300.0**2 / (ALUMINIUM.static * math.pi * 3.555e-3**2)
-    assert deep(300.0, STEEL, BALL, Target(ALUMINIUM.static, 0.0))[0] == pytest.approx(half_square, rel=1e-13)
-    nearly = deep(300.0, STEEL, BALL, Target(ALUMINIUM.static, 1e-6))[0]
-    assert nearly == pytest.approx(half_square, rel=1e-9)
-
-
 def test_a_slow_rod_stops_within_its_nose():
     """With the static pressure alone on a cone the work is A Y pi a^2 x^3/(3 b^2)."""
     nose = Nose(a_nose("conical", 7.11e-3, half_angle=0.4))
@@ -168,14 +135,6 @@ SHOT = dict(
     target_density=2710.0, target_strength=276e6, cavity_a=5.0394, cavity_b=0.9830, target_youngs_modulus=None,
     target_poisson_ratio=None, target_hardening_exponent=0.0, cavity_velocity=1200.0,
 )
-
-
-def test_evaluate_takes_coefficients_from_the_target_where_none_are_given():
-    elastic = dict(target_youngs_modulus=68.9e9, target_poisson_ratio=1.0 / 3.0, target_hardening_exponent=0.051)
-    result = forrestal.evaluate(781.0, nose_entry="ignored", **{**SHOT, **elastic, "cavity_a": None, "cavity_b": None})
-    assert (result["cavity_a"], result["cavity_b"]) == (pytest.approx(4.4082, rel=1e-5), pytest.approx(1.1255, rel=1e-4))
-    assert forrestal.evaluate(0.0, nose_entry="ignored", **SHOT)["depth"] == 0.0
-    assert forrestal.evaluate(0.0, nose_entry="resisted", **SHOT)["depth"] == 0.0
 
 
 @pytest.mark.parametrize(

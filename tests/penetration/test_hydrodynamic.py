@@ -24,42 +24,6 @@ def test_the_stagnation_pressures_balance(velocity, rho_p, rho_t, sigma):
     assert jet == pytest.approx(target, rel=1e-9, abs=1e-9 * rho_p * velocity**2)
 
 
-@given(speed, density, density)
-def test_without_strength_it_is_the_ratio_of_densities(velocity, rho_p, rho_t):
-    values = {"rod_density": rho_p, "target_density": rho_t}
-    u = hydro.penetration_velocity(velocity, **values)
-    assert u == pytest.approx(velocity / (1.0 + math.sqrt(rho_t / rho_p)), rel=1e-12)
-    assert u / (velocity - u) == pytest.approx(hydro.depth_over_length(velocity, **values), rel=1e-9)
-
-
-@given(density, density, st.floats(1e8, 5e9))
-def test_strength_lowers_the_depth_towards_the_hydrodynamic_limit(rho_p, rho_t, sigma):
-    limit = math.sqrt(rho_p / rho_t)
-    slowest = math.sqrt(2.0 * sigma / rho_p)
-    values = {"rod_density": rho_p, "target_density": rho_t, "strength_difference": sigma}
-    depths = [hydro.depth_over_length(factor * slowest, **values) for factor in (1.1, 2.0, 5.0, 20.0, 1000.0)]
-    assert all(shallow < deep for shallow, deep in zip(depths, depths[1:], strict=False))
-    assert depths[-1] < limit
-    assert depths[-1] == pytest.approx(limit, rel=1e-4)
-    assert hydro.penetration_velocity(0.999 * slowest, **values) == 0.0
-
-
-def test_limits_of_the_shots_of_the_nose_shape_study():
-    """Rods of 9.779 cm (hemisphere) and 10.1346 cm (ogive) into 5083 and 7039: 25.55, 25.04, 26.48 and 25.95 cm."""
-    for length, target, expected in ((9.779, 2660.0, 25.55), (9.779, 2770.0, 25.04), (10.1346, 2660.0, 26.48),
-                                     (10.1346, 2770.0, 25.95)):
-        depth = length * hydro.depth_over_length(3000.0, rod_density=18160.0, target_density=target)
-        assert round(depth, 2) == expected
-
-
-def test_equal_densities():
-    """Half the velocity less sigma/(rho v): the limit in which the quadratic equation loses its square."""
-    values = {"rod_density": 7850.0, "strength_difference": 1e9}
-    for target in (7850.0, 7850.0 * (1.0 + 1e-12), 7850.0 * (1.0 - 1e-12)):
-        u = hydro.penetration_velocity(2000.0, target_density=target, **values)
-        assert u == pytest.approx(1000.0 - 1e9 / (7850.0 * 2000.0), rel=1e-10)
-
-
 def test_a_jet_of_one_velocity_is_a_rod():
     whole = 0.3 * hydro.depth_over_length(5000.0, **PAIR, strength_difference=1e9)
     assert hydro.jet_depth([5000.0] * 3, [0.1] * 3, **PAIR, strength_difference=1e9) == pytest.approx(whole)

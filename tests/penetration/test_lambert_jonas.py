@@ -4,35 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hydro2d.penetration import lambert_jonas as lj
-from hydro2d.penetration import recht_ipson
 from hydro2d.penetration.model import InputError
-
-speed, limit = st.floats(1.0, 3000.0), st.floats(50.0, 2000.0)
-
-
-@given(speed, limit, st.floats(0.3, 1.0), st.floats(1.0, 10.0))
-def test_energy_never_grows_and_the_curve_rises(velocity, V50, a, p):
-    values = {"limit_velocity": V50, "a": a, "p": p}
-    left = lj.residual_velocity(velocity, **values)
-    assert 0.0 <= left <= a * velocity
-    assert left <= lj.residual_velocity(1.001 * velocity, **values)
-    above = V50 + velocity
-    assert lj.residual_velocity(above, **values) == pytest.approx(a * (above**p - V50**p) ** (1.0 / p), rel=1e-6)
-
-
-@given(speed, limit)
-def test_two_and_one_are_energy_without_a_plug(velocity, V50):
-    expected = recht_ipson.residual_velocity(velocity, limit_velocity=V50)
-    assert lj.residual_velocity(velocity, limit_velocity=V50) == pytest.approx(expected, rel=1e-6)
-
-
-@given(limit)
-def test_far_above_the_limit_it_is_a_straight_line(V50):
-    assert lj.residual_velocity(1e4 * V50, limit_velocity=V50, a=0.9, p=2.5) == pytest.approx(0.9e4 * V50, rel=1e-6)
 
 
 @pytest.mark.parametrize(("a", "p", "V50"), [(0.93, 2.7, 900.0), (1.0, 2.0, 1250.0), (0.8, 5.0, 400.0), (0.97, 1.4, 700.0)])

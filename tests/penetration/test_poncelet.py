@@ -50,18 +50,6 @@ def test_the_fit_of_the_review_and_its_small_velocity_limit():
 
 
 @given(speed, stress, drag)
-def test_depth_is_that_of_small_velocity_or_less_and_rises(velocity, a, b):
-    values = {"rod_density": 7850.0, "a": a, "b": b}
-    depth = poncelet.depth_over_length(velocity, **values)
-    bound = poncelet.depth_at_small_velocity(velocity, rod_density=7850.0, a=a)
-    assert 0.0 < depth <= bound * (1.0 + 1e-12)
-    assert poncelet.depth_over_length(1.01 * velocity, **values) > depth
-    slow = 1e-4 * math.sqrt(a / max(b, 1.0))
-    assert poncelet.depth_over_length(slow, **values) == pytest.approx(
-        poncelet.depth_at_small_velocity(slow, rod_density=7850.0, a=a), rel=1e-8)
-
-
-@given(speed, stress, drag)
 def test_energy_never_grows_and_ends_at_the_final_depth(velocity, a, b):
     values = {"rod_density": 7850.0, "a": a, "b": b}
     final = poncelet.depth_over_length(velocity, **values)

@@ -30,14 +30,6 @@ def test_shear_work_is_that_of_the_limit_and_the_collision_is_inelastic(velocity
         0.5 * (V50 + velocity) ** 2 - 0.5 * (1.0 + plug) * together**2, rel=1e-9, abs=1e-9 * (V50 + velocity) ** 2)
 
 
-@given(speed, limit, ratio)
-def test_energy_never_grows_and_nothing_leaves_below_the_limit(velocity, V50, plug):
-    left = ri.residual_velocity(velocity, limit_velocity=V50, plug_mass_ratio=plug)
-    assert (1.0 + plug) * left**2 <= velocity**2
-    assert (left == 0.0) == (velocity <= V50)
-    assert ri.residual_velocity(velocity + 1.0, limit_velocity=V50, plug_mass_ratio=plug) >= left
-
-
 def test_plug_of_a_cylinder_is_eq_22():
     """(1 + (rho_t/rho_p)(d/D)^2 (T/L))^-1 sqrt(V^2 - V50^2), for T/L = 0.29 and d/D of 1 and 1.4."""
     for widening in (1.0, 1.4):
@@ -46,12 +38,6 @@ def test_plug_of_a_cylinder_is_eq_22():
         expected = math.sqrt(950.0**2 - 250.0**2) / (1.0 + 7890.0 / 7830.0 * widening**2 * 0.29)
         assert result == pytest.approx(expected, rel=1e-12)
     assert ri.plug_mass_ratio(**CYLINDER, target_thickness=0.0058) == pytest.approx(7890.0 / 7830.0 * 0.29, rel=1e-12)
-
-
-def test_a_thin_plate_is_left_as_without_a_plug():
-    plug = ri.plug_mass_ratio(**CYLINDER, target_thickness=1e-9)
-    assert ri.residual_velocity(900.0, limit_velocity=600.0, plug_mass_ratio=plug) == pytest.approx(
-        ri.residual_velocity(900.0, limit_velocity=600.0), rel=1e-6)
 
 
 def test_piercing_is_a_hyperbola():

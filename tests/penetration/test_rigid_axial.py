@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hydro2d.penetration import forrestal, rigid_axial
 from hydro2d.penetration.forrestal import Target, deep, entering
 from hydro2d.penetration.model import InputError
-from hydro2d.penetration.rigid_axial import Pressure, Rings, penetrate
-from hydro2d.penetration.surface import Surface, nose_surface
+from hydro2d.penetration.rigid_axial import Pressure, penetrate
+from hydro2d.penetration.surface import nose_surface
 from tests.penetration.noses import SHAPES, a_nose
 
 MASS, DIAMETER, STRENGTH, DENSITY = 0.023, 7.11e-3, 276e6, 2710.0
@@ -53,16 +53,6 @@ def test_the_seven_shots(velocity, printed, axial, normal, entry, three, three_e
     assert depth(PRINTED, "normal", True) == pytest.approx(entry, rel=3e-4)
     assert depth(THREE, "normal", False) == pytest.approx(three, rel=3e-4)
     assert depth(THREE, "normal", True) == pytest.approx(three_entry, rel=3e-4)
-
-
-def test_the_normal_reading_is_the_default():
-    entry = next(entry for entry in rigid_axial.MODEL.inputs if entry.name == "surface.velocity")
-    assert entry.default == "normal"
-    assert rigid_axial.evaluate(781.0, **SHOT)["depth"] * 1e3 == pytest.approx(101.049, rel=3e-4)
-    axial = rigid_axial.evaluate(781.0, **SHOT | {"surface_velocity": "axial", "nose_entry": "ignored"})
-    assert axial["depth"] * 1e3 == pytest.approx(83.9, rel=0.003)
-    three = rigid_axial.evaluate(781.0, **SHOT | {"cavity_c": 0.9402, "nose_entry": "ignored"})
-    assert three["depth"] * 1e3 == pytest.approx(87.452, rel=3e-4)
 
 
 def orders(errors):
@@ -121,25 +111,6 @@ def test_loss_of_kinetic_energy_is_the_work_of_the_force(shape, velocity, mass, 
     assert np.all(np.diff(flight.history[:, 2]) <= 0.0)
 
 
-@settings(max_examples=10)
-@given(st.floats(200.0, 1200.0), st.floats(0.0, 0.1))
-def test_depth_rises_with_velocity_and_falls_with_friction(velocity, friction):
-    rings = nose_surface(a_nose("ogival", DIAMETER), rings=30)
-    depth = penetrate(rings, MASS, velocity, PRINTED, friction=friction).depth
-    assert depth < penetrate(rings, MASS, 1.05 * velocity, PRINTED, friction=friction).depth
-    assert depth > penetrate(rings, MASS, velocity, PRINTED, friction=friction + 0.05).depth
-    assert depth >= penetrate(rings, MASS, velocity, PRINTED, friction=friction, surface_velocity="axial").depth
-
-
-def test_nothing_pushes_before_the_rod_is_in_and_all_of_it_when_it_is():
-    nose = Rings(nose_surface(a_nose("hemispherical", DIAMETER), rings=50))
-    assert nose.force(PRINTED, 700.0, depth=0.0) == 0.0
-    whole = nose.force(PRINTED, 700.0)
-    assert nose.force(PRINTED, 700.0, depth=DIAMETER) == whole
-    closed = forrestal.force(700.0, forrestal.Nose(a_nose("hemispherical", DIAMETER)), Target(PRINTED.static, PRINTED.dynamic))
-    assert whole == pytest.approx(closed, rel=2e-4)
-
-
 def test_a_static_pressure_on_a_flat_nose_is_exact():
     """Constant force: M V^2/2F, for any step."""
     rings = nose_surface(a_nose("flat", DIAMETER), rings=3)
@@ -164,25 +135,6 @@ def test_slow_and_fast_rods(velocity):
 def test_impossible_shots_are_refused(change, word):
     with pytest.raises(InputError, match=word):
         rigid_axial.evaluate(781.0, **SHOT | change)
-
-
-def test_a_rod_at_rest_is_refused():
-    with pytest.raises(InputError, match="velocity"):
-        rigid_axial.evaluate(0.0, **SHOT)
-
-
-def test_sums_are_those_of_the_rings():
-    """The force by the running sums equals equation 3, ring by ring, for all three terms, half immersed, in any order."""
-    rings = nose_surface(a_nose("ogival", DIAMETER), rings=40)
-    turned = Surface(*(getattr(rings, field)[::-1] for field in ("z", "r", "azimuth", "normal_z", "normal_r", "area")))
-    v = 700.0 * rings.normal_z
-    pressure = THREE.static + THREE.linear * v + THREE.dynamic * v**2
-    pushed = pressure * (rings.normal_z + 0.07 * rings.normal_r) * rings.area
-    depth = -0.5 * rings.z.min()
-    by_hand = np.sum(pushed[rings.z + depth >= 0.0])
-    assert 0.0 < by_hand < np.sum(pushed)
-    for surface in (rings, turned):
-        assert Rings(surface, 0.07).force(THREE, 700.0, depth) == pytest.approx(by_hand, rel=1e-13)
 
 
 def test_a_rod_that_never_stops_is_refused():

@@ -261,34 +261,11 @@ def test_energy_never_grows(rod, angles, friction):
     assert np.max(growth) <= (A * STRENGTH * DIAMETER * LENGTH * dt) ** 2 / (2.0 * MASS) < 1e-4 * energy[0]
 
 
-def test_depth_does_not_depend_on_the_azimuth_of_pitch():
-    """Exact for turns by whole sectors, by symmetry; in between the facets differ, at second order."""
-    body = projectile(a_nose("hemispherical", DIAMETER), MASS, LENGTH, rings=24, shank_rings=24, sectors=16)
-    total = math.radians(4.0)
-    depths, drifts = [], []
-    for azimuth in (0.0, 0.5 * math.pi, math.pi, 0.4):
-        axis = [math.sin(total) * math.cos(azimuth), math.sin(total) * math.sin(azimuth), math.cos(total)]
-        angles = {"pitch": math.atan2(axis[0], axis[2]), "yaw": math.asin(axis[1])}
-        shot = penetrate(body, [HALF_SPACE], 400.0, touch=4.0, time_step=2e-7, **angles)
-        depths.append(shot.depth)
-        drifts.append(shot.drift)
-    assert depths[1:3] == pytest.approx([depths[0]] * 2, rel=1e-6)
-    assert depths[3] == pytest.approx(depths[0], rel=2e-3)
-    assert drifts[3] == pytest.approx(drifts[0], rel=0.05)
-
-
 def test_pitch_and_yaw_mirror(rod):
     plus = penetrate(rod, [plate(0.03)], 800.0, pitch=0.06, yaw=0.02)
     minus = penetrate(rod, [plate(0.03)], 800.0, pitch=-0.06, yaw=-0.02)
     assert (minus.pitch, minus.yaw) == pytest.approx((-plus.pitch, -plus.yaw), rel=1e-6)
     assert minus.residual_velocity == pytest.approx(plus.residual_velocity, rel=1e-9)
-
-
-def test_a_layer_cut_in_two_is_the_same_layer(rod):
-    """A face between equal layers has no effect: same bits."""
-    one = penetrate(rod, [plate(0.03)], 800.0, pitch=0.05, obliquity=0.2)
-    two = penetrate(rod, [plate(0.015), plate(0.015)], 800.0, pitch=0.05, obliquity=0.2)
-    assert np.array_equal(one.history, two.history)
 
 
 def test_perforation_leaves_what_the_work_leaves(ogive):
@@ -315,12 +292,6 @@ def test_ricochet_at_a_grazing_angle(rod):
     assert 0.0 < shot.depth < DIAMETER
     assert 0.5 * 600.0 < shot.residual_velocity < 600.0
     assert shot.final.velocity[2] < 0.0
-
-
-def test_obliquity_and_friction_cost_depth(rod):
-    straight = penetrate(rod, [HALF_SPACE], 400.0, time_step=2e-7).depth
-    assert penetrate(rod, [HALF_SPACE], 400.0, touch=4.0, time_step=2e-7, obliquity=0.5).depth < straight
-    assert penetrate(rod, [HALF_SPACE], 400.0, time_step=2e-7, friction=0.1).depth < straight
 
 
 # --- the interface to users

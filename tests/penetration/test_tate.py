@@ -1,14 +1,13 @@
 """Tate-Alekseevskii: all regimes against an independent solver and tabulated depths; limits; energy; speed."""
 
 import math
-import time
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from hydro2d.penetration import hydrodynamic, tate, tate_poncelet
+from hydro2d.penetration import tate
 from hydro2d.penetration.model import InputError
 
 #: rods of Scheffler's shots, 97.79 mm of 18 160 kg/m^3, with strengths and resistances of the order that the shots suggest
@@ -160,42 +159,6 @@ def test_the_rod_only_slows_and_shortens_and_its_energy_never_grows(rho_p, Yp, r
     assert Rt * track.depth[-1] <= 0.5 * rho_p * LENGTH * velocity**2 * (1.0 + 1e-9), "work on the target, of the rod's energy"
 
 
-@given(density, stress, density, stress, st.floats(0.05, 0.99))
-@FAST
-def test_depth_rises_with_velocity_while_rigid_and_is_that_of_tate_poncelet(rho_p, Yp, rho_t, Rt, share):
-    assume(Yp > 1.01 * Rt)
-    pair = {"rod_density": rho_p, "rod_strength": Yp, "target_density": rho_t, "resistance": Rt}
-    velocity = share * tate.Pair(**pair).transition_velocity
-    assert depth(velocity, **pair) < depth(1.01 * velocity, **pair)
-    assert depth(velocity, **pair) == pytest.approx(
-        tate_poncelet.depth_over_length(velocity, rod_density=rho_p, target_density=rho_t, resistance=Rt), rel=1e-10)
-
-
-@given(density, stress, density, st.floats(1.05, 5.0))
-@FAST
-def test_a_weak_rod_reaches_the_hydrodynamic_limit_from_below(rho_p, Yp, rho_t, ratio):
-    pair = {"rod_density": rho_p, "rod_strength": Yp, "target_density": rho_t, "resistance": ratio * Yp}
-    slowest = tate.Pair(**pair).critical_velocity
-    limit = hydrodynamic.depth_over_length(1.0, rod_density=rho_p, target_density=rho_t)
-    depths = [depth(factor * slowest, **pair) for factor in (1.0, 1.5, 3.0, 10.0)]
-    scale = math.sqrt(ratio * Yp / min(rho_p, rho_t))
-    depths += [depth(factor * scale, **pair) for factor in (100.0,)]
-    assert depths[0] == 0.0
-    assert max(depths) < limit
-    assert depths[-1] == pytest.approx(limit, rel=2e-3)
-
-
-@given(density, stress, density, st.floats(1.05, 5.0))
-@FAST
-def test_a_strong_rod_reaches_the_hydrodynamic_limit_from_above(rho_p, Rt, rho_t, ratio):
-    pair = {"rod_density": rho_p, "rod_strength": ratio * Rt, "target_density": rho_t, "resistance": Rt}
-    limit = hydrodynamic.depth_over_length(1.0, rod_density=rho_p, target_density=rho_t)
-    scale = math.sqrt(ratio * Rt / min(rho_p, rho_t))
-    near, nearer = (depth(factor * scale, **pair) for factor in (30.0, 100.0))
-    assert near > nearer > limit
-    assert nearer == pytest.approx(limit, rel=2e-3)
-
-
 @given(density, stress, density, st.floats(500.0, 4000.0))
 @FAST
 def test_equal_strength_and_resistance(rho_p, Y, rho_t, velocity):
@@ -204,22 +167,6 @@ def test_equal_strength_and_resistance(rho_p, Y, rho_t, velocity):
     limit = math.sqrt(rho_p / rho_t)
     assert track.regime == tate.ERODING
     assert track.depth[-1] == pytest.approx(limit * (LENGTH - track.length[-1]), rel=1e-9)
-
-
-def test_regimes():
-    assert tate.penetrate(0.0, rod_length=LENGTH, **INTO_5083).regime == "no penetration"
-    assert tate.penetrate(1163.0, rod_length=LENGTH, **INTO_5083).regime == "rigid"
-    assert tate.penetrate(1164.0, rod_length=LENGTH, **INTO_5083).regime == "eroding, then rigid"
-    assert tate.penetrate(257.0, rod_length=LENGTH, **WEAK_ROD).regime == "no penetration"
-    assert tate.penetrate(258.0, rod_length=LENGTH, **WEAK_ROD).regime == "eroding"
-
-
-def test_a_very_weak_rod_is_consumed_at_its_first_velocity():
-    """Y_p to 0: modified hydrodynamic theory."""
-    pair = {"rod_density": 8930.0, "rod_strength": 1e5, "target_density": 7830.0, "resistance": 2e9}
-    steady = hydrodynamic.depth_over_length(
-        3000.0, rod_density=8930.0, target_density=7830.0, strength_difference=2e9 - 1e5)
-    assert depth(3000.0, **pair) == pytest.approx(steady, rel=1e-4)
 
 
 def test_the_model_on_its_inputs():
@@ -242,13 +189,6 @@ def test_transition_of_the_model():
     assert static == pytest.approx(484.1, abs=0.1)
     assert dynamic == pytest.approx(1104.0, abs=0.5)
     assert tate.MODEL.transition(**tate.MODEL.collect({**values, "target.resistance": 5e9})) == 0.0
-
-
-def test_two_hundred_velocities_take_less_than_a_second():
-    start = time.perf_counter()
-    for velocity in np.linspace(100.0, 5000.0, 200):
-        tate.penetrate(velocity, rod_length=LENGTH, **INTO_5083)
-    assert time.perf_counter() - start < 1.0
 
 
 @pytest.mark.parametrize("bad", [{"rod_strength": -1.0}, {"resistance": 0.0}, {"target_density": math.nan}])

@@ -57,15 +57,6 @@ def test_it_is_poncelet_with_the_inertia_of_the_target(velocity, Rt):
     assert depth == pytest.approx(18160.0 / 2770.0 * math.log(1.0 + 2770.0 * velocity**2 / (2.0 * Rt)), rel=1e-9)
 
 
-def test_the_model_takes_a_resistance_or_a_form():
-    values = {"rod.density": 18160.0, "rod.length": 0.1, "target.density": 2660.0}
-    assert tate_poncelet.MODEL(1086.0, {**values, "target.resistance": 1.62e9})["resistance"] == 1.62e9
-    with pytest.raises(InputError, match="target.strength"):
-        tate_poncelet.MODEL(1086.0, values)
-    formed = {**values, "target.strength": 276e6, "target.youngs_modulus": 70.3e9}
-    assert tate_poncelet.MODEL(1086.0, formed)["resistance"] == pytest.approx(1.55835e9, rel=1e-5)
-
-
 def test_impossible_depths_are_refused():
     with pytest.raises(InputError, match="too deep"):
         tate_poncelet.resistance_from_depth(1e5, 1000.0, **INTO_5083)

@@ -1,7 +1,6 @@
 """Walker-Anderson: worked numbers, the printed equations themselves, and the limits."""
 
 import math
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hydro2d.penetration import walker_anderson
-from hydro2d.penetration.centreline import Centreline, Rod, Target, crater_radius, interface_velocity, plastic_extent
+from hydro2d.penetration.centreline import Centreline, Rod, Target, plastic_extent
 from hydro2d.penetration.model import InputError
 from hydro2d.penetration.walker_anderson import MODEL, penetrate, resistance, rigid_stress, transition_velocity
 
@@ -78,18 +77,6 @@ def test_extent_solves_the_printed_equation_and_its_slope_is_right(u):
     step = 1e-3 * u
     difference = (plastic_extent(u + step, STEEL)[0] - plastic_extent(u - step, STEEL)[0]) / (2.0 * step)
     assert slope == pytest.approx(difference, abs=1e-6 * alpha / u)
-
-
-def test_extent_at_rest():
-    k = STEEL.density * STEEL.sound_speed**2
-    at_rest = math.sqrt((1.0 + 2.0 * k / STEEL.strength) / (1.0 + k / STEEL.shear_modulus))
-    assert plastic_extent(0.0, STEEL)[0] == pytest.approx(at_rest, rel=1e-14)
-
-
-def test_first_velocity_has_equal_shock_pressures():
-    u = interface_velocity(1500.0, TUNGSTEN, STEEL)
-    behind = TUNGSTEN.density * (TUNGSTEN.sound_speed + TUNGSTEN.hugoniot_slope * (1500.0 - u)) * (1500.0 - u)
-    assert behind == pytest.approx(STEEL.density * (STEEL.sound_speed + STEEL.hugoniot_slope * u) * u, rel=1e-13)
 
 
 @given(st.floats(300.0, 2000.0), st.floats(0.2, 0.9))
@@ -162,33 +149,12 @@ def test_resistance_is_that_of_the_limit():
     assert resistance(800.0, STEEL) == pytest.approx(7.0 / 3.0 * 1.2e9 * math.log(alpha), rel=1e-14)
 
 
-@given(st.floats(50.0, 3000.0), st.floats(1.01, 1.5))
-@settings(max_examples=20)
-def test_depth_rises_with_velocity_while_the_rod_erodes(velocity, factor):
-    assert penetrate(factor * velocity, TUNGSTEN, STEEL).depth > penetrate(velocity, TUNGSTEN, STEEL).depth
-
-
 @given(st.floats(20.0, 1100.0), st.floats(1.01, 1.06))
 @settings(max_examples=20)
 def test_depth_rises_with_velocity_while_the_rod_is_rigid(velocity, factor):
     strong = replace(TUNGSTEN, strength=3.5e9)
     assert factor * velocity < transition_velocity(strong, ALUMINIUM)
     assert penetrate(factor * velocity, strong, ALUMINIUM).depth > penetrate(velocity, strong, ALUMINIUM).depth
-
-
-def test_hydrodynamic_limit():
-    """Long, fast rods come within 1 % of sqrt(rho_p/rho_t): the longer and the faster, the closer."""
-    limit = math.sqrt(TUNGSTEN.density / STEEL.density)
-
-    def miss(velocity, diameters):
-        length = diameters * TUNGSTEN.diameter
-        return penetrate(velocity, replace(TUNGSTEN, length=length), STEEL).depth / length / limit - 1.0
-
-    lengths = [abs(miss(10000.0, diameters)) for diameters in (100.0, 1000.0, 10000.0)]
-    assert lengths[0] > lengths[1] > lengths[2]
-    assert lengths[2] < 0.01
-    speeds = [abs(miss(velocity, 10000.0)) for velocity in (2000.0, 3000.0, 10000.0)]
-    assert speeds[0] > speeds[1] > speeds[2]
 
 
 @given(st.floats(20.0, 4000.0), st.sampled_from([STEEL, ALUMINIUM]), st.floats(0.5e9, 4.0e9))
@@ -203,18 +169,6 @@ def test_the_rods_kinetic_energy_never_grows(velocity, target, strength):
     assert (np.diff(v) <= 1e-6 * velocity).all()
     assert (np.diff(length) <= 1e-6 * rod.length).all()
     assert (np.diff(depth) >= 0.0).all()
-
-
-def test_a_rigid_rod_never_carries_more_than_its_strength():
-    """Once tail and interface move as one, the stress on the nose stays below the strength: erosion does not return."""
-    strong = replace(TUNGSTEN, strength=2.5e9)
-    motion = Centreline(1100.0, strong, ALUMINIUM)
-    track = motion.solve()
-    rigid = np.isclose(track.states[0], track.states[1], rtol=1e-9)
-    assert rigid.sum() > 3
-    for state in track.states.T[rigid]:
-        slowing = -motion.rigid(0.0, state)[0]
-        assert strong.density * state[2] * slowing <= strong.strength * (1.0 + 1e-6)
 
 
 def test_transition():
@@ -236,22 +190,9 @@ def test_transition_of_a_long_rod_is_tates_with_the_limits_resistance():
     assert velocity == pytest.approx(expected, rel=1e-4)
 
 
-def test_a_curve_of_two_hundred_velocities_is_quick():
-    start = time.process_time()
-    for velocity in np.linspace(500.0, 3000.0, 200):
-        penetrate(velocity, TUNGSTEN, STEEL)
-    assert time.process_time() - start < 10.0
-
-
 def test_slow_impacts_and_short_rods_come_to_an_end():
     assert penetrate(1.0, TUNGSTEN, STEEL).depth < 1e-6
     assert penetrate(1500.0, replace(TUNGSTEN, length=0.001), STEEL).regime == "consumed"
-
-
-def test_the_crater_may_be_given():
-    wide, default = (MODEL(1500.0, {**VALUES, "crater.radius": r})["depth"] for r in (0.012, crater_radius(1500.0, 0.010)))
-    assert default == pytest.approx(MODEL(1500.0, VALUES)["depth"], rel=1e-14)
-    assert wide != pytest.approx(default, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -263,13 +204,6 @@ def test_the_crater_may_be_given():
 def test_wrong_input(changes, message):
     with pytest.raises(InputError, match=message):
         MODEL(1500.0, {**VALUES, **changes})
-
-
-def test_no_velocity():
-    with pytest.raises(InputError, match="velocity"):
-        MODEL(0.0, VALUES)
-    with pytest.raises(InputError, match=r"rod\.length"):
-        Rod(17600.0, 2.0e9, 323e9, 4030.0, 1.237, 0.010, -0.1)
 
 
 def test_an_unfinished_motion_is_reported(monkeypatch):

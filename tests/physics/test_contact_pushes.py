@@ -14,7 +14,6 @@ pressed_by = contact_pushes.pressed_by.py_func
 stands_out = contact_pushes.stands_out.py_func
 slip_at = contact_pushes.slip_at.py_func
 closed = contact_pushes.closed.py_func
-along_surface = contact_pushes.along_surface.py_func
 
 #: cells of the mesh along either side, and the first of them after the ghosts
 N, FIRST = 6, 2
@@ -55,10 +54,6 @@ class Surface:
     def push(self, j: int, i: int) -> float:
         return push_of(FIRST + j, FIRST + i, self.skin, self.solid, self.bulk, self.ph, self.qr, *self.stress)
 
-    def counts(self, j: int, i: int) -> list[bool]:
-        """`counts_for` the soft and the hard group."""
-        return [bool(counts_for(g, FIRST + j, FIRST + i, self.skin, self.hard, self.soft)) for g in (SOFT, HARD)]
-
     def pressed(self, j: int, i: int, group: int) -> float:
         return pressed_by(group, FIRST + j, FIRST + i, self.hard, self.soft, self.skin, self.solid, self.bulk, self.ph, self.qr,
                           *self.stress)
@@ -70,10 +65,6 @@ class Surface:
                           self.ph, self.qr)
 
 
-#: up and down from cell to cell, in both directions
-CHECKERS = 0.2 * (-1.0) ** np.add.outer(np.arange(N), np.arange(N))
-
-
 def along_z(pressure) -> Surface:
     """A surface of one column of cells with these pressures."""
     kind = np.full((N, N), WHOLE)
@@ -82,34 +73,6 @@ def along_z(pressure) -> Surface:
 
 
 # ---------------------------------------------------------------------------------- what stands out from its neighbours
-
-
-def test_the_middle_of_a_line_does_not_stand_out():
-    cells = along_z(1.0 + 2.0 * np.arange(N))
-    for j in range(1, N - 1):
-        assert cells.out(j, 3) == pytest.approx(0.0, abs=1e-14)
-
-
-def test_of_a_pattern_every_cell_stands_out_by_its_whole_difference():
-    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
-    assert [cells.out(j, 3) for j in range(1, N - 1)] == pytest.approx([-2.0, 2.0, -2.0, 2.0])
-
-
-def test_viscosity_counts_as_pressure():
-    cells = along_z(np.zeros(N))
-    cells.qr[FIRST + 2, FIRST + 3] = 4.0
-    assert cells.out(2, 3) == 4.0
-    assert cells.out(1, 3) == -2.0
-
-
-def test_the_end_of_a_surface_does_not_stand_out():
-    cells = along_z(np.arange(N) ** 2)
-    cells.skin[KIND, FIRST + 4, FIRST + 3] = WHOLE
-    assert cells.out(3, 3) == 0.0
-    assert cells.out(2, 3) == pytest.approx(-1.0)
-    cells.open(2, 3, 0.5 * GAP)  # and the one neighbour of (3, 3) counts by half
-    assert cells.out(3, 3) == 0.0
-    assert cells.out(0, 3) == cells.out(5, 3) == 0.0  # at edges of the mesh that are no walls
 
 
 def test_a_cell_with_gas_counts_as_one_with_void():
@@ -137,37 +100,6 @@ def test_at_the_axis_and_at_walls_a_surface_goes_on_as_in_a_mirror(edge, j, i):
     assert cells.out(j, i) == pytest.approx(0.5)
 
 
-def test_a_neighbour_with_void_does_not_count():
-    """Two are left, whose mean is -1; of three the mean would be 8."""
-    cells = along_z(np.zeros(N))
-    for j, i, pressure in ((2, 3, 0.0), (1, 3, -2.0), (3, 3, 0.0), (2, 4, 26.0)):
-        cells.skin[KIND, FIRST + j, FIRST + i], cells.ph[FIRST + j, FIRST + i] = INTERFACE, pressure
-    assert cells.out(2, 3) == pytest.approx(-8.0)
-    cells.open(2, 4, GAP)
-    assert cells.out(2, 3) == pytest.approx(1.0)
-    cells.open(2, 3, GAP)  # nor does it stand out itself
-    assert cells.out(2, 3) == 0.0
-
-
-def test_beside_a_neighbour_that_opens_a_cell_stands_out_less_and_less():
-    """It has only one other neighbour; halfway to GAP half is left of the pattern."""
-    cells = along_z(3.0 + np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]))
-    for void, left in ((0.5 * GAP, 1.0), (GAP, 0.0)):
-        cells.open(1, 3, void)
-        assert cells.out(2, 3) == pytest.approx(left)
-
-
-@pytest.mark.parametrize("void", [0.0, GAP])
-@pytest.mark.parametrize("where", [(2, 3), (1, 3), (2, 4)])
-def test_a_cell_ceases_to_stand_out_without_a_jump(void, where):
-    def found(void):
-        cells = Surface(CHECKERS)
-        cells.open(*where, void)
-        return cells.out(2, 3)
-
-    changes_in_proportion(found, void, 2.0 / GAP, sides=(1.0,) if void == 0.0 else (-1.0, 1.0))
-
-
 def filled(hard_below, hard_above, kind=INTERFACE):
     """A surface along r with rows of cells on both sides that one group fills by these shares, under 1, 2, 4 ... 32 Pa."""
     cells = Surface(2.0 ** np.arange(N), kind)
@@ -175,21 +107,6 @@ def filled(hard_below, hard_above, kind=INTERFACE):
         for group, share in ((cells.hard, hard), (cells.soft, 1.0 - hard)):
             group[MESH, MESH][rows] = share
     return cells
-
-
-def test_a_cell_across_the_surface_is_not_along_it():
-    """Between full cells of either group the surface is a mesh line: what is on its other side does not count."""
-
-    def along(hard_here, hard_there):
-        cells = filled(hard_here, hard_there)
-        found = [along_surface(FIRST + a, FIRST + 2, FIRST + b, FIRST + 2, cells.hard, cells.soft) for a, b in ((2, 3), (3, 2))]
-        assert found[0] == found[1]
-        return found[0]
-
-    assert along(1.0, 0.0) == along(0.0, 1.0) == 0.0
-    assert along(1.0, 1.0) == along(0.0, 0.0) == along(0.9, 0.0) == along(1.0, 0.1) == along(0.5, 0.5) == 1.0
-    assert along(0.95, 0.0) == pytest.approx(0.5)
-    assert along(0.95, 0.05) == pytest.approx(0.5)
 
 
 def test_two_rows_on_either_side_of_a_mesh_line_stand_out_as_one():
@@ -203,20 +120,6 @@ def test_two_rows_on_either_side_of_a_mesh_line_stand_out_as_one():
 
 
 # ---------------------------------------------------------------------------------------------- who pushes, and how much
-
-
-def test_a_full_cell_pushes_with_its_least_principal_pressure():
-    cells = Surface(8.0, WHOLE)
-    for stress, push in (((-9.0, -4.0, -6.0), 4.0), ((-5.0, -9.0, -6.0), 5.0), ((-9.0, -9.0, 2.0), -2.0),
-                         ((-5.0, -5.0, -9.0, 2.0), 3.0)):
-        cells.press(2, 2, *stress)
-        assert cells.push(2, 2) == pytest.approx(push)
-
-
-def test_a_full_cell_of_the_surface_pushes_with_its_common_pressure():
-    cells = Surface(8.0, viscosity=0.5)
-    cells.press(2, 2, 7.0, 7.0, 7.0)
-    assert cells.push(2, 2) == 8.5
 
 
 @pytest.mark.parametrize("kind", [WHOLE, INTERFACE])
@@ -257,35 +160,6 @@ def test_a_cell_without_bodies_does_not_push(kind):
     assert cells.push(2, 2) == 0.0
 
 
-def test_a_cell_of_the_surface_counts_for_both_groups_another_one_for_what_fills_it():
-    cells = Surface()
-    cells.fill(SOFT, 1, 1)
-    cells.fill(HARD, 2, 2)
-    assert [cells.counts(n, n) for n in range(3)] == [[True, True], [True, False], [False, True]]
-    cells.fill(SOFT, 3, 3)
-    cells.soft[FIRST + 3, FIRST + 3], cells.hard[FIRST + 3, FIRST + 3] = 0.6, 0.4
-    assert cells.counts(3, 3) == [True, False]
-
-
-def test_a_group_presses_with_the_hardest_push_of_its_neighbours():
-    cells = Surface(kind=WHOLE)
-    cells.fill(SOFT, np.s_[:], np.s_[:])
-    for j, i, pressure in ((2, 2, 1.0), (2, 4, 4.0), (1, 3, 2.0), (3, 3, 3.0), (3, 4, 9.0), (2, 3, 9.0)):
-        cells.press(j, i, -pressure, -pressure, -pressure)
-    assert cells.pressed(2, 3, SOFT) == 4.0
-    assert cells.pressed(2, 3, HARD) == 0.0
-    cells.fill(HARD, 2, 4)
-    assert cells.pressed(2, 3, SOFT) == 3.0
-    assert cells.pressed(2, 3, HARD) == 4.0
-
-
-def test_a_stretched_neighbour_presses_on_nothing():
-    cells = Surface(kind=WHOLE)
-    cells.fill(SOFT, np.s_[:], np.s_[:])
-    cells.press(np.s_[:], np.s_[:], 2.0, -9.0, -9.0)
-    assert cells.pressed(2, 3, SOFT) == 0.0
-
-
 @pytest.mark.parametrize(("along_r", "second"), [(True, (1, 0)), (False, (0, 1))])
 def test_slip_is_the_mean_over_a_face_of_what_goes_along_the_surface_beyond_what_closes(along_r, second):
     u, v = np.full((2, 2, N, N), np.nan)
@@ -298,12 +172,3 @@ def test_slip_is_the_mean_over_a_face_of_what_goes_along_the_surface_beyond_what
     assert slip(1.0, 0.0) == pytest.approx(0.5 * ((4.0 - 3.0) + 10.0))
     assert slip(0.0, -5.0) == 0.0
     assert slip(4.0, -3.0) == pytest.approx(0.5 * (5.0 + (4 * 10 - 3 * 10) / 5.0))
-
-
-def test_bodies_that_meet_do_not_slip():
-    """At a rim their surfaces are not normal to their velocities."""
-    u, v = np.zeros((2, 2, N, N))
-    v[HARD] = 40.0
-    for tilt in (0.0, 0.5, 1.0):
-        assert slip_at(2, 3, True, tilt, 1.0, u, v) == 0.0
-    assert slip_at(2, 3, True, 2.0, 1.0, u, v) == pytest.approx(40.0 / np.sqrt(5.0))

@@ -42,21 +42,6 @@ def test_the_work_of_the_forces_is_minus_that_of_the_stress(geometry, seed):
 
 
 @GEOMETRIES
-def test_the_vectors_of_a_cell_are_those_of_its_page(geometry):
-    """c_r, c_z and g of equation 1 at all four vertices, and the area of the hoop stress."""
-    r1, r2, h = 0.3, 0.5, 0.4
-    across = r2 - r1
-    if geometry == "cylindrical":
-        c_r, hoop = 0.5 * h * np.array([-r1, r2, r2, -r1]), 0.25 * h * across
-        a, b, g = across * (2 * r1 + r2) / 6, across * (r1 + 2 * r2) / 6, 0.25 * (r1 + r2) * h
-    else:
-        c_r, hoop, a, b, g = 0.5 * h * np.array([-1, 1, 1, -1]), 0.0, 0.5 * across, 0.5 * across, 0.5 * h
-    expected = zip(c_r - hoop, [hoop] * 4, [-a, -b, b, a], [-g, g, g, -g], strict=True)
-    for (outer, upper), vectors in zip(CORNERS, expected, strict=True):
-        assert corners.corner(3, outer, upper, Grid(R, Z, geometry).metrics, h) == pytest.approx(vectors, rel=1e-14)
-
-
-@GEOMETRIES
 @pytest.mark.parametrize("seed", range(3))
 def test_sums_over_the_cells_around_a_vertex_are_those_of_their_corners(geometry, seed):
     grid, u, v, (rr, zz, tt, rz), kappa = scene(geometry, seed)

@@ -17,15 +17,6 @@ def test_an_edge_holds_the_component_across_it():
     assert is_constrained(4, 5, constrained) == (False, False)
 
 
-@pytest.mark.parametrize(("line", "vertex", "held"), [
-    (4, (4, 2), (False, True)), (5, (4, 2), (False, True)), (6, (2, 4), (True, False)), (7, (2, 4), (True, False)),
-    (4, (2, 4), (False, False)), (7, (4, 2), (False, False))])
-def test_a_held_edge_holds_the_component_along_it(line, vertex, held):
-    constrained = np.full(8, -1)
-    constrained[line] = 2
-    assert is_constrained(*vertex, constrained) == held
-
-
 @pytest.mark.parametrize(("edge", "free", "after"), [(0, 4.0, 4.0), (0, -4.0, 1.0), (1, 4.0, 1.0), (1, -4.0, -4.0),
                                                      (2, 4.0, 4.0), (3, 4.0, 1.0)])
 def test_an_edge_that_only_pushes_lets_go_what_leaves_it(edge, free, after):

@@ -14,17 +14,13 @@ centroid_below = interfaces.centroid_below.py_func
 line_piece = interfaces.line_piece.py_func
 line_centre = interfaces.line_centre.py_func
 cumulative = interfaces.cumulative.py_func
-youngs_difference = interfaces.youngs_difference.py_func
-youngs_gradient = interfaces.youngs_gradient.py_func
 youngs_normal = interfaces.youngs_normal.py_func
 add_body = interfaces.add_body.py_func
 at_most_full = interfaces.at_most_full.py_func
 line_misfit = interfaces.line_misfit.py_func
-corner_size = interfaces.corner_size.py_func
 corner = interfaces.corner.py_func
 relative_sizes = interfaces.relative_sizes.py_func
 surface = interfaces.surface.py_func
-covered = interfaces.covered.py_func
 corner_piece = interfaces.corner_piece.py_func
 piece_of_surface = interfaces.piece_of_surface.py_func
 turned = interfaces.turned.py_func
@@ -82,23 +78,6 @@ def test_the_area_below_a_line_is_that_of_the_polygon(m1, alpha):
     assert area_below(m1, 1.0 - m1, alpha) == pytest.approx(area(cut(block(0.0, 1.0), m1, 1.0 - m1, alpha)[0]), abs=1e-12)
 
 
-def test_the_area_of_a_triangle():
-    assert area_below(0.5, 0.5, 0.25) == pytest.approx(0.125)
-    assert area_below(0.25, 0.75, 0.25) == pytest.approx(1.0 / 6.0)
-
-
-def test_the_area_does_not_know_the_length_of_the_normal():
-    assert area_below(4.0, 12.0, 4.0) == pytest.approx(1.0 / 6.0)
-
-
-@pytest.mark.parametrize("tilt", [0.0, 1e-12, 0.9e-7, 1.1e-7])
-def test_below_a_line_that_is_all_but_level_is_its_height_in_the_middle(tilt):
-    middle = (0.3 - 0.5 * tilt) / (1.0 - tilt)
-    for alpha, share in ((-0.1, 0.0), (0.3, middle), (1.2, 1.0)):
-        assert area_below(tilt, 1.0 - tilt, alpha) == pytest.approx(share, abs=1e-8)
-        assert area_below(1.0 - tilt, tilt, alpha) == pytest.approx(share, abs=1e-8)
-
-
 def by_integration(m1, m2, alpha):
     """`centroid_below` by Gauss quadrature over y, between the heights at which the line meets the sides."""
     ends = sorted({0.0, 1.0, *(min(max((alpha - m1 * x) / m2, 0.0), 1.0) for x in (0.0, 1.0))})
@@ -122,41 +101,10 @@ def test_the_centroid_below_a_line_is_that_of_an_integration(m1, m2, place):
     assert exchanged == ((share, y, x) if m1 != m2 else pytest.approx((share, y, x), abs=1e-15))
 
 
-def test_centroids_below_lines_that_are_known():
-    assert centroid_below(0.5, 0.5, 0.25) == pytest.approx((0.125, 1.0 / 6.0 - 0.5, 1.0 / 6.0 - 0.5))  # a triangle
-    assert centroid_below(1.0, 0.0, 0.3) == pytest.approx((0.3, -0.35, 0.0))  # a slab
-    assert centroid_below(0.0, 1.0, 0.3) == pytest.approx((0.3, 0.0, -0.35))
-    assert centroid_below(0.5, 0.5, 0.75) == pytest.approx((0.875, -1.0 / 21.0, -1.0 / 21.0))  # all but a triangle
-    assert centroid_below(0.3, 0.7, 1.0) == (1.0, 0.0, 0.0)
-    assert centroid_below(1.0, 0.0, 0.0) == centroid_below(0.0, 1.0, -0.1) == (0.0, 0.0, 0.0)
-
-
-@pytest.mark.parametrize("alpha", [0.2, 0.8])
-def test_the_centroid_does_not_jump_where_the_line_passes_a_corner(alpha):
-    """From a triangle to a trapezium, and on to all but a triangle."""
-    changes_in_proportion(lambda level: centroid_below(0.2, 0.8, level), alpha, 5.0)
-
-
-@given(UNIT, st.floats(-0.5, 1.5), st.floats(0.0, 1.0))
-def test_a_line_further_on_leaves_no_less_below(m1, alpha, more):
-    assert area_below(m1, 1.0 - m1, alpha + more) >= area_below(m1, 1.0 - m1, alpha) - 1e-7
-
-
 @given(UNIT, st.floats(1e-9, 1.0 - 1e-9))
 def test_the_area_below_the_line_of_a_fraction_is_the_fraction(m1, fraction):
     """To 1e-7, below which a line is treated as level."""
     assert area_below(m1, 1.0 - m1, line_constant(m1, 1.0 - m1, fraction)) == pytest.approx(fraction, abs=1e-7)
-
-
-@given(COMPONENT, st.floats(0.02, 0.98))
-def test_the_line_of_the_area_below_a_line_is_the_line(m1, alpha):
-    assert line_constant(m1, 1.0 - m1, area_below(m1, 1.0 - m1, alpha)) == pytest.approx(alpha, abs=1e-12)
-
-
-@pytest.mark.parametrize(("m1", "fraction", "alpha"), [(0.5, 0.125, 0.25), (0.25, 1.0 / 6.0, 0.25), (0.5, 0.5, 0.5),
-                                                       (0.0, 0.3, 0.3), (1.0, 0.3, 0.3), (0.5, 0.875, 0.75)])
-def test_lines_that_are_known(m1, fraction, alpha):
-    assert line_constant(m1, 1.0 - m1, fraction) == pytest.approx(alpha)
 
 
 @given(UNIT, UNIT)
@@ -165,12 +113,6 @@ def test_the_line_is_the_same_from_either_side(m1, fraction):
     alpha = line_constant(m1, 1.0 - m1, fraction)
     assert line_constant(1.0 - m1, m1, fraction) == alpha
     assert line_constant(m1, 1.0 - m1, 1.0 - fraction) == pytest.approx(1.0 - alpha, abs=1e-7)
-
-
-@pytest.mark.parametrize("m1", [0.0, 0.2, 0.5, 0.9, 1.0])
-def test_an_empty_and_a_full_square_end_at_their_corners(m1):
-    assert line_constant(m1, 1.0 - m1, 0.0) == 0.0
-    assert line_constant(m1, 1.0 - m1, 1.0) == 1.0
 
 
 # ---------------------------------------------------------------------------------------------------------- strips
@@ -221,43 +163,6 @@ def test_strips_add_up_to_the_cell(nx, up, fraction, width):
     assert low_across + high_across == pytest.approx(across, abs=4.0 * small)
 
 
-@given(st.floats(-1.0, 1.0), UNIT, WIDTH)
-def test_mirrored_strips_are_the_same_bits(nx, fraction, width):
-    ny = 1.0 - abs(nx)
-    share, along, across = line_piece(nx, ny, fraction, width, True)
-    if nx != 0.0:
-        assert line_piece(-nx, ny, fraction, width, False) == (share, -along, across)
-    if ny != 0.0:
-        assert line_piece(nx, -ny, fraction, width, True) == (share, along, -across)
-
-
-def test_a_strip_of_a_level_interface():
-    assert line_piece(1.0, 0.0, 0.7, 0.25, True) == (0.0, 0.0, 0.0)
-    assert line_piece(1.0, 0.0, 0.7, 0.25, False) == pytest.approx((0.25, 0.0, 0.0), abs=1e-15)
-    assert line_piece(-1.0, 0.0, 0.7, 0.4, False) == pytest.approx((0.1, 0.1 * 0.375, 0.0), abs=1e-15)
-    assert line_piece(0.0, 1.0, 0.7, 0.25, True) == pytest.approx((0.175, 0.0, 0.175 * -0.15), abs=1e-15)
-
-
-@pytest.mark.parametrize("high", [False, True])
-@pytest.mark.parametrize("error", [0.0, 1e-15])
-def test_a_strip_of_nothing_and_a_strip_of_all(high, error):
-    """Even where round-off makes it less than nothing or more than all."""
-    assert line_piece(0.4, -0.6, -error, 0.3, high) == (0.0, 0.0, 0.0)
-    assert line_piece(0.4, -0.6, 1.0 + error, 0.3, high) == (0.3, 0.0, 0.0)
-
-
-@pytest.mark.parametrize("high", [False, True])
-def test_without_a_normal_the_material_is_spread_evenly(high):
-    assert line_piece(0.0, 0.0, 0.6, 0.25, high) == pytest.approx((0.15, 0.0, 0.0))
-
-
-def test_the_strip_on_the_far_side_of_upright_material_stays_empty():
-    """Material to the left of 0.7: the last quarter has none, the last half a fifth."""
-    assert line_piece(1.0, 0.0, 0.7, 0.25, True)[0] == 0.0
-    assert line_piece(1.0, 0.0, 0.7, 0.5, True)[0] == pytest.approx(0.2)
-    assert line_piece(-1.0, 0.0, 0.7, 0.25, True)[0] == pytest.approx(0.25)
-
-
 # ---------------------------------------------------------------------------------------------------------- centre
 
 
@@ -269,32 +174,9 @@ def test_the_centre_of_a_line_is_halfway_between_its_ends(nx, side, up, place):
         assert line_centre(nx, ny, area(part)) == pytest.approx(tuple(np.mean(ends, axis=0)), abs=1e-11)
 
 
-@pytest.mark.parametrize(("normal", "centre"), [((1.0, 0.0), (0.3, 0.5)), ((-1.0, 0.0), (0.7, 0.5)),
-                                                ((0.0, 1.0), (0.5, 0.3)), ((0.0, -1.0), (0.5, 0.7))])
-def test_the_centre_of_a_level_line(normal, centre):
-    assert line_centre(*normal, 0.3) == pytest.approx(centre)
-
-
-def test_the_line_of_a_full_square_lies_on_its_side():
-    assert line_centre(1.0, 0.0, 1.0) == (1.0, 0.5)
-    assert line_centre(0.0, -1.0, 1.0) == (0.5, 0.0)
-
-
-def test_the_centre_of_the_line_that_cuts_off_a_corner():
-    assert line_centre(0.5, 0.5, 0.125) == pytest.approx((0.25, 0.25))
-    assert line_centre(-0.5, 0.5, 0.125) == pytest.approx((0.75, 0.25))
-    assert line_centre(-0.5, -0.5, 0.125) == pytest.approx((0.75, 0.75))
-
-
 # ---------------------------------------------------------------------------------------------------------- nesting
 
 ORDER = np.array([2, 0, 1])
-
-
-def test_fractions_add_up_in_the_order_of_the_bodies():
-    vof = np.full((3, 2, 2), np.nan)
-    vof[:, 1, 0] = 0.125, 0.25, 0.5
-    assert [cumulative(1, 0, last, ORDER, vof) for last in range(3)] == [0.5, 0.625, 0.875]
 
 
 def test_round_off_does_not_overfill_a_cell():
@@ -333,18 +215,6 @@ def normal_of(*bodies, dr=DR, dz=DZ):
     return youngs_normal(2, 2, sums_of(*bodies), dr, dz)
 
 
-def test_fractions_of_bodies_add_up_row_by_row_and_then_two_cells_away():
-    """The cells two away are left and right, below and above, then at the corners; no others count."""
-    cells = [(1, 1), (1, 2), (1, 3), (2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3), (2, 0), (2, 4), (0, 2), (4, 2),
-             (0, 0), (0, 4), (4, 0), (4, 4)]
-    vof = np.full((2, 5, 5), np.nan)
-    for n, cell in enumerate(cells):
-        vof[:, *cell] = 0.01 * n, 0.5 + 0.01 * n
-    first = add_body(0, 2, 2, vof, NOTHING)
-    assert first == tuple(vof[0, *cell] for cell in cells)
-    assert add_body(1, 2, 2, vof, first) == tuple(vof[0, *cell] + vof[1, *cell] for cell in cells)
-
-
 @pytest.mark.parametrize("n", range(17))
 def test_no_cell_is_more_than_full(n):
     f = tuple(1.25 if k == n else 0.05 * k for k in range(17))
@@ -361,42 +231,9 @@ def test_the_normal_of_a_linear_fraction_points_against_its_gradient_in_the_unit
     np.testing.assert_allclose(normal_of(plane(by_r, by_z)), fall / np.abs(fall).sum(), rtol=1e-10)
 
 
-def test_the_normal_points_out_of_the_material():
-    assert normal_of(plane(-0.1, 0.0)) == pytest.approx((1.0, 0.0), abs=1e-12)
-    assert normal_of(plane(0.1, 0.0)) == pytest.approx((-1.0, 0.0), abs=1e-12)
-    assert normal_of(plane(0.0, -0.1)) == pytest.approx((0.0, 1.0), abs=1e-12)
-    assert normal_of(plane(0.0, 0.1)) == pytest.approx((0.0, -1.0), abs=1e-12)
-
-
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
 def test_a_uniform_fraction_has_no_normal(share):
     assert normal_of(np.full((5, 5), share)) == (0.0, 0.0)
-
-
-def test_round_off_has_no_normal():
-    assert normal_of(0.3 + 1e-16 * np.random.default_rng(10).integers(-1, 2, size=(5, 5))) == (0.0, 0.0)
-
-
-def test_a_cell_at_a_corner_counts_half_as_much_as_one_at_a_side():
-    """One at the corner below left and one at the right: along r 1 - 2, along z 1."""
-    f = np.zeros((5, 5))
-    f[1, 1] = f[2, 3] = 1.0
-    assert normal_of(f, dr=np.ones(5), dz=np.ones(5)) == pytest.approx((-0.5, 0.5))
-
-
-@pytest.mark.parametrize(("row", "column", "normal"), [(1, 1, (0.5, 0.5)), (1, 3, (-0.5, 0.5)), (3, 1, (0.5, -0.5)),
-                                                       (3, 3, (-0.5, -0.5)), (1, 2, (0.0, 1.0)), (3, 2, (0.0, -1.0)),
-                                                       (2, 1, (1.0, 0.0)), (2, 3, (-1.0, 0.0))])
-def test_every_cell_around_pushes_the_normal_away_from_itself(row, column, normal):
-    f = np.zeros((5, 5))
-    f[row, column] = 1.0
-    assert normal_of(f, dr=np.ones(5), dz=np.ones(5)) == pytest.approx(normal)
-
-
-def test_the_normal_is_that_of_the_first_bodies_together():
-    """Two bodies whose own fractions are rough, and whose sum falls along r alone."""
-    rough = 0.2 * np.random.default_rng(5).uniform(size=(5, 5))
-    assert normal_of(rough, plane(-0.1, 0.0) - rough) == pytest.approx((1.0, 0.0), abs=1e-12)
 
 
 def test_mirrored_fractions_have_mirrored_normals_to_the_bit():
@@ -404,68 +241,6 @@ def test_mirrored_fractions_have_mirrored_normals_to_the_bit():
     n_r, n_z = normal_of(f)
     assert normal_of(f[:, ::-1], dr=DR[::-1]) == (-n_r, n_z)
     assert normal_of(f[::-1], dz=DZ[::-1]) == (n_r, -n_z)
-
-
-# -------------------------------------------------------------------------------------------------------- gradients
-
-
-def around(f):
-    """The eight cells around cell (2, 2), from below left on, row by row."""
-    return [f[row, column] for row in (1, 2, 3) for column in (1, 2, 3) if (row, column) != (2, 2)]
-
-
-def gradient_of(f, dr=DR, dz=DZ):
-    return youngs_gradient(2, 2, *around(f), dr, dz)
-
-
-def test_every_cell_around_has_its_weight_in_youngs_difference():
-    """1 at a corner, 2 at a side; cells on the lower side count positively."""
-    weights = np.zeros((2, 3, 3))
-    for row, column in np.ndindex(3, 3):
-        f = np.zeros((5, 5))
-        f[row + 1, column + 1] = 1.0
-        weights[:, row, column] = youngs_difference(*around(f))
-    across = [[1.0, 0.0, -1.0], [2.0, 0.0, -2.0], [1.0, 0.0, -1.0]]
-    np.testing.assert_array_equal(weights, [across, np.transpose(across)])
-
-
-@given(GRADIENT, GRADIENT)
-def test_youngs_difference_of_a_linear_fraction_is_eight_times_its_fall_from_cell_to_cell(by_column, by_row):
-    f = 0.5 + np.add.outer(by_row * np.arange(5), by_column * np.arange(5))
-    assert youngs_difference(*around(f)) == pytest.approx((-8.0 * by_column, -8.0 * by_row))
-
-
-def test_youngs_difference_of_mirrored_fractions_is_mirrored_to_the_bit():
-    f = np.random.default_rng(13).uniform(size=(5, 5))
-    along_r, along_z = youngs_difference(*around(f))
-    assert youngs_difference(*around(f[:, ::-1])) == (-along_r, along_z)
-    assert youngs_difference(*around(f[::-1])) == (along_r, -along_z)
-    assert youngs_difference(*around(f.T)) == (along_z, along_r)
-
-
-@given(GRADIENT, GRADIENT)
-def test_youngs_gradient_of_a_linear_fraction_is_four_times_its_fall_across_the_cell(by_r, by_z):
-    """The weights 1, 2, 1 are not divided by their sum."""
-    assert gradient_of(plane(by_r, by_z)) == pytest.approx((-8.0 * by_r, -3.2 * by_z))
-
-
-def test_youngs_gradient_points_where_the_normal_does():
-    f = np.random.default_rng(7).uniform(size=(5, 5))
-    along = np.array(gradient_of(f))
-    np.testing.assert_allclose(along / np.abs(along).sum(), normal_of(f), rtol=1e-12)
-
-
-def test_where_cells_have_one_size_youngs_gradient_is_half_of_the_difference():
-    """Over the width of one cell, where the neighbours are two widths apart."""
-    f, size = np.random.default_rng(14).uniform(size=(5, 5)), np.full(5, 0.3)
-    assert gradient_of(f, size, size) == pytest.approx(tuple(0.5 * along for along in youngs_difference(*around(f))))
-
-
-def test_mirrored_fractions_have_mirrored_gradients_to_the_bit():
-    f = np.random.default_rng(8).uniform(size=(5, 5))
-    along_r, along_z = gradient_of(f)
-    assert gradient_of(f[:, ::-1], dr=DR[::-1]) == (-along_r, along_z)
-    assert gradient_of(f[::-1], dz=DZ[::-1]) == (along_r, -along_z)
 
 
 # --------------------------------------------------------------------------------------------------------- corners
@@ -513,17 +288,6 @@ def test_a_slanted_line_stays_a_line(n1, to_r, to_z, place):
     assert surface_of(f, np.ones(5), np.ones(5))[4] == 0.0
 
 
-@pytest.mark.parametrize("cells", [5.5, 6.5, 8.5, 12.5])
-def test_a_round_nose_has_no_corners(cells):
-    """A hemisphere in (r, z): corners are chosen where edges are straight along the mesh, not where a surface curves."""
-    fine = (np.arange(20 * 16) + 0.5) / 20
-    inside = fine[None, :] ** 2 + (fine[:, None] - 0.3) ** 2 < cells**2
-    f = np.pad(inside.reshape(16, 20, 16, 20).mean(axis=(1, 3)), ((2, 2), (2, 2)), mode="edge")
-    sizes = np.ones(20)
-    weights = [surface(j, i, sums_of(f, j=j, i=i), sizes, sizes, 1.0 - f[j, i])[4] for j in range(2, 18) for i in range(2, 18)]
-    assert not any(weights)
-
-
 def test_an_edge_that_is_not_straight_has_no_corner():
     f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
     assert surface_of(f)[4] == 1.0
@@ -531,20 +295,6 @@ def test_an_edge_that_is_not_straight_has_no_corner():
         bent = f.copy()
         bent[0, 2] += change * interfaces.STRAIGHT
         assert surface_of(bent)[4] == pytest.approx(weight)
-
-
-def test_a_corner_has_no_weight_in_a_cell_without_void():
-    f = rectangle((-FAR, DR[:2].sum() + 0.4 * DR[2]), (-FAR, DZ[:2].sum() + 0.5 * DZ[2]))
-    for share, weight in ((2.0, 1.0), (1.0, 1.0), (0.5, 0.5), (0.0, 0.0)):
-        assert surface_of(f, void=share * interfaces.ROOM)[4] == pytest.approx(weight)
-
-
-def test_a_corner_keeps_the_fraction_and_the_proportion_of_its_neighbours():
-    width, height = corner_size(0.3, 0.4, 0.6)
-    assert width * height == pytest.approx(0.3)
-    assert width / height == pytest.approx(0.6 / 0.4)
-    assert corner_size(0.5, 0.01, 1.0) == pytest.approx((1.0, 0.5))  # no wider than the cell
-    assert corner_size(0.5, 1.0, 0.01) == pytest.approx((0.5, 1.0))
 
 
 @given(COMPONENT, COMPONENT, SIGN, SIGN, st.floats(0.01, 0.99), st.booleans(), st.booleans())
@@ -560,27 +310,6 @@ def test_a_strip_has_its_part_of_the_corner(width, height, to_x, to_y, strip, hi
     piece = corner_piece(to_x * 0.5, to_y * 0.5, *size, strip, high)
     assert piece == pytest.approx(expected, abs=1e-13)
     assert piece_of_surface(to_x * 0.5, to_y * 0.5, *size, 1.0, width * height, strip, high) == piece
-
-
-@given(COMPONENT, COMPONENT, SIGN, SIGN, WIDTH, st.booleans(), SIGN)
-def test_mirrored_corners_have_the_same_bits(width, height, n_x, n_y, strip, high, filled):
-    size = filled * width, filled * height
-    share, along, across = corner_piece(n_x, n_y, *size, strip, high)
-    assert corner_piece(-n_x, n_y, *size, strip, not high) == (share, -along, across)
-    assert corner_piece(n_x, -n_y, *size, strip, high) == (share, along, -across)
-
-
-def test_a_strip_has_what_lies_in_it_of_the_line_as_far_as_the_corner_has_no_weight():
-    line, whole = line_piece(0.3, -0.7, 0.4, 0.2, True), corner_piece(0.3, -0.7, 0.8, 0.5, 0.2, True)
-    assert piece_of_surface(0.3, -0.7, 0.0, 0.0, 0.0, 0.4, 0.2, True) == line
-    part = piece_of_surface(0.3, -0.7, 0.8, 0.5, 0.25, 0.4, 0.2, True)
-    assert part == pytest.approx([0.25 * c + 0.75 * a for c, a in zip(whole, line, strict=True)])
-
-
-def test_strips_of_a_square_cover_each_other():
-    assert covered(0.3, 0.4, True) == 0.3
-    assert covered(0.3, 0.8, False) == pytest.approx(0.1)
-    assert covered(0.3, 0.6, False) == 0.0
 
 
 @given(COMPONENT, SIGN, SIGN, UNIT)
@@ -615,20 +344,6 @@ def test_fractions_are_turned_as_in_a_mirror():
     assert reversed_if(False, (0.5, 1.0, 1.5)) == (0.5, 1.0, 1.5)
 
 
-def test_mirrored_corners_have_the_same_weight_to_the_bit():
-    random = np.random.default_rng(9)
-    weights, even = [], np.ones(5)
-    for _ in range(200):
-        ends = [(0.0, 2.0 + random.uniform()) for _ in "rz"]
-        f = 0.9 * rectangle(*ends, (even, even)) + 0.1 * random.uniform(size=(5, 5))
-        f = f if random.uniform() < 0.5 else 1.0 - f
-        n_r, n_z, *rest = surface_of(f, even, even)
-        assert surface_of(f[:, ::-1], even, even) == (-n_r, n_z, *rest)
-        assert surface_of(f[::-1], even, even) == (n_r, -n_z, *rest)
-        weights.append(rest[2])
-    assert sum(0.0 < weight < 1.0 for weight in weights) > 20
-
-
 def test_sizes_are_relative_to_the_middle_one():
     assert relative_sizes(1, np.array([1.0, 2.0, 3.0])) == (0.5, 1.0, 1.5)
 
@@ -653,64 +368,10 @@ def test_a_corner_comes_in_with_the_void(void):
     assert largest_jump(lambda share: strips(ANGLE, share), -0.1, 0.5) < 1e-11
 
 
-@pytest.mark.parametrize("change", [0.5, 1.0])
-def test_a_corner_goes_as_its_edge_bends(change):
-    def bent(more):
-        f = ANGLE.copy()
-        f[0, 2] += more
-        return strips(f, 0.8)
-
-    changes_in_proportion(bent, change * interfaces.STRAIGHT, 2.0)
-    assert largest_jump(bent, 0.0, 0.3) < 1e-11
-
-
-def halfway(first, second, decision):
-    """The share of the second of two patterns at which the decision changes."""
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        same = decision((1.0 - middle) * first + middle * second) == decision(first)
-        low, high = (middle, high) if same else (low, middle)
-    return high
-
-
-def fits_better(f):
-    """Whether the corner, as it is, misses fewer of the cells around than the line."""
-    around_it = tuple(f[1:4, 1:4].ravel())
-    n_r, n_z = youngs_normal(2, 2, around_it, np.ones(5), np.ones(5))
-    width, height = corner_size(f[2, 2], f[2, 1], f[1, 2])
-    misfit = (width - f[1, 2]) ** 2 + (height - f[2, 1]) ** 2 + (1.0 - f[1, 1]) ** 2
-    misfit += sum(f[place] ** 2 for place in ((1, 3), (2, 3), (3, 1), (3, 2), (3, 3)))
-    return line_misfit(n_r, n_z, around_it, (1.0,) * 3, (1.0,) * 3) > misfit
-
-
 def slanted(level):
     """Fractions of 5 x 5 cells of one size below the line x + y = level."""
     squares = [[[(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)] for x in range(5)] for y in range(5)]
     return np.array([[area(cut(square, 1.0, 1.0, level)[0] or [(0.0, 0.0)] * 3) for square in row] for row in squares])
-
-
-def test_a_line_becomes_a_corner_little_by_little():
-    line = slanted(4.6)
-    line[2, 0], line[0, 2] = line[2, 1], line[1, 2]  # the edges continue straight
-
-    def mixed(share):
-        return strips((1.0 - share) * ANGLE + share * line, 0.5)
-
-    place = halfway(ANGLE, line, fits_better)
-    assert 0.01 < place < 0.99
-    changes_in_proportion(mixed, place, 5.0)
-
-
-@pytest.mark.parametrize("beside", [0.0, interfaces.THIN])
-def test_a_corner_vanishes_where_its_neighbours_have_none_of_it(beside):
-    def thin(share):
-        f = np.zeros((5, 5))
-        f[:2, :2], f[2, 2], f[:2, 2], f[2, :2] = 1.0, 0.3, 0.005, max(share, 0.0)
-        return strips(f, 0.7)
-
-    changes_in_proportion(thin, beside, 1.5 / interfaces.THIN)
-    assert largest_jump(thin, 0.0, 0.04) < 1e-11
 
 
 @settings(max_examples=200)
@@ -735,12 +396,6 @@ def test_strips_do_not_jump_as_the_fractions_change(seed, first, second):
 
     one, other = pattern(first), pattern(second)
     assert largest_jump(lambda share: strips((1.0 - share) * one + share * other, 0.5), 0.0, 1.0) < 1e-8
-
-
-@pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-7])
-def test_the_area_below_a_line_does_not_know_when_it_is_level(tilt):
-    for alpha in (0.5e-8, 0.3, 1.0 - 0.5e-8):
-        changes_in_proportion(lambda m1: area_below(abs(m1), 1.0 - abs(m1), alpha), tilt, 1.0)  # noqa: B023
 
 
 def test_nested_interfaces_keep_within_their_bounds():

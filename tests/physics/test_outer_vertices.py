@@ -40,14 +40,6 @@ def test_without_tensile_strength_a_vertex_loses_what_it_sinks_and_nothing_as_it
     assert lost(-3.0, 0.0, 0.0) == lost(-3.0, -4.0, 0.0) == 0.0
 
 
-def test_a_body_with_tensile_strength_takes_its_layer_along_both_ways():
-    assert lost(3.0, 1.0, 10.0) == 2.0
-    assert lost(3.0, -1.0, 10.0) == 4.0
-    assert lost(-3.0, -1.0, 10.0) == -2.0
-    assert lost(-3.0, 1.0, 2.5) == -2.5  # no more than the strength holds
-    assert lost(1e9, 0.0, 2.5) == 1e9
-
-
 def test_noise_has_no_slope():
     beyond = outer_vertices.beyond_noise.py_func
     assert beyond(0.5 * NOISE * 5000.0, 5000.0) == beyond(-NOISE * 5000.0, 5000.0) == 0.0

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import hydro2d
 from hydro2d.deck import deck as decks
 from problems import kept
 from problems.ceramics import dwell, read
@@ -116,6 +117,6 @@ def test_how_dwell_is_read(monkeypatch, tmp_path, capsys):
 
 def test_a_run_that_goes_on_is_refused(monkeypatch, tmp_path):
     """Its largest depth so far is not a final depth."""
-    monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: SimpleNamespace(summary={}))
+    monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: SimpleNamespace(summary=hydro2d.Summary()))
     with pytest.raises(ValueError, match="has not ended"):
         read.of_run(tmp_path)

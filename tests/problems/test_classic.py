@@ -8,6 +8,7 @@ import pytest
 
 from hydro2d.deck.sections import Numerics, Sliding
 from hydro2d.measure.audit import CLIPS, REMEDIES
+from hydro2d.measure.summary import Summary
 from hydro2d.study.plan import cases
 from problems.classic import table
 from tests.rules import source
@@ -72,8 +73,8 @@ def case(directory, shot, advection, status="done", clipped=0.0, fault="", **sum
     data = {"conservation": {"sinks": sinks, "start_energy_J": 40.0}, "trustworthy": not fault,
             "faults": [fault] if fault else [], "time_s": 9.004e-6, "cycles": 12, "status": status, **summary}
     (directory / "summary.json").write_text(json.dumps(data))
-    return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status, summary=data,
-                           directory=directory)
+    return SimpleNamespace(values={"shot": shot, "sliding": "none", "advection": advection}, status=status,
+                           summary=Summary(**data), directory=directory)
 
 
 @pytest.fixture

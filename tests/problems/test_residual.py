@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from hydro2d import Deck
+from hydro2d import Deck, Summary
 from hydro2d.penetration import lambert_jonas
 from hydro2d.study.plan import cases
 from problems.perforation import residual
@@ -16,7 +16,7 @@ SHOTS = Path(residual.__file__).with_name("weldox_velocities.toml")
 def case(nose, velocity, left, status="done"):
     crater = {"ejected_mass_kg": 0.03, "ejected_velocity_m_s": 200.0, "exit_diameter_m": 0.021}
     summary = {"outcome": {"perforated": left > 0.0, "residual_velocity_m_s": left}, "crater": crater}
-    return SimpleNamespace(values={"nose": nose, "velocity": f"{velocity} m/s"}, status=status, summary=summary)
+    return SimpleNamespace(values={"nose": nose, "velocity": f"{velocity} m/s"}, status=status, summary=Summary(**summary))
 
 
 @pytest.fixture

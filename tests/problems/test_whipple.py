@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
+import hydro2d
 from hydro2d.deck import deck as decks
 from hydro2d.study.plan import cases
 from problems import kept
@@ -63,14 +64,15 @@ def test_how_a_run_is_read(monkeypatch, tmp_path):
     fraction[0, 0, 1:3] = 1.0
     fields = xarray.Dataset({"volume_fraction": (("time", "body", "z", "r"), fraction)},
                             coords={"time": [0.0], "body": ["wall"], "z": np.arange(4.0), "r": np.arange(3.0)})
-    summary = {"stop_reason": "end time", "targets": {"wall": {"debris": {"mass_kg": 48e-6}}}}
-    monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: SimpleNamespace(deck=deck, fields=fields, summary=summary))
+    run = SimpleNamespace(deck=deck, fields=fields, summary=hydro2d.Summary(
+        stop_reason="end time", targets={"wall": {"debris": {"mass_kg": 48e-6}}}))
+    monkeypatch.setattr(read.hydro2d, "open_run", lambda directory: run)
     row = dict(zip(read.COLUMNS, read.of_run(tmp_path), strict=True))
     assert [row[name] for name in read.COLUMNS[1:]] == ["7.21", "0.84", "50.8", "1.45", 8, "no", "48.00"]
     assert read.BALL_MASS == pytest.approx(47.1, abs=0.1)
     assert read.defeated(row)
     assert not read.defeated({**row, "behind_mg": "47.0"})
-    summary["stop_reason"] = "interrupted (SIGTERM)"
+    run.summary = hydro2d.Summary(stop_reason="interrupted (SIGTERM)")
     with pytest.raises(ValueError, match="the run has not ended"):
         read.of_run(tmp_path)
 

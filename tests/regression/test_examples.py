@@ -73,13 +73,14 @@ FILLED = {
     "RUN": "runs/shot",
     "150 mm,215 mm,20 mm": "-5 mm,15 mm,20 mm",
 }
-#: files that a page assumes in its folder: a deck or a study that has run, or one of its toml blocks, by number
+#: files that a page assumes in its folder: a deck or a study that has run, or one of its blocks, by number
 PRESUMED = {
     "docs/how-to/index.md": {"runs/shot": DECK},
     "docs/tutorials/first-study.md": {"first_study.toml": 0},
     "docs/how-to/depth-curves.md": {"curve.toml": 0},
     "docs/how-to/find-a-transition.md": {"limit.toml": 0},
     "docs/how-to/make-a-film.md": {"runs/shot": DECK},
+    "docs/how-to/own-result.md": {"bulge.py": 0},
     "docs/how-to/paraview.md": {"runs/shot": DECK},
     "docs/how-to/perforate-a-plate.md": {"runs/shot": DECK},
     "docs/how-to/restart.md": {"runs/shot": DECK},
@@ -232,7 +233,7 @@ def folder(short, tmp_path, monkeypatch):
     def prepare(page: str) -> None:
         for name, file in PRESUMED.get(page, {}).items():
             if isinstance(file, int):
-                Path(name).write_text(of_kind(page, "toml")[file][2])
+                Path(name).write_text(of_kind(page, "toml" if name.endswith(".toml") else "python")[file][2])
                 continue
             kept = short / "runs" / Path(file).stem
             if not kept.exists():

@@ -130,8 +130,34 @@ def test_a_run_that_has_not_ended_says_so(shot):
     assert "<th>depth</th>" not in opened._repr_html_()
 
 
+def test_a_name_that_no_result_has_is_an_error(shot):
+    """Never a silent None: as an attribute, as a key, within a table, and before the run has ended."""
+    assert shot.summary["outcome"]["depth_m"] == shot.summary.outcome.depth_m
+    assert shot.summary["provenance"]["models"] == []
+    for summary in (shot.summary, hydro2d.Summary()):
+        with pytest.raises(KeyError, match='unknown result "penetration_dept_m"; did you mean "penetration_depth_m"'):
+            summary["penetration_dept_m"]
+        for wrong in ("penetration_dept_m", "get"):
+            with pytest.raises(AttributeError, match=wrong):
+                getattr(summary, wrong)
+        assert "penetration_dept_m" not in summary
+        assert "penetration_depth_m" in summary
+    with pytest.raises(KeyError, match="depth_mm"):
+        shot.summary["outcome"]["depth_mm"]
+    with pytest.raises(KeyError, match="plat"):
+        shot.summary.bodies["plat"]
+
+
+def test_a_run_that_has_not_ended_has_a_summary_that_is_false(shot):
+    assert shot.summary
+    (shot.directory / "summary.json").unlink()
+    assert not hydro2d.open_run(shot.directory).summary
+    assert hydro2d.open_run(shot.directory).summary.penetration_depth_m is None
+
+
 def test_a_deck_without_a_rod_says_nothing_of_one(shot):
-    shot.summary |= dict.fromkeys(("penetration_depth_m", "rod_length_m", "regime"))
+    nothing = dict.fromkeys(("penetration_depth_m", "rod_length_m", "regime"))
+    shot.summary = shot.summary.model_copy(update=nothing)
     assert "<th>rod</th>" not in shot._repr_html_()
     assert "depth" not in repr(shot)
 

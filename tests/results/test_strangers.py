@@ -155,8 +155,8 @@ def test_names_in_histories(tmp_path):
 
 
 @pytest.mark.parametrize("write", [
-    lambda name: to_csv([{name: name}]),
-    lambda name: to_csv([{"a": 1, name: "x"}]),
+    lambda name: to_csv(pandas.DataFrame([{name: name}])),
+    lambda name: to_csv(pandas.DataFrame([{"a": 1, name: "x"}])),
 ])
 def test_no_cell_is_a_formula(write):
     for name in PLACED:

@@ -44,6 +44,19 @@ def test_an_addition_touches_the_files_of_its_row(example):
     assert files_with_it == files, f"CONTRIBUTING.md: {addition}"
 
 
+def test_the_counts_are_those_of_the_code():
+    """Every file is counted once, and the places of an example are in the files of its row."""
+    from tests.rules import counts  # which imports this file
+
+    said = list(counts.lines())
+    files = [file for file in source.tracked_files() if file.suffix == ".py"]
+    total = sum(int(line.split()[0]) for line in said if re.fullmatch(r" +\d+ [\w.]+/", line))
+    assert total == sum(file.read_text(encoding="utf-8").count("\n") for file in files)
+    for example, what in (("radius_at_z_max_m", "result"), ("hourglass", "number of the method")):
+        assert {place.split(":")[0] for place in counts.places(counts.EXAMPLES[what])} == rows()[example][1]
+    assert "hydro2d.study.records.keeping.Row" in counts.forms_of_a_row()
+
+
 def test_every_file_of_the_table_exists():
     named = {file for _, files in rows().values() for file in files}
     assert [file for file in sorted(named) if not (source.ROOT / file).is_file()] == []

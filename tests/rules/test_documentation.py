@@ -240,7 +240,7 @@ SECTIONS = {
     "Top level": sections.Deck, "`[mesh]`": mesh_sections.Mesh, "`[boundaries]`": sections.Boundaries,
     "`[numerics]`": sections.Numerics, "`[sliding]`": sections.Sliding, "`[failure]`": sections.Failure,
     "`[stop]`": sections.Stop, "`[output]`": sections.Output, "`[[tracer]]`": sections.Tracer, "`[[gauge]]`": sections.Gauge,
-    "`[experiment]`": sections.Experiment, "`[penetration]`": sections.Penetration,
+    "`[result.NAME]`": sections.OwnFile, "`[experiment]`": sections.Experiment, "`[penetration]`": sections.Penetration,
     "Segment: a table of `mesh.r` and `mesh.z`": mesh_sections.Segment, "Flow: a table of `body.flow`": body.Flow,
     **{f'`[[body]]` with `shape = "{shape}"`': kind for shape, kind in shapes.KINDS.items()},
 }
@@ -251,7 +251,7 @@ def test_the_example_of_every_key_is_valid(heading):
     """Each line is parsed and checked against the type and the bounds of its key in the code."""
     lines, kind = sections_of_the_page()[heading], SECTIONS[heading]
     tables = {"mesh", "boundaries", "body", "materials", "numerics", "sliding", "failure", "stop", "output", "tracer", "gauge",
-              "source", "experiment", "penetration"} if kind is sections.Deck else set()
+              "source", "result", "experiment", "penetration"} if kind is sections.Deck else set()
     assert set(lines) - {"include"} == set(kind.model_fields) - tables
     for key, line in lines.items():
         value = tomllib.loads(line)[key]

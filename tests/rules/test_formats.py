@@ -57,7 +57,8 @@ READ = {
              "files.toml.read: read_text", "files.toml.parse: tomllib.loads", "files.key_lines._first_lines: tomllib.loads"},
     "study": {"study.plan.definition.read: read_text"},
     "model": {"materials.outside.read: read_text"},
-    "table of an equation of state": {"materials.from_files._take_table: read_text", "cli.check_model.check: read_text"},
+    "table of an equation of state": {"cli.check_model.check: read_text"},
+    "results of one's own": {"materials.from_files._take_text: read_text"},  # and tables
     "measured flow stresses": {"materials.fitting.read_points: read_text"},
     "kept rows": {"files.csv_tables.lines: csv.reader", "files.csv_tables.lines: read_text"},  # and samples, and their points
     "compilation": {"jit.compilation.progress_of: opened"},

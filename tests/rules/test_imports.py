@@ -186,6 +186,7 @@ def users(library: str) -> set[str]:
                     "hydro2d.study.ensemble", "hydro2d.study.report", "hydro2d.study.samples.results", "hydro2d.study.search",
                     "hydro2d.api", "hydro2d.output.history", "hydro2d.results.tables")),
         ("xarray", ("hydro2d.output.datasets", "hydro2d.output.history")),
+        ("hydro2d.penetration", ("hydro2d.penetration", "hydro2d.analytic")),
         ("hydro2d.kernels", ("hydro2d.kernels", "hydro2d.solver", "hydro2d.measure.sanity", "hydro2d.measure.tracers",
                              "hydro2d.running.bench")),
     ],

@@ -57,7 +57,7 @@ def test_the_history(made):
 
 
 def test_the_summary(made):
-    assert unlisted(flat(made[0]), columns.SUMMARY) == (set(), set())
+    assert unlisted(flat(made[0].model_dump()), columns.SUMMARY) == (set(), set())
 
 
 def test_all_have_meanings():

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from hydro2d.measure.summary import Summary
 from hydro2d.output import ending
 from hydro2d.output.history import Columns
 from hydro2d.running import progress
@@ -181,13 +182,13 @@ def closing(theory=(), **changes):
     body = {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0, "initial_length_m": 25.4e-3, "length_m": 17.43e-3, "r_max_m": 6.6e-3,
             "outflow_kg": 0.0, "radius_at_z_min_m": 6.6e-3, "radius_at_z_max_m": 3.81e-3}
     station = {"peak_pressure_Pa": 3.21e9, "peak_pressure_time_s": 1.5e-6, "peak_speed_m_s": 190.0}
-    return result({
+    return result(Summary(**{
         "status": "done", "stop_reason": "end time", "faults": [], "cycles": 9, "time_s": 6e-5, "wall_s": 3.0,
         "cycles_s": 2.5, "compilation_s": 0.0, "outputs_s": 0.01, "set_up_s": 0.0,
         "ns_per_cell_cycle": None, "penetration_depth_m": None, "projectile": None, "bodies": {"bar": body},
         "stations": {"gauge_wall": station}, "derived": {"P/L": 0.5, "hole_m": None},
         "conservation": {"mass": {"bar": 0.0}, "axial_momentum": 0.0, "total_energy": 0.0}, **changes,
-    }, theory)
+    }), theory)
 
 
 def test_the_last_lines_name_compilation_cycles_and_outputs_separately():
@@ -279,7 +280,6 @@ def test_the_last_lines_say_what_moves():
     """The largest energy first; bodies at rest are left out."""
     known = {"plate": (-0.04, 40.0), "rod": (3.5, 900.0), "wall": (1e-9, 1e-15), "gone": (None, 0.0)}
     bodies = {name: {"velocity_m_s": speed, "kinetic_energy_J": energy} for name, (speed, energy) in known.items()}
-    said = progress._moving({"bodies": bodies, "projectile": {"body": "rod", "tail_velocity_m_s": 355.2}})
+    said = progress._moving(Summary(bodies=bodies, projectile={"body": "rod", "tail_velocity_m_s": 355.2}))
     assert said == "rod 3.5 m/s, 900 J; plate 0.0 m/s, 40 J; tail of the rod 355.2 m/s"
-    assert progress._moving({"bodies": {"wall": {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0}},
-                             "projectile": None}) == ""
+    assert progress._moving(Summary(bodies={"wall": {"velocity_m_s": 0.0, "kinetic_energy_J": 0.0}})) == ""

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 
 from hydro2d.deck import deck
-from hydro2d.kernels.sliding import SHEARS
 from hydro2d.materials import quantities
 from hydro2d.measure import tracers
 from hydro2d.output import derived_quantities, snapshot
 from hydro2d.output.vtk import Dump
 from hydro2d.results import figures, scales
 from hydro2d.running import check
-from hydro2d.solver.method import Method
 from hydro2d.solver.simulation import Simulation
 from tests.decks import entry, mesh, plate, rod, stop, table, walls
 
@@ -55,28 +53,6 @@ def set_velocities(simulation, rest, hard):
 def centre(simulation, cell):
     grid = simulation.grid
     return grid.rc[cell[1] + grid.g], grid.zc[cell[0] + grid.g]
-
-
-def test_method():
-    d = deck.loads(TEXT, ['sliding.hard=["backing"]'])
-    method = Method.from_deck(d, deck.slots(d), deck.sliding_widths(d), deck.yield_factor(d))
-    assert method.group.dtype == np.int64
-    assert method.group.tolist() == [0, 0, 1]
-    assert method.yield_factor.tolist() == [1.0, 1.0, 1.25]
-    assert method.interface_order.tolist() == [2, 0, 1]
-    assert not method.hard_bodies.any()
-    assert not method.slip_layer
-    assert method.slip_widths == (0.0, 0.0)
-
-
-def test_method_of_a_slip_layer():
-    d = deck.loads(TEXT, ["sliding.method=slip-layer", "sliding.shear=shear"])
-    method = Method.from_deck(d, deck.slots(d), deck.sliding_widths(d), deck.yield_factor(d))
-    assert method.group.tolist() == [0, 0, 0]
-    assert method.yield_factor.tolist() == [1.25, 1.0, 1.0]
-    assert method.hard_bodies.tolist() == [True, False, False]
-    assert method.slip_layer
-    assert method.shear == SHEARS.index("shear")
 
 
 def test_check_prints_the_contact_and_counts_its_memory():

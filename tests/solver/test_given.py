@@ -51,6 +51,22 @@ def test_every_name_is_used_by_a_phase():
     assert {name.symbol for name in stated} - used == set()
 
 
+#: phases before the first step and those of a step, in order, of a deck with a tracer; further ones that others have
+BEFORE, STEP = {"find_bodies", "find_masses"}, [
+    "find_moving", "grow_box", "cut_parts", "close_cells", "judge_cells", "choose_step_length", "begin_step", "accelerate",
+    "book_acceleration", "deform", "deform_mixed", "aim", "carry_bodies", "book_outflow", "carry_momentum", "book_momentum",
+    "end_step", "is_time_to_look", "move_tracers", "sample_stations", "keep_peaks_of_stations", "watch_shot", "look_at_clock"]
+BESIDE = {"plain": set(), "slip-layer": {"is_time_for_zones", "slip_zones"}, "contact": {"count_slots", "find_contact"},
+          "following": {"announce", "follow_core", "look_ahead", "move_mesh"}}
+
+
+@pytest.mark.parametrize("name", BESIDE)
+def test_a_deck_has_the_phases_that_it_needs(name):
+    called = [call.name.split(".")[-1] for call in calls_of_a_cycle(partial(started, DECKS[name]))]
+    assert [phase for phase in called if phase in STEP] == STEP
+    assert {*called} & {*PHASES} == BEFORE | {*STEP} | BESIDE[name]
+
+
 def owner(**attributes) -> tuple[SimpleNamespace, list[Work]]:
     """An owner and the names of its attributes."""
     return SimpleNamespace(**attributes), [Work(symbol, "", "") for symbol in attributes]

@@ -16,6 +16,7 @@ from hydro2d.base.interrupt import Interrupt
 from hydro2d.deck import deck as decks
 from hydro2d.files.checksums import verified_text
 from hydro2d.jit import compilation
+from hydro2d.measure.summary import Summary
 from hydro2d.output import history, snapshot
 from hydro2d.output.directory import deck_hash
 from hydro2d.study.records import study_directory
@@ -155,7 +156,7 @@ def test_a_case_that_is_done_is_done(text, place, reason):
     assert (run_case(place, text).status, run_case(place, text).fresh) == ("done", False)
     assert study_directory.state(place, deck_hash("another deck"))["status"] == "failed"
     (place / "summary.json").unlink()
-    assert study_directory.state(place, sha256) == {"status": "failed", "message": reason, "summary": {}}
+    assert study_directory.state(place, sha256) == {"status": "failed", "message": reason, "summary": Summary()}
 
 
 def test_a_worker_that_is_still_ending_is_waited_for(text, place):

@@ -11,6 +11,7 @@ import hydro2d
 from hydro2d.base.method_version import METHOD
 from hydro2d.cli.main import call
 from hydro2d.files.whole import write_json
+from hydro2d.measure.summary import Summary
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.velocities import Velocities
@@ -60,7 +61,7 @@ def test_round_trip(plan, written):
     first = study.cases[0]
     assert first.values == {"advection": "ke", "pressure": "0.1"}
     assert first.directory == written / "cases" / "ke_0.1"
-    assert (first.base, first.status, first.summary, first.deck) == ("tube.toml", "waiting", {}, None)
+    assert (first.base, first.status, first.summary, first.deck) == ("tube.toml", "waiting", Summary(), None)
     assert first.deck_sha256 == plan.cases[0].sha256
     assert "ke_2mm" == study.cases[2].name
     assert study.cases[2].status == "invalid"
@@ -110,7 +111,7 @@ def test_time_left():
     def case(status, **told):
         return study_directory.Case("a", Path("a"), status=status, **told)
 
-    done, waiting = case("done", summary={"wall_s": 100.0}), case("waiting")
+    done, waiting = case("done", summary=Summary(wall_s=100.0)), case("waiting")
     running = case("running", progress={"left_s": 40.0, "wall_s": 60.0})
     assert monitor.left([done, waiting, waiting, running], 2) == 120.0
     assert monitor.left([running, waiting], 1) == 140.0

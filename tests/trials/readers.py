@@ -24,6 +24,7 @@ from hydro2d.study.records import keeping, study_directory
 from tests.cli.test_main import DECK
 from tests.materials import test_sesame
 from tests.materials.made_models import VOCE
+from tests.measure.test_own_results import RIM
 from tests.trials.damage import damaged
 from tests.trials.test_texts import STUDY
 
@@ -83,6 +84,8 @@ READERS = {
     "study": Reader("study.toml", lambda file: definition.read(file, ())[0], {"study.toml": STUDY}),
     "points of a sample": Reader("x.csv", sampling.read, {"x.csv": "body.rod.velocity [m/s]\n1086\n1090\n"}),
     "model": Reader("voce.py", lambda file: outside.read(file).text, {"voce.py": VOCE}),
+    "results of one's own": Reader("rim.py", lambda file: deck.load(file.parent / "shot.toml").result["rim"].code,
+                                   {"shot.toml": f'{DECK}\n[result.rim]\nfile = "rim.py"\n', "rim.py": RIM}),
     "table of an equation of state": Reader("al.301", _sesame, {"shot.toml": test_sesame.DECK, "al.301": test_sesame.PLAIN}),
     "measured flow stresses": Reader("steel.txt", fitting.read_points, {"steel.txt": "0.1 1.0 300 5e8\n0.2 1.0 300 6e8\n"}),
     "kept rows": Reader("kept.csv", keeping.read, {"kept.csv": ROWS}),

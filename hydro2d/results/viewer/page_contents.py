@@ -45,7 +45,7 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     table = {
         "label": shown(run.label),
         "title": shown(run.tables.get("title", "")),
-        "ended": shown(run.summary.get("stop_reason") or "") if run.summary else None,
+        "ended": shown(run.summary.stop_reason or "") if run.summary else None,
         "mirrored": state.mirrored,
         "bodies": [shown(body) for body in state.bodies],
         "measured": {"z": run.measured_position, "depth": run.measured_depth},

@@ -20,4 +20,4 @@ class Erosion(Outcome):
 
     @classmethod
     def judge(cls, record, depth):
-        return lost(record) or Verdict(ERODING if record.case.summary.get("regime") == ERODING else HOLDS)
+        return lost(record) or Verdict(ERODING if record.case.summary.regime == ERODING else HOLDS)

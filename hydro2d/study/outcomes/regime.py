@@ -18,4 +18,4 @@ class Regime(Outcome):
 
     @classmethod
     def judge(cls, record, depth):
-        return lost(record) or Verdict(record.case.summary.get("regime"))
+        return lost(record) or Verdict(record.case.summary.regime)

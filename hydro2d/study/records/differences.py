@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from hydro2d.measure.result import is_number
+from hydro2d.measure.result import Result, is_number
 
 #: keys that are particular to each run
 OWN = ("name", "output.directory")
@@ -14,9 +14,9 @@ NAMED = ("body", "materials", "tracer", "gauge", "source")
 
 
 def flatten(value, prefix: str = "") -> dict[str, object]:
-    """Plain values by dotted key; entries of lists of tables by their name, else by their number."""
-    if isinstance(value, Mapping):
-        entries = value.items()
+    """Plain values by dotted key, of tables and of results; entries of lists of tables by their name, else by their number."""
+    if isinstance(value, (Mapping, Result)):
+        entries = dict(value).items()
     elif isinstance(value, (list, tuple)) and value and all(isinstance(entry, Mapping) for entry in value):
         entries = [(entry.get("name", number), entry) for number, entry in enumerate(value)]
     else:
@@ -28,8 +28,8 @@ def flatten(value, prefix: str = "") -> dict[str, object]:
     return flat
 
 
-def numbers(table: Mapping) -> dict[str, float]:
-    """The finite numbers of nested tables by dotted key."""
+def numbers(table: Mapping | Result) -> dict[str, float]:
+    """The finite numbers of nested tables or of results by dotted key."""
     return {name: value for name, value in flatten(table).items() if is_number(value)}
 
 

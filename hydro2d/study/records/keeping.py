@@ -3,7 +3,8 @@
 A row identifies its run by the labels of the case, cells across the projectile, and member; by the set-up, a hash of everything
 in the deck that can change a result; and by the version of the method. A run with a row of its set-up and of this method is up
 to date, and a sweep does not repeat it. The row of another set-up or method is stale. It stays until its run has been made.
-The row of a run of a sample has the values of its inputs as well, and the results that the sample names.
+The row of a run of a sample has the values of its inputs as well, and the results that the sample names. What [derived] of the
+deck defines and files of [result] measure has a column each.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import csv
 import io
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -28,6 +29,7 @@ from hydro2d.files.locks import locked
 from hydro2d.files.whole import write_text
 from hydro2d.measure.outcome import AT_LEAST, AT_MOST, COMPUTED, CUT, EXACT, NONE, Outcome, rested
 from hydro2d.measure.regime import LEFT, REGIMES
+from hydro2d.measure.summary import Provenance, Summary
 from hydro2d.study.plan import sampling, velocities
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
@@ -47,6 +49,8 @@ RESULTS = ("status", "stop_reason", "trustworthy", *Outcome.model_fields, "tail_
 #: those that rows of earlier versions lack
 LATER = ("perforated", "final", "depth_is", "depth_error_m", "depth_error_percent", "depth_error_is", "residual_error_m_s")
 ORIGIN = (SETUP, OF_METHOD, "commit", "date")
+#: beginning of the columns of what decks define
+DEFINED = "derived."
 #: results that depend on the machine
 OF_MACHINE = ("wall_s",)
 #: the regime of rows that were kept before the length of a rod told the two apart
@@ -105,8 +109,9 @@ class Wanted:
     def row(self, case: Case) -> Row:
         """The row of a run that has ended."""
         entries = {**results(case.summary), **origin(case.summary), SETUP: self.setup}
-        known = numbers(case.summary) if self.more else {}
-        entries |= {name: known.get(name) for name in self.more if name not in entries}
+        known = numbers(case.summary)
+        more = (*(name for name in known if name.startswith(DEFINED)), *self.more)
+        entries |= {name: known.get(name) for name in more if name not in entries}
         return self.about | self.inputs | {name: _text(value) for name, value in entries.items()}
 
 
@@ -118,22 +123,18 @@ def _inputs(sample: sampling.Points | None, case: Planned) -> Row:
     return {head: value if isinstance(value, str) else repr(value) for head, value in inputs.items()}
 
 
-def results(summary: Mapping) -> dict[str, object]:
+def results(summary: Summary) -> dict[str, object]:
     """The results of a summary by the names of RESULTS, SI; None for those that it does not have."""
-    outcome = summary.get("outcome") or {}
-    values = {name: summary.get(name) for name in RESULTS}
-    values |= {name: outcome.get(name) for name in Outcome.model_fields}
-    values |= {"tail_velocity_m_s": summary.get("rod_tail_velocity_m_s"),
-               "hole_m3": (summary.get("crater") or {}).get("volume_m3")}
+    values = dict(summary) | dict(summary.outcome or Outcome())
+    values |= {"tail_velocity_m_s": summary.rod_tail_velocity_m_s, "hole_m3": summary.crater and summary.crater.volume_m3}
     return {name: values[name] for name in RESULTS}
 
 
-def origin(summary: Mapping) -> dict[str, str | None]:
+def origin(summary: Summary) -> dict[str, str | None]:
     """The set-up, the version of the method, the commit and the date of a run by the names of ORIGIN."""
-    about = summary.get("provenance") or {}
-    commit = (about.get("git_commit") or "")[:LETTERS] + ("+" if about.get("git_dirty") else "")
-    return {SETUP: summary.get(SETUP), OF_METHOD: summary.get(OF_METHOD), "commit": commit,
-            "date": (about.get("written") or "")[:10]}
+    about = summary.provenance or Provenance()
+    commit = (about.git_commit or "")[:LETTERS] + ("+" if about.git_dirty else "")
+    return {SETUP: summary.setup, OF_METHOD: summary.method, "commit": commit, "date": (about.written or "")[:10]}
 
 
 def _text(value) -> str:
@@ -154,7 +155,7 @@ def safe(text: str) -> str:
 def labels(row: Row) -> Row:
     """The labels of the case by axis, the inputs of a sample, and ``cells_across``, without those that are empty."""
     others = {MEMBER, *RESULTS, *ORIGIN}
-    return {name: text for name, text in row.items() if text and name not in others}
+    return {name: text for name, text in row.items() if text and name not in others and not name.startswith(DEFINED)}
 
 
 def read(path: Path, own: Sequence[Column] = (), axes: Sequence[str] | None = None) -> list[csv_tables.Row]:
@@ -169,7 +170,7 @@ def read(path: Path, own: Sequence[Column] = (), axes: Sequence[str] | None = No
     common = {column.name for column in COLUMNS}
     columns = (*COLUMNS, *(column for column in own if column.name not in common))
     kept: dict[tuple, csv_tables.Row] = {}
-    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=Column):
+    for row in csv_tables.read(path, columns, StudyError, REMEDY, others=_other):
         _renew(row)
         run = tuple(labels(row).items() if axes is None else (row[name] for name in axes)), row[CELLS], row[MEMBER]
         of_setup = (row[SETUP], row[OF_METHOD]) if row[SETUP] else run
@@ -180,6 +181,11 @@ def read(path: Path, own: Sequence[Column] = (), axes: Sequence[str] | None = No
                 here, there = row[name], f'line {other.line} has "{other[name]}" for the same {what}'
                 raise StudyError(f'{path}:{row.line}: column "{name}": "{here}", and {there}; remove the line that is wrong')
     return [row for (what, *_), row in kept.items() if what == "run"]
+
+
+def _other(head: str) -> Column:
+    """A column of a file that is not known beforehand: of what decks define, else of any text."""
+    return Column(head, number) if head.startswith(DEFINED) else Column(head)
 
 
 def _renew(row: Row) -> None:
@@ -346,7 +352,8 @@ class Keeper:
 
     def _write(self) -> None:
         text = io.StringIO()
-        heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *self.more, *ORIGIN))
+        defined = sorted({name for row in self.rows for name in row if name.startswith(DEFINED)})
+        heads = dict.fromkeys((*self.axes, *self.heads, CELLS, MEMBER, *RESULTS, *defined, *self.more, *ORIGIN))
         table = csv.DictWriter(text, heads, restval="", extrasaction="ignore", lineterminator="\n")
         table.writeheader()
         table.writerows({name: safe(text) for name, text in row.items()} for row in self.rows)

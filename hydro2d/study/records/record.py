@@ -13,7 +13,7 @@ import numpy as np
 from hydro2d.analytic import experience, model_deck
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
-from hydro2d.deck import key_messages, targets
+from hydro2d.deck import formulas, key_messages, targets
 from hydro2d.files import checksums
 from hydro2d.files.strange import within
 from hydro2d.files.toml import dumps
@@ -105,6 +105,7 @@ class Record:
     history : thinned columns, SI;  first, last : first and last row of all columns
     start, rod : outlines of the projectile at the start and at the end
     unread : models of the deck that were not run, in words
+    own : names of the results that the files of [result] measure
     """
 
     case: Case
@@ -123,6 +124,7 @@ class Record:
     rod: list[np.ndarray] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)
+    own: list[str] = field(default_factory=list)
 
     @property
     def done(self) -> bool:
@@ -144,13 +146,13 @@ class Record:
     def outcome(self) -> Outcome:
         """What the shot came to: by its summary, or before its end by the last row of the history; empty without a shot."""
         summary = self.case.summary
-        if (known := summary.get("outcome")) is not None:
-            return Outcome(**known)
+        if summary.outcome is not None:
+            return summary.outcome
         if self.setup is None or self.velocity is None:
             return Outcome()
-        measured = {**self.last, **{name: value for name, value in summary.items() if value is not None}}
+        measured = {**self.last, **{name: value for name, value in summary if value is not None}}
         return outcome.of(Projectile(**{name: measured.get(name) for name in Projectile.model_fields}), status=self.case.status,
-                          stop_reason=summary.get("stop_reason") or "", impact_velocity=self.velocity,
+                          stop_reason=summary.stop_reason or "", impact_velocity=self.velocity,
                           thickness=self.setup.thickness, dropped=None)
 
     @property
@@ -162,9 +164,9 @@ class Record:
             return "no summary"
         if self.outcome.final is not False:
             return ""
-        moving = abs(self.case.summary.get("rod_core_velocity_m_s") or 0.0)
+        moving = abs(self.case.summary.rod_core_velocity_m_s or 0.0)
         speed = f"{moving:.0f}" if moving >= WHOLE_SPEED else f"{moving:.3g}"
-        return f"reached its {self.case.summary['stop_reason']}, still moving at {speed} m/s"
+        return f"reached its {self.case.summary.stop_reason}, still moving at {speed} m/s"
 
     @property
     def cut(self) -> bool:
@@ -175,14 +177,14 @@ class Record:
     def numbers(self) -> dict[str, float]:
         """Every number of the summary by dotted name, SI, or of the last row of the history without a summary; and ratios."""
         values = {self._as_in_summary(name): value for name, value in self.last.items()}
-        values |= {key: value for key, value in self.case.summary.items() if key != "provenance"}
+        values |= self.case.summary.model_dump(exclude={"provenance"}, exclude_unset=True)
         return numbers(values | {f"rod_{name}": self.outcome[name] for name in ("length_ratio", "radius_ratio")})
 
     @property
     def derived(self) -> list[str]:
-        """Names of the quantities that [derived] of the deck defines."""
-        formulas = self.deck.get("derived")
-        return [str(name) for name in formulas] if isinstance(formulas, dict) else []
+        """Names of the quantities that [derived] of the deck defines, and of the results that files of [result] measure."""
+        defined = self.deck.get("derived")
+        return [*self.own, *(str(name) for name in (defined if isinstance(defined, dict) else ()))]
 
     def _as_in_summary(self, name: str) -> str:
         """The name in summary.json of a column of the history."""
@@ -222,7 +224,7 @@ class Record:
 
     def value(self, name: str):
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""
-        result = self.case.summary.get(name)
+        result = self.case.summary[name]
         return result if result is not None else self.last.get(name)
 
 
@@ -259,6 +261,7 @@ def _read_deck(record: Record, trust: bool) -> Place | None:
         record.problems.append(f"{file.name} is not a deck of this version: {str(error).splitlines()[0]}")
         return None
     record.impact = experience.impact_of(deck)
+    record.own = [name for own in formulas.own_results(deck).values() for name in own.lines]
     record.unread = [said for material in deck.materials.values() for said in material.unread()]
     if deck.penetration is None:
         return None

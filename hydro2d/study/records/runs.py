@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hydro2d.deck import deck as decks
 from hydro2d.files.csv_tables import flag, number, whole
 from hydro2d.measure.result import unit
 from hydro2d.output.directory import STUDY
@@ -14,7 +13,7 @@ from hydro2d.study.plan import sampling
 from hydro2d.study.plan.planned import short
 from hydro2d.study.records import keeping, study_directory
 from hydro2d.study.records.differences import numbers
-from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS, SETUP
+from hydro2d.study.records.keeping import CELLS, MEMBER, ORIGIN, RESULTS
 from hydro2d.study.records.study_directory import Case, Study
 
 if TYPE_CHECKING:
@@ -45,7 +44,7 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
     import pandas
 
     rows = [row for place in map(Path, places) for row in (_kept(place) if place.is_file() else _made(place, results))]
-    last = (*RESULTS, *(name for row in rows for name in row if name.startswith("derived.")), *results, *ORIGIN)
+    last = (*RESULTS, *(name for row in rows for name in row if name.startswith(keeping.DEFINED)), *results, *ORIGIN)
     first = dict.fromkeys(name for row in rows for name in row if name not in last)
     table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
     quantities = [name for name in dict.fromkeys((CELLS, *last)) if CHECKS.get(name, number) is number and name in table]
@@ -91,10 +90,7 @@ def _row(study: Study, case: Case, more: Sequence[str]) -> Row:
     if case.status not in keeping.ENDED:
         return row
     summary = case.summary
-    if summary.get(SETUP) is None and case.deck:  # of version 0.3
-        deck = decks.of_tables(case.deck)
-        summary = summary | {SETUP: deck.setup, CELLS: deck.cells_across}
     known = numbers(summary)
-    return {**row, CELLS: summary.get(CELLS), **keeping.results(summary),
-            **{name: value for name, value in known.items() if name.startswith("derived.")},
+    return {**row, CELLS: summary.cells_across, **keeping.results(summary),
+            **{name: value for name, value in known.items() if name.startswith(keeping.DEFINED)},
             **{name: known.get(name) for name in more}, **keeping.origin(summary)}

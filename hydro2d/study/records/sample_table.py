@@ -83,8 +83,8 @@ def of_run(case: Case, more: Sequence[str] = ()) -> dict[str, object]:
     row = {name: value for name, value in keeping.results(summary).items() if name in RESULTS}
     row[PERFORATED] = SAID.get(str(row[PERFORATED]))
     known = numbers(summary)
-    others = [name for name in known if name.startswith("derived.")]
-    if row["depth_m"] is None and (body := next(iter(summary.get("bodies") or ()), None)):
+    others = [name for name in known if name.startswith(keeping.DEFINED)]
+    if row["depth_m"] is None and (body := next(iter(summary.bodies), None)):
         others += [f"bodies.{body}.{name}" for name in OF_BODY]
     row = {STATUS: case.status} | row
     return row | {name: known.get(name) for name in dict.fromkeys((*others, *more)) if name not in row}
@@ -92,7 +92,9 @@ def of_run(case: Case, more: Sequence[str] = ()) -> dict[str, object]:
 
 def of_kept(kept: keeping.Row, more: Sequence[str]) -> keeping.Row:
     """State and results of a row that the study keeps. ``more`` : names of the results that the sample asks for."""
-    return {name: kept.get(name, "") for name in (STATUS, *RESULTS, *more)} | {PERFORATED: SAID.get(kept[PERFORATED], "")}
+    defined = (name for name in kept if name.startswith(keeping.DEFINED))
+    return ({name: kept.get(name, "") for name in (STATUS, *RESULTS, *defined, *more)}
+            | {PERFORATED: SAID.get(kept[PERFORATED], "")})
 
 
 def values(rows: Iterable[Mapping[str, object]], inputs: Sequence[Distribution] = ()) -> pandas.DataFrame:
@@ -161,4 +163,4 @@ def _columns(sample: Points, heads: Sequence[str]) -> list[Column]:
 
 def _other(head: str) -> Column | None:
     """The column of a quantity that a deck derives, or of a body."""
-    return Column(head, number) if head.startswith(("derived.", "bodies.")) else None
+    return Column(head, number) if head.startswith((keeping.DEFINED, "bodies.")) else None

@@ -29,6 +29,7 @@ from hydro2d.files import checksums
 from hydro2d.files.locks import holder
 from hydro2d.files.strange import own, own_folder, within
 from hydro2d.files.whole import write_json, write_text
+from hydro2d.measure.summary import Summary
 from hydro2d.output import snapshot
 from hydro2d.output.directory import DECK, STUDY, SUMMARY, deck_hash
 from hydro2d.output.directory import LOCK as RUN_LOCK
@@ -85,7 +86,7 @@ class Case:
     base, overrides, deck_sha256 : base deck, its overrides, and the hash of the resolved deck (None if there is none)
     status : "waiting", "running", "done", "interrupted", "unphysical", "failed" or "invalid"
     message : why it failed, is invalid, unphysical or interrupted, or which process runs it
-    summary : contents of summary.json; empty until the run has ended
+    summary : contents of summary.json; false, and without results, until the run has ended
     progress : contents of progress.json; empty while the case does not run
     of, member, changed, ensemble : in an ensemble the case that it repeats, its number, the changes by name, and how its
         members are made
@@ -99,7 +100,7 @@ class Case:
     deck_sha256: str | None = field(default=None, repr=False)
     status: str = WAITING
     message: str = ""
-    summary: dict = field(default_factory=dict, repr=False)
+    summary: Summary = field(default_factory=Summary, repr=False)
     progress: dict = field(default_factory=dict, repr=False)
     of: str = ""
     member: int = 0
@@ -385,7 +386,7 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
         return {"status": FAILED_STATUS, "message": f"{place} is a file, not a directory"}
     failed, text = table_of(place / FAILED, StudyError), _text(place / DECK)
     summary, odd = summary_of(place, text, StudyError)
-    status = str(summary.get("status", INTERRUPTED))
+    status = summary.status or INTERRUPTED
     process = holder(place / RUN_LOCK)
     if process is not None:
         return {"status": RUNNING, "message": str(process), "progress": progress_of(place, StudyError)}
@@ -395,10 +396,9 @@ def _read_state(place: Path, deck_sha256: str | None) -> dict:
     if other:
         return {"status": WAITING, "message": "its directory holds a run of another deck"}
     if summary:
-        why = str(summary.get("stop_reason", ""))
+        why = summary.stop_reason or ""
         if status == DONE:
-            faults = "; ".join(summary.get("faults") or ())
-            why = f"not trustworthy: {faults}" if summary.get("trustworthy") is False else ""
+            why = f"not trustworthy: {'; '.join(summary.faults)}" if summary.trustworthy is False else ""
         if odd:
             why = "; ".join([*([why] if why else []), f"{SUMMARY} has values of the wrong kind in {', '.join(odd)}"])
         return {"status": status, "message": why, "summary": summary}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from hydro2d.base.formats import cell
 from hydro2d.measure.outcome import Outcome, ratio
 from hydro2d.measure.result import unit
+from hydro2d.measure.summary import Conservation, Summary
 from hydro2d.study.records.experiments import Measurement
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import DEPTH, Choice, is_velocity, raw, response
@@ -43,11 +44,11 @@ def _row(study: Study, record: Record, measurement: Measurement | None) -> dict[
     row = {"status": case.status, "message": case.message, "unfinished": record.unfinished, "velocity_m_s": record.velocity}
     what = (setup.shape, setup.rod, setup.target, setup.nose, setup.thickness) if setup else (None,) * 5
     row |= zip(("projectile", "rod", "target", "nose", "target_thickness_m"), what, strict=True)
-    row |= {"time_s": summary.get("time_s", record.last.get("time"))}
+    row |= {"time_s": summary.time_s if summary else record.last.get("time")}
     row |= {name: record.outcome[name] if name in Outcome.model_fields else record.value(name) for name in RESULTS}
     row |= {f"derived.{name}": record.numbers.get(f"derived.{name}") for name in record.derived}
     row |= _compared(record, measurement) | _audit(summary) | {"cycles": record.value("cycles")}
-    row |= {name: summary.get(name) for name in ("cells", "wall_s", "ns_per_cell_cycle", "version")}
+    row |= {name: summary[name] for name in ("cells", "wall_s", "ns_per_cell_cycle", "version")}
     row["directory"] = str(case.directory)
     taken = in_files(["case", *row])
     axes = {f"{axis.name} (axis)" if axis.name in taken else axis.name: case.values.get(axis.name) for axis in study.axes}
@@ -83,15 +84,14 @@ def _compared(record: Record, measurement: Measurement | None) -> dict[str, obje
     }
 
 
-def _audit(summary: dict) -> dict[str, object]:
+def _audit(summary: Summary) -> dict[str, object]:
     """The largest relative changes, and the energy of every sink as a fraction of the energy at the start."""
-    audit = summary.get("conservation") or {}
-    masses = [change for change in (audit.get("mass") or {}).values() if change is not None]
+    audit = summary.conservation or Conservation()
+    masses = [change for change in audit.mass.values() if change is not None]
     return {
-        "mass_change_worst": max(masses, key=abs, default=None), "momentum_change": audit.get("axial_momentum"),
-        "energy_change": audit.get("total_energy"),
-        **{f"sink_{name}_share": ratio(amounts.get("energy_J"), audit.get("start_energy_J"))
-           for name, amounts in (audit.get("sinks") or {}).items()},
+        "mass_change_worst": max(masses, key=abs, default=None), "momentum_change": audit.axial_momentum,
+        "energy_change": audit.total_energy,
+        **{f"sink_{name}_share": ratio(amounts.energy_J, audit.start_energy_J) for name, amounts in audit.sinks.items()},
     }
 
 

@@ -12,8 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 
+from hydro2d.analytic.catalogue import Motion
 from hydro2d.base.formats import in_plotly
-from hydro2d.penetration.model import Motion
 from hydro2d.study.records.experiments import AT_LEAST, Measurement
 from hydro2d.study.records.record import Record, Setup
 from hydro2d.study.records.responses import DEPTH, RESIDUAL, Response, Variable, readers, title

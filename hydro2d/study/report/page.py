@@ -161,7 +161,7 @@ def _who(contents: Contents, names: tuple[str, ...]) -> str:
 
 def _origin(each: Record) -> dict:
     """Name, deck as a file, version, machine and command of one case."""
-    origin = each.case.summary.get("provenance") or {}
+    origin = dict(each.case.summary.provenance or {})
     dirty = {True: ", with local changes", False: "", None: ""}[origin.get("git_dirty")]
     packages = ", ".join(f"{name} {version}" for name, version in (origin.get("packages") or {}).items())
     entries = {
@@ -174,7 +174,7 @@ def _origin(each: Record) -> dict:
         "machine": ", ".join(str(origin[key]) for key in ("host", "cpu", "system") if origin.get(key)),
         "threads": origin.get("threads"),
         "packages": packages,
-        "deck, SHA-256": each.case.summary.get("deck_sha256"),
+        "deck, SHA-256": each.case.summary.deck_sha256,
     }
     return {
         "name": each.case.name,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from hydro2d.analytic.catalogue import Motion
 from hydro2d.base.formats import distinct, html_id
 from hydro2d.measure.regime import ERODING
-from hydro2d.penetration.model import Motion
 from hydro2d.study.ensemble.contents import Contents
 from hydro2d.study.ensemble.ensembles import grouped
 from hydro2d.study.records import experiments, record, responses

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydro2d.penetration import lambert_jonas, recht_ipson
-from hydro2d.penetration.model import InputError
+from hydro2d.analytic.catalogue import InputError, lambert_jonas, recht_ipson
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import RESIDUAL, raw
 

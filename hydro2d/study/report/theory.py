@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydro2d.analytic import beside, model_deck, models
-from hydro2d.penetration.model import InputError, Motion
+from hydro2d.analytic.catalogue import InputError, Motion
 
 #: models of a rod into a thick target, from rigid to consumed
 MODELS = ("forrestal", "tate", "walker-anderson", "anderson-riegel", "hydrodynamic")

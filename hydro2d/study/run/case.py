@@ -18,6 +18,7 @@ from hydro2d.files.locks import LockError, LostPlaceError, holder
 from hydro2d.files.strange import StrangeFile
 from hydro2d.jit import compilation
 from hydro2d.materials.quantities import FieldError
+from hydro2d.measure.summary import Summary
 from hydro2d.output import snapshot
 from hydro2d.output.directory import DECK, LOCK, PROGRESS, RunError, check_free, deck_hash
 from hydro2d.output.history import HistoryError
@@ -88,28 +89,28 @@ def _attempt(directory: Path, deck_text: str, threads: int, overwrite: bool, int
         finished = _finished(directory, deck_text)
         fresh = finished is None
         summary = finished or _run(directory, deck_text, threads, overwrite, interrupt)
-        if summary["status"] != DONE:
-            about["message"] = summary["stop_reason"]
-        about |= {"status": summary["status"], "fresh": fresh}
+        if summary.status != DONE:
+            about["message"] = summary.stop_reason
+        about |= {"status": summary.status, "fresh": fresh}
     except Exception as error:
         about |= _failure(error, directory)
     return Outcome(**about, wall_s=time.perf_counter() - started)
 
 
-def _finished(directory: Path, deck_text: str) -> dict | None:
+def _finished(directory: Path, deck_text: str) -> Summary | None:
     """The summary of a finished run of this deck. A run that ended as unphysical counts, because it would do so again."""
     sha256 = deck_hash(deck_text)
     present = state(directory, sha256)
-    ended = present["status"] in (DONE, UNPHYSICAL) and present["summary"].get("deck_sha256") == sha256
+    ended = present["status"] in (DONE, UNPHYSICAL) and present["summary"].deck_sha256 == sha256
     return present["summary"] if ended and not is_older(present["summary"]) else None
 
 
-def is_older(summary: dict) -> bool:
+def is_older(summary: Summary) -> bool:
     """Whether an ended run is of another version of the method."""
-    return bool(summary) and summary.get("method") != METHOD
+    return bool(summary) and summary.method != METHOD
 
 
-def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> dict:
+def _run(directory: Path, deck_text: str, threads: int, overwrite: bool, interrupt: Interrupt | None) -> Summary:
     if not directory.parent.is_dir():
         raise RunError(f"{directory.parent} does not exist on {socket.gethostname()}; workers need the study's file system")
     _wait_for_silence(directory, interrupt)

@@ -27,7 +27,7 @@ FRAME = 8
 def row(case: Case) -> tuple[str, ...]:
     """Name, status, depth, share done, time left and worker of a case."""
     now = case.progress
-    depth = now.get("penetration_depth_m") if now else (case.summary.get("outcome") or {}).get("depth_m")
+    depth = now.get("penetration_depth_m") if now else case.summary.outcome and case.summary.outcome.depth_m
     share = 1.0 if case.status == DONE else now.get("fraction")
     left = now.get("left_s")
     return (
@@ -47,7 +47,7 @@ def left(cases: list[Case], workers: int, further: int = 0) -> float | None:
     """Seconds until all cases and `further` more are done, at the mean time of finished cases; None if not known yet."""
     running = [case.progress for case in cases if case.status == RUNNING]
     rest = [now["left_s"] for now in running if now.get("left_s") is not None]
-    whole = [case.summary["wall_s"] for case in cases if case.status == DONE and case.summary.get("wall_s") is not None]
+    whole = [case.summary.wall_s for case in cases if case.status == DONE and case.summary.wall_s is not None]
     whole = whole or [now["wall_s"] + now["left_s"] for now in running
                       if now.get("left_s") is not None and now.get("wall_s") is not None]
     if not whole or not workers:

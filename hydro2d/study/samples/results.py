@@ -14,6 +14,7 @@ import numpy as np
 
 from hydro2d.base.errors import unknown
 from hydro2d.measure.regime import REGIMES
+from hydro2d.measure.summary import Summary
 from hydro2d.study.ensemble.chance import Share, Spread, spread, wilson, wilson_interval
 from hydro2d.study.plan import sample_section, sampling
 from hydro2d.study.plan.definition import StudyError
@@ -84,7 +85,7 @@ class Samples:
     """
 
     def __init__(self, title: str, inputs: Sequence[Distribution], table: pandas.DataFrame, *, wanted: Sequence[str] = (),
-                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = (), summaries: Sequence[Mapping] = ()):
+                 labels: Mapping[str, str] | None = None, wrong: Sequence[str] = (), summaries: Sequence[Summary] = ()):
         self.title, self.inputs, self.table, self.wanted = title, tuple(inputs), table, tuple(wanted)
         self.labels, self._wrong, self._summaries = dict(labels or {}), wrong, summaries
 
@@ -202,7 +203,7 @@ class Samples:
         """The numbers of the summaries of the runs by dotted name."""
         import pandas
 
-        known = [numbers({key: value for key, value in each.items() if key != "provenance"}) for each in self._summaries]
+        known = [numbers(each.model_dump(exclude={"provenance"})) for each in self._summaries]
         return pandas.DataFrame(known, self.table.index if known else None, dtype=float)
 
     @property

@@ -8,12 +8,12 @@ from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
 
 from hydro2d.analytic import model_transition, models
+from hydro2d.analytic.catalogue import InputError
 from hydro2d.analytic.model_text import columns
 from hydro2d.analytic.model_transition import Bracket, Comparison, Prediction, extent
 from hydro2d.base.version import __version__
 from hydro2d.files.whole import write_json
 from hydro2d.measure.outcome import AT_LEAST
-from hydro2d.penetration.model import InputError
 from hydro2d.study.outcomes import perforation
 from hydro2d.study.outcomes.base import FALL, LIMIT, Verdict
 from hydro2d.study.outcomes.regime import Regime
@@ -66,9 +66,9 @@ def judged(records: Sequence[Record], search: Interval) -> pandas.DataFrame:
         "case": each.case.name, "velocity_m_s": _speed(each), "status": each.case.status,
         **judge(each, search.of, search.depth)._asdict(), "depth_m": each.outcome.depth_m,
         "depth_is": each.outcome.depth_is, "perforated": each.perforated,
-        **{name: each.case.summary.get(name) for name in RESULTS},
+        **{name: each.case.summary[name] for name in RESULTS},
         "residual_velocity_m_s": each.outcome.residual_velocity_m_s, "rod_first_mass_kg": each.first.get("rod_mass_kg"),
-        "stop_reason": each.case.summary.get("stop_reason"),
+        "stop_reason": each.case.summary.stop_reason,
     } for each in records], dtype=object).rename(columns={"word": "regime"})
 
 
