@@ -89,7 +89,8 @@ def test_at_least_one_cycle_is_played_and_looks_come_as_often_as_on_the_page(mon
 
 
 @pytest.mark.parametrize(("array", "value", "said"), [
-    ("e", np.nan, "energy nan J/kg"), ("v", np.nan, "not finite|nan"), ("v", 1e7, "turned the cell inside out|below dt_min|does not add up"),
+    ("e", np.nan, "energy nan J/kg"), ("v", np.nan, "not finite|nan"),
+    ("v", 1e7, "turned the cell inside out|below dt_min|does not add up"),
 ])
 def test_a_state_that_is_refused_is_refused_with_the_same_words(array, value, said):
     words = []
