@@ -45,7 +45,7 @@ def runs(*places: str | Path, results: Sequence[str] = ()) -> pandas.DataFrame:
 
     rows = [row for place in map(Path, places) for row in (_kept(place) if place.is_file() else _made(place, results))]
     last = (*RESULTS, *(name for row in rows for name in row if name.startswith(keeping.DEFINED)), *results, *ORIGIN)
-    first = dict.fromkeys(name for row in rows for name in row if name not in last)
+    first = dict.fromkeys(("case", MEMBER, *(name for row in rows for name in row if name not in last)))
     table = pandas.DataFrame(rows, columns=[*first, *dict.fromkeys(last)]).set_index(["case", MEMBER])
     quantities = [name for name in dict.fromkeys((CELLS, *last)) if CHECKS.get(name, number) is number and name in table]
     flags = [name for name in table if CHECKS.get(name) is flag]
