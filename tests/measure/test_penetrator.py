@@ -377,7 +377,7 @@ def test_a_mesh_that_travels_faster_than_the_rod_leaves_it_behind(simulation):
     fraction[z < -20e-3, :6] = 1.0
     simulation.state.v[...], simulation.engine.dt = 1000.0, 1e-9
     for speed, reached in ((900.0, False), (1100.0, True)):
-        simulation.grid.move(simulation.grid.offset + speed * simulation.dt)
+        simulation.engine.given.set(mesh_speed=speed)
         simulation.penetrator.watch()
         assert (simulation.penetrator.exit is not None) is reached
 

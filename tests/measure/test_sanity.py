@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import math
 import re
 
 import numpy as np
@@ -146,16 +147,17 @@ def test_a_run_with_a_fault_ends_within_ten_cycles(shot):
 
 def spoil(monkeypatch, cycle):
     """Lets ke_bound remove a twentieth of the energy in one cycle."""
-    step = Simulation.step
+    advance = Simulation.advance
 
-    def spoiled(self):
-        step(self)
+    def spoiled(self, until=math.inf, cycles=None):
+        advance(self, until, 1)
         if self.cycle == cycle:
             part = 0.05 * self.audit.start.energy
             self.state.e[0] -= part / totals(self.state).mass[0]
             self.audit.add("ke_bound", energy=part)
+        return 1
 
-    monkeypatch.setattr(Simulation, "step", spoiled)
+    monkeypatch.setattr(Simulation, "advance", spoiled)
 
 
 def test_a_run_that_clips_is_unphysical_and_keeps_an_earlier_state(tmp_path, monkeypatch):
@@ -173,15 +175,16 @@ def test_a_run_that_clips_is_unphysical_and_keeps_an_earlier_state(tmp_path, mon
 @pytest.mark.parametrize("cycle", [115, 117, 120])
 def test_no_nan_is_written(tmp_path, monkeypatch, cycle):
     """Neither in the cycle in which it comes, with a row, a dump and a restart file due, nor at the end."""
-    step = Simulation.step
+    advance = Simulation.advance
 
-    def spoiled(self):
-        step(self)
+    def spoiled(self, until=math.inf, cycles=None):
+        advance(self, until, 1)
         if self.cycle == cycle:
             self.state.srz[1, 25, 3] = np.nan
             self.state.e[1, 25, 3] = np.nan
+        return 1
 
-    monkeypatch.setattr(Simulation, "step", spoiled)
+    monkeypatch.setattr(Simulation, "advance", spoiled)
     every = ["stop.time=1", "stop.cycles=200", "output.history_interval=1e-9", "output.vtk_interval=1e-9",
              "output.restart_interval=1e-9"]
     summary = run(deck.loads(TEXT, every), tmp_path / "run", quiet=True)
@@ -209,6 +212,7 @@ def test_a_collapsed_time_step_names_its_body(shot):
 def step_with(simulation, **changes):
     method = simulation.engine.method
     simulation.engine.method = dataclasses.replace(method, numerics=method.numerics.model_copy(update=changes))
+    simulation.engine.given.set(**changes)
     simulation.step()
 
 
