@@ -18,7 +18,7 @@ from hydro2d.base.terminal import say
 from hydro2d.deck import deck as decks
 from hydro2d.files.shipped import problems_folder
 from hydro2d.files.whole import write_json
-from hydro2d.jit import cache, store, target
+from hydro2d.jit import cache, shipped, store, target
 from hydro2d.jit.compilation import announced
 from hydro2d.running import run
 
@@ -66,7 +66,7 @@ def main() -> None:
     for file in root.glob("*/*"):
         if file.suffix != store.ENDING:
             file.unlink()
-    write_json(root / cache.ABOUT, cache.about())
+    write_json(root / shipped.ABOUT, shipped.about())
 
 
 if __name__ == "__main__":
