@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -109,6 +110,10 @@ class Simulation:
         self.state.e += 1.0
         self.state.e *= 1 + self.dt * 1e4 / 3
         self._place()
+
+    def advance(self, until: float = math.inf, cycles: int | None = None) -> int:
+        self.step()
+        return 1
 
     def of_targets(self):
         return {}

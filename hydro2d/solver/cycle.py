@@ -144,11 +144,12 @@ class Cycle:
     def play(self, until: float, last: int) -> None:
         """Steps until a time in s, or up to the step of this number: at least one, all in one call of compiled code.
 
-        The first step of an engine goes through the list as `advance` does, since the tape of it needs its compiled code.
+        The first step of an engine goes through the list as `advance` does, since the tape of it needs its compiled code. So
+        does a step with fewer threads than parts: it cuts them anew, and on the tape they would wait for one another for ever.
         """
-        if self._tape is None:
+        if self._tape is None or jit.parts_at_once() < len(self.given.handle.parts) - 1:
             self.advance()
-            self._tape = self._recorded()
+            self._tape = self._tape or self._recorded()
             if self.time >= until or self.number >= last:
                 return
         self.given.handle.update(until=float(until), last_cycle=int(last), most_parts=jit.parts_at_once())
