@@ -114,7 +114,7 @@ class Cycle:
 
     def advance(self) -> None:
         """One step: time n to n + 1."""
-        self.given.handle.update(most_parts=jit.parts_at_once())
+        self._limit_parts()
         self._step(self.number % 2)
         self.given.meet()
 
@@ -144,15 +144,15 @@ class Cycle:
     def play(self, until: float, last: int) -> None:
         """Steps until a time in s, or up to the step of this number: at least one, all in one call of compiled code.
 
-        The first step of an engine goes through the list as `advance` does, since the tape of it needs its compiled code. So
-        does a step with fewer threads than parts: it cuts them anew, and on the tape they would wait for one another for ever.
+        The first step of an engine goes through the list as `advance` does, since the tape of it needs its compiled code.
         """
-        if self._tape is None or jit.parts_at_once() < len(self.given.handle.parts) - 1:
+        if self._tape is None:
             self.advance()
-            self._tape = self._tape or self._recorded()
+            self._tape = self._recorded()
             if self.time >= until or self.number >= last:
                 return
-        self.given.handle.update(until=float(until), last_cycle=int(last), most_parts=jit.parts_at_once())
+        self._limit_parts()
+        self.given.handle.update(until=float(until), last_cycle=int(last))
         try:
             self._tape.play(self.given.handle, self._tape.starts[self.number % 2])
         finally:
@@ -201,6 +201,13 @@ class Cycle:
         self.given.ask(between_phases.cut_parts, self._cut_anew)
         self.given.run(remap_step.find_bodies)
         self.given.set(anew=False)
+
+    def _limit_parts(self) -> None:
+        """Allows as many parts as there are threads; if there are more, they are cut anew before they wait for one another."""
+        most = jit.parts_at_once()
+        self.given.handle.update(most_parts=most)
+        if len(self.given.handle.parts) - 1 > most:
+            self._cut_anew()
 
     def _cut_anew(self) -> None:
         """Cuts the active box into another number of parts."""

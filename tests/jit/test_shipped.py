@@ -211,6 +211,25 @@ def test_code_for_this_processor_alone_is_not_shipped(nothing_compiled, monkeypa
     assert not nothing_compiled.exists()
 
 
+@pytest.mark.slow  # it compiles all kernels
+@needs_name
+def test_a_run_with_the_code_of_a_wheel_compiles_nothing(tmp_path):
+    """Phases, what plays them, and what only outputs call: README's first run, and one with contact."""
+    site = installed(tmp_path / "site")
+    shutil.copytree(cache.ROOT / "problems", site / "problems")
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("HYDRO2D_", "NUMBA_"))}
+    own |= {"PYTHONPATH": str(site), "HYDRO2D_CACHE_DIR": str(site / "hydro2d" / "_compiled"), "HYDRO2D_TARGET": NAME}
+    subprocess.run([sys.executable, "-m", "hydro2d.running.compile_all"], cwd=site, env=own, check=True)
+    own |= {"HYDRO2D_CACHE_DIR": str(tmp_path / "cache"), "HYDRO2D_TARGET": ""}
+    for name in ("perforation/sphere", "sliding/block_level"):
+        command = [sys.executable, "-m", "hydro2d", "run", f"problems/{name}.toml", "--set", "stop.cycles=60",
+                   "--out", str(tmp_path / name)]
+        done = subprocess.run(command, cwd=site, env=own, check=True, capture_output=True, text=True)
+        assert "compil" not in (tmp_path / name / "log.txt").read_text().replace("hydro2d compile --native", "")
+        assert done.stderr == ""
+    assert not list((tmp_path / "cache").glob("*/*.code"))
+
+
 class Interface:
     """The interface that hatchling gives a build hook."""
 

@@ -149,7 +149,7 @@ def test_a_run_that_goes_on_with_another_body_takes_its_direction():
 
 @pytest.mark.skipif(jit.max_threads() < 2, reason="this process has one thread")
 def test_a_run_may_go_on_with_fewer_threads(monkeypatch):
-    """On a tape with more parts than threads, one part would wait for ever for another that has no thread."""
+    """With more parts than threads, one part would wait for ever for another that has no thread."""
     simulation, seen, play = Simulation(deck.loads(TEXT)), [], jit.Tape.play
 
     def watched(tape, handle, first):
