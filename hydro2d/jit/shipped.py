@@ -82,7 +82,8 @@ def say_if_unused() -> None:
         shipped = read_json(SHIPPED / ABOUT, Error)
         other = next(((what, shipped[what], here) for what, here in about().items() if shipped[what] != here), None)
     except (Error, KeyError) as problem:
-        cache.say_once(f"the compiled code of the package is not used: {SHIPPED / ABOUT} does not say what it is for ({problem})")
+        cache.say_once(f"the compiled code of the package is not used: {SHIPPED / ABOUT} does not say what it is for "
+                       f"({problem})")
         return
     if other is None:
         return

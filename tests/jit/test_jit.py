@@ -4,6 +4,7 @@ import ast
 import importlib
 import inspect
 import math
+import operator
 import os
 import re
 import stat
@@ -15,7 +16,7 @@ import llvmlite.binding
 import numba
 import numpy as np
 import pytest
-from numba.core import caching, codegen, compiler, cpu, imputils, registry
+from numba.core import caching, codegen, compiler, cpu, imputils, inline_closurecall, registry, targetconfig
 from numba.core.typing import templates
 from numba.np import arrayobj
 
@@ -147,6 +148,15 @@ RELIED_ON = [
     (numba.core.dispatcher.Dispatcher, "typeof_pyval", ("val",)),
     (numba.core.dispatcher.Dispatcher, "compile", ("sig",)),
     (numba.core.options.DefaultOptions, "_nrt", ()),
+    (targetconfig.TargetConfig, "__eq__", ("other",)),
+    (compiler.Flags(), "_values", ()),
+    (numba.types.functions.BaseFunction, "get_call_type", ("self", "context", "args", "kws")),
+    (numba.types.Function(templates.make_concrete_template("max", max, [])), "_impl_keys", ()),
+    (numba.types.Function(templates.make_concrete_template("max", max, [])), "typing_key", ()),
+    (inline_closurecall.InlineWorker, "inline_function", ("caller_ir", "block", "i", "function", "arg_typs")),
+    (inline_closurecall.InlineWorker, "inline_ir", ("caller_ir", "block", "i", "callee_ir", "callee_freevars", "arg_typs")),
+    (inline_closurecall.InlineWorker, "run_untyped_passes", ("func",)),
+    (inline_closurecall.copy, "deepcopy", ("x",)),
     (numba.config, "THREADING_LAYER", ()),
     (llvmlite.binding, "set_option", ("name", "option")),
 ]
@@ -261,6 +271,36 @@ def test_kernels_are_not_optimised_again_in_their_callers(only_calls, monkeypatc
     phase.compile((numba.int64[::1], numba.float64[::1]))
     (text,) = phase.inspect_llvm().values()
     assert len(re.findall(r"call [^\n]*named_kernel", text)) == (1 if only_calls else 0)
+
+
+def test_the_type_of_an_operator_between_numbers_is_asked_for_once(monkeypatch):
+    """numba tries half a dozen templates each time, which took a tenth of a compilation."""
+    def power(x):
+        return x * x * x * x * x
+
+    asked, apply = [], templates.ConcreteTemplate.apply
+    monkeypatch.setattr(templates.ConcreteTemplate, "apply", lambda self, *given: asked.append(self.key) or apply(self, *given))
+    compiled = numba.njit(**options.OPTIONS)(power)
+    assert compiled(np.float32(3.0)) == 243.0
+    assert asked.count(operator.mul) <= 1
+    assert compiled(3) == 243
+
+
+@pytest.mark.parametrize("inline", ["always", "never"])
+def test_what_is_inlined_twice_is_not_mixed_up(inline):
+    """Its form in numba is not copied, since it is made anew for every place."""
+    @numba.njit(inline=inline, **options.OPTIONS)
+    def weighted(a, b):
+        total = 0.0
+        for i in range(a.shape[0]):
+            total += a[i] * b
+        return total
+
+    @numba.njit(**options.OPTIONS)
+    def both(a, b, c):
+        return weighted(a, b) - weighted(a[1:], c) * weighted(a, c)
+
+    assert both(np.array([1.0, 2.0, 4.0]), 3.0, 5.0) == 21.0 - 30.0 * 35.0
 
 
 @pytest.mark.parametrize("inner", [True, False])

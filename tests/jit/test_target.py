@@ -21,8 +21,8 @@ needs_name = pytest.mark.skipif(not NAME or bool(target.named().missing()), reas
 
 def in_process(code: str, *arguments: str, **environment: str) -> subprocess.CompletedProcess:
     """A process of its own that runs the code."""
-    return subprocess.run([sys.executable, "-c", code, *arguments], cwd=cache.ROOT, env={**os.environ, **environment}, capture_output=True,
-                          text=True, check=False)
+    return subprocess.run([sys.executable, "-c", code, *arguments], cwd=cache.ROOT, env={**os.environ, **environment},
+                          capture_output=True, text=True, check=False)
 
 
 def test_a_checkout_compiles_for_the_processor_at_hand(monkeypatch):

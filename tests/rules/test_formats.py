@@ -183,7 +183,8 @@ NUMBERS, WORDS, MADE, ELSEWHERE = (
 #: places that may write a name, and call none of the functions for names: why they need not
 UNGUARDED = {
     NUMBERS: {
-        "api._base: file", "deck.templates.text: file", "jit.compilation._mark: file", "jit.recording.first_call: file", "jit.shipped._mark: file",
+        "api._base: file", "deck.templates.text: file", "jit.compilation._mark: file", "jit.recording.first_call: file",
+        "jit.shipped._mark: file",
         "output.series._path: file", "running.compile_all.shipped_decks: file", "running.run._history: file",
         "study.report.pictures.draw: file", "study.report.pictures.films: file", "study.report.pictures.fitted: file",
         "study.report.charts._rear: chart", "study.report.charts._figure: chart", "study.report.rods._tidy: figure",
