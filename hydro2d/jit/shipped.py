@@ -13,7 +13,6 @@ from contextlib import suppress
 from pathlib import Path
 
 import llvmlite.binding
-import numba
 
 from hydro2d.base.errors import Error
 from hydro2d.files.whole import read_json
@@ -38,8 +37,7 @@ def about() -> dict[str, str]:
 def default() -> target.Target | None:
     """The target of the package's code if this process can use it; None: the processor at hand."""
     named = target.named()
-    chosen = numba.config.CPU_NAME is not None or numba.config.CPU_FEATURES is not None
-    if chosen or named is None or named.missing() or not (SHIPPED / ABOUT).exists():
+    if target.is_numbas_choice() or named is None or named.missing() or not (SHIPPED / ABOUT).exists():
         return None
     fitting = {**target.versions(), "processor": named.name, "features": named.flags}
     with suppress(Error):  # `say_if_unused` says what is wrong

@@ -76,6 +76,11 @@ def asked_for() -> Target | None:
     return target
 
 
+def is_numbas_choice() -> bool:
+    """Whether NUMBA_CPU_NAME or NUMBA_CPU_FEATURES asks for a processor."""
+    return numba.config.CPU_NAME is not None or numba.config.CPU_FEATURES is not None
+
+
 def fix(target: Target | None) -> None:
     """Sets numba's target, or leaves numba's own choice.
 

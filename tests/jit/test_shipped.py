@@ -261,7 +261,7 @@ def test_nothing_is_compiled_unless_a_wheel_is_to_have_it(value, by_pip, machine
     """Not for `pip install .`, the sdist, an editable install, or a kind of machine without a named target."""
     monkeypatch.setenv("HYDRO2D_BUILD_COMPILED", value)
     if by_pip:
-        monkeypatch.setenv("PIP_BUILD_TRACKER", "/tmp/pip")
+        monkeypatch.setenv("PIP_BUILD_TRACKER", "folder")
     monkeypatch.setattr(platform, "machine", lambda: machine)
     build, data = hook(kind), {"force_include": {}}
     build.initialize(version, data)
@@ -278,7 +278,7 @@ def test_a_wheel_is_compiled_for_the_named_target_by_nothing_of_the_users(machin
     monkeypatch.setattr(platform, "machine", lambda: machine)
     monkeypatch.setenv("HYDRO2D_BUILD_COMPILED", value)
     if by_pip:
-        monkeypatch.setenv("PIP_BUILD_TRACKER", "/tmp/pip")
+        monkeypatch.setenv("PIP_BUILD_TRACKER", "folder")
     for name in ("NUMBA_OPT", "HYDRO2D_CACHE_DIR"):
         monkeypatch.setenv(name, "1")
     build, data = hook(), {"force_include": {}}
