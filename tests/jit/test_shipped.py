@@ -222,7 +222,7 @@ def test_a_run_with_the_code_of_a_wheel_compiles_nothing(tmp_path):
     subprocess.run([sys.executable, "-m", "hydro2d.running.compile_all"], cwd=site, env=own, check=True)
     own |= {"HYDRO2D_CACHE_DIR": str(tmp_path / "cache"), "HYDRO2D_TARGET": ""}
     for name in ("perforation/sphere", "sliding/block_level"):
-        command = [sys.executable, "-m", "hydro2d", "run", f"problems/{name}.toml", "--set", "stop.cycles=60",
+        command = [sys.executable, "-m", "hydro2d", "run", f"problems/{name}.toml", "--set", "stop.cycles=400",
                    "--out", str(tmp_path / name)]
         done = subprocess.run(command, cwd=site, env=own, check=True, capture_output=True, text=True)
         assert "compil" not in (tmp_path / name / "log.txt").read_text().replace("hydro2d compile --native", "")
