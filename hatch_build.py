@@ -1,7 +1,7 @@
-"""Puts compiled kernels into the wheel if HYDRO2D_BUILD_COMPILED=1.
+"""Puts compiled kernels into the wheel that `python -m build` makes, so that the first run need not compile them.
 
-Without the variable the wheel has none, so that `pip install .` does not compile for minutes; kernels are then compiled by the
-first run. An editable install never has any.
+`pip install .` does not compile, since what it builds serves one machine, whose first run compiles for just its processor; nor
+does an editable install. HYDRO2D_BUILD_COMPILED=1 compiles for pip as well, and 0 compiles for nobody.
 """
 
 import os
@@ -24,10 +24,11 @@ class CompiledKernels(BuildHookInterface):
     folder: str | None = None
 
     def _wanted(self) -> bool:
-        return self.target_name == "wheel" and os.environ.get("HYDRO2D_BUILD_COMPILED", "") not in ("", "0")
+        by_default = "PIP_BUILD_TRACKER" not in os.environ and platform.machine() in TARGETS  # pip sets it, as hatchling knows
+        return self.target_name == "wheel" and (os.environ.get("HYDRO2D_BUILD_COMPILED") or str(int(by_default))) != "0"
 
     def dependencies(self) -> list[str]:
-        """The dependencies of hydro2d, in the newest versions that are allowed; none without the variable."""
+        """The dependencies of hydro2d, in the newest versions that are allowed, to compile."""
         return list(self.metadata.core.dependencies) if self._wanted() else []
 
     def initialize(self, version: str, build_data: dict) -> None:
@@ -37,7 +38,12 @@ class CompiledKernels(BuildHookInterface):
         compiled = Path(self.folder) / "_compiled"
         own = {name: value for name, value in os.environ.items() if not name.startswith(("NUMBA_", "HYDRO2D_"))}
         own |= {"HYDRO2D_CACHE_DIR": str(compiled), "HYDRO2D_TARGET": TARGETS[platform.machine()], "PYTHONPATH": self.root}
-        subprocess.run([sys.executable, "-m", "hydro2d.running.compile_all"], cwd=self.folder, env=own, check=True)
+        try:
+            subprocess.run([sys.executable, "-m", "hydro2d.running.compile_all"], cwd=self.folder, env=own, check=True)
+        except subprocess.CalledProcessError as problem:
+            self.finalize(version, build_data, "")
+            raise SystemExit(f"hydro2d: no compiled kernels for the wheel ({problem}); "
+                             "HYDRO2D_BUILD_COMPILED=0 builds one without") from None
         build_data["force_include"][str(compiled)] = "hydro2d/_compiled"
 
     def finalize(self, version: str, build_data: dict, artifact_path: str) -> None:

@@ -23,21 +23,17 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
 
-from hydro2d.base.errors import Error
 from hydro2d.base.parsing import executed, parsed
 from hydro2d.base.terminal import say
-from hydro2d.files.whole import read_json
 from hydro2d.jit import target
 
 #: this package, and the folder that holds hydro2d, eos and strength
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-#: compiled code that the package brings, if its wheel has some, and the file that says what it is for
-SHIPPED, ABOUT = ROOT / "hydro2d" / "_compiled", "about.json"
 #: folders whose files the texts written at run time may all see
 COMPILED = ("hydro2d/physics", "hydro2d/kernels", "eos", "strength")
 #: files of this package that do not change code, only where it is kept
-NO_CODE = ("cache.py", "compilation.py", "store.py", "target.py")
+NO_CODE = ("cache.py", "compilation.py", "shipped.py", "store.py", "target.py")
 
 
 @functools.cache
@@ -185,38 +181,9 @@ def all_folder() -> str:
     return folder_for(_source_files(), [model for models in _added.values() for model in models])
 
 
-def places(folder: str) -> tuple[Path, Path]:
-    """The folders to search for the contents of a folder of the cache: in the package first, then in the cache."""
-    return SHIPPED / os.path.basename(folder), Path(folder)
-
-
-def about() -> dict[str, str]:
-    """Everything that compiled code depends on, with the sources of all processes (those without models from outside)."""
-    return {**target.description(), "sources": os.path.basename(folder_for(_source_files()))}
-
-
-@functools.cache
-def say_if_shipped_is_unused() -> None:
-    """Says why the compiled code of the package cannot be used here, if there is some."""
-    if not (SHIPPED / ABOUT).exists():
-        return
-    try:
-        shipped = read_json(SHIPPED / ABOUT, Error)
-        other = next(((what, shipped[what], here) for what, here in about().items() if shipped[what] != here), None)
-    except (Error, KeyError) as problem:
-        say_once(f"the compiled code of the package is not used: {SHIPPED / ABOUT} does not say what it is for ({problem})")
-        return
-    if other is None:
-        return
-    what, theirs, here = other
-    if what == "sources":
-        say_once("the compiled code of the package is used in part: its sources were changed")
-    elif what in ("processor", "features") and shipped["processor"] in {each.name for each in target.NAMED.values()}:
-        name = shipped["processor"]
-        say_once(f"the compiled code of the package is not used: it is for {name}, and what is compiled here is for "
-                 f"{target.PROCESSOR} (HYDRO2D_TARGET={name} uses it)")
-    else:
-        say_once(f"the compiled code of the package is not used: it is for {what} {theirs}, here is {here}")
+def sources() -> str:
+    """A hash of the sources of all processes (those without models from outside) and of all else that code depends on."""
+    return os.path.basename(folder_for(_source_files()))
 
 
 #: names of the models from outside, by the package whose `dispatch` chooses among them

@@ -12,10 +12,11 @@ import numpy as np
 
 from hydro2d.base.errors import Error
 from hydro2d.jit import barrier, by_name, recording, store
-from hydro2d.jit.cache import all_folder, folder_of, module_of, places
+from hydro2d.jit.cache import all_folder, folder_of, module_of
 from hydro2d.jit.handle import call_at
 from hydro2d.jit.options import INNER, OPTIONS
 from hydro2d.jit.recording import called
+from hydro2d.jit.shipped import places
 
 if numba.config.DISABLE_JIT:
     raise Error("NUMBA_DISABLE_JIT is set, and without compiled code a cycle takes minutes: unset it")

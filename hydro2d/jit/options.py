@@ -5,12 +5,14 @@ tests/jit/test_jit.py names the internals that numba does not promise to keep.
 
 from __future__ import annotations
 
+import copy
 import functools
 import os
+import types as types_of_python
 
 import llvmlite.binding
 import numba
-from numba.core import codegen, cpu
+from numba.core import codegen, cpu, inline_closurecall, targetconfig, types
 from numba.core.options import TargetOptions
 
 numba.config.THREADING_LAYER = "omp"
@@ -35,6 +37,8 @@ compiler_events = numba.core.event
 #: events of a compilation: LLVM optimises a function with all that is inlined in it; machine code is made
 OPTIMISE, MACHINE_CODE = "hydro2d:optimise", "hydro2d:machine-code"
 
+#: types of numbers, without those of constants
+NUMBERS = frozenset((types.Integer, types.Float, types.Boolean))
 #: functions that only call kernels: optimising them gains nothing
 ONLY_CALLS: set = set()
 #: functions that only compiled code calls; they have no machine code of their own
@@ -87,6 +91,45 @@ def _compile_once() -> None:
 
 
 _compile_once()
+
+
+def _repeat_less() -> None:
+    """Keeps numba from finding out the same again and again: the types of operators between numbers, whether two sets of flags
+    are the same, and copies of what is inlined once. The machine code is the same to the last byte."""
+    config, functions = targetconfig.TargetConfig, types.functions.BaseFunction
+    equal, call_type = config.__eq__, functions.get_call_type
+    known: dict = {}
+
+    @functools.wraps(equal)
+    def equal_if_set_equally(self, other):
+        return type(self) is type(other) and self._values == other._values or equal(self, other)
+
+    @functools.wraps(call_type)
+    def asked_once(self, context, arguments, keywords):
+        if keywords or not all(type(each) in NUMBERS for each in arguments):
+            return call_type(self, context, arguments, keywords)
+        call = self, context, tuple(arguments)
+        if call not in known:
+            signature = call_type(self, context, arguments, keywords)
+            if self._impl_keys[signature.args] is not self.typing_key:  # a function of Python that numba compiles
+                return signature
+            known[call] = signature
+        self._impl_keys[known[call].args] = self.typing_key
+        return known[call]
+
+    def inline_function(self, caller_ir, block, i, function, arg_typs=None):
+        inlined = self.run_untyped_passes(function)  # made for this place alone
+        inline_closurecall.copy = types_of_python.SimpleNamespace(deepcopy=lambda each: each)
+        try:
+            return self.inline_ir(caller_ir, block, i, inlined, function.__code__.co_freevars, arg_typs=arg_typs)
+        finally:
+            inline_closurecall.copy = copy
+
+    config.__eq__, functions.get_call_type = equal_if_set_equally, asked_once
+    inline_closurecall.InlineWorker.inline_function = inline_function
+
+
+_repeat_less()
 
 
 def is_cached(compiled, types: tuple) -> bool:

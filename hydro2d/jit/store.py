@@ -23,7 +23,7 @@ from numba.core import caching, compiler, serialize, sigutils
 
 from hydro2d.files.strange import StrangeFile, own
 from hydro2d.files.whole import replacing
-from hydro2d.jit import cache
+from hydro2d.jit import cache, shipped
 
 #: the first word of every file, and its ending
 FORM, ENDING = b"hydro2d-code-1", ".code"
@@ -88,7 +88,7 @@ class Kept(caching._Cache):
                 cache.say_once(f"{folder / name} is damaged ({problem}): the function is compiled anew")
             except OSError as problem:
                 cache.say_once(f"{folder} cannot be read ({problem.strerror}): what it keeps is compiled anew")
-        cache.say_if_shipped_is_unused()
+        shipped.say_if_unused()
         return None
 
     def save_overload(self, sig, data) -> None:

@@ -1,7 +1,7 @@
 """The processor that code is compiled for: the one at hand, or one named by HYDRO2D_TARGET.
 
 All processors that have the features of a named target get the same code, which can be shipped and gives the same bits on each
-of them. The code for the processor at hand is a few per cent faster, so it is the default (docs/explanation/speed.md).
+of them. The code for the processor at hand is a few per cent faster. `shipped` has the default.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Target(NamedTuple):
         return [feature for feature in self.features if not here.get(feature)]
 
 
-#: the processor at hand, the default target
+#: the processor at hand
 NATIVE = "native"
 #: named targets by the kind of machine (`platform.machine`). x86 processors have had x86-64-v3 since 2013 (Intel) and
 #: 2015 (AMD); NEON belongs to every aarch64
@@ -60,7 +60,7 @@ def named() -> Target | None:
     return NAMED.get(platform.machine())
 
 
-def _chosen() -> Target | None:
+def asked_for() -> Target | None:
     """The target that HYDRO2D_TARGET asks for; None: numba's own choice, the processor at hand or that of NUMBA_CPU_NAME.
 
     Raises TargetError.
@@ -76,13 +76,19 @@ def _chosen() -> Target | None:
     return target
 
 
-def _fix() -> tuple[str, str, str]:
-    """Sets numba's target. Returns the actual one: system, processor and features.
+def is_numbas_choice() -> bool:
+    """Whether NUMBA_CPU_NAME or NUMBA_CPU_FEATURES asks for a processor."""
+    return numba.config.CPU_NAME is not None or numba.config.CPU_FEATURES is not None
+
+
+def fix(target: Target | None) -> None:
+    """Sets numba's target, or leaves numba's own choice.
 
     numba reads it once, when its first function is declared. In a program that has declared one before, the target stays as it
     was then, and a line says so.
     """
-    target, config = _chosen(), numba.config
+    global SYSTEM, PROCESSOR, FEATURES
+    config = numba.config
     before = config.CPU_NAME, config.CPU_FEATURES
     if target is not None:
         config.CPU_NAME, config.CPU_FEATURES = target.name, target.flags
@@ -92,16 +98,21 @@ def _fix() -> tuple[str, str, str]:
         actual = registry.cpu_target.target_context.codegen().magic_tuple()
         say(f"hydro2d: code is compiled for {actual[1]}, not for {target.name}: numba was used before hydro2d was imported",
             file=sys.stderr, flush=True)
-    return actual
+    SYSTEM, PROCESSOR, FEATURES = actual
 
 
-#: the target of compiled code, as LLVM names it
-SYSTEM, PROCESSOR, FEATURES = _fix()
+#: the target of compiled code, as LLVM names it, once it is fixed
+SYSTEM = PROCESSOR = FEATURES = ""
 
 
 def description() -> dict[str, str]:
     """All that the code of a function depends on in addition to its sources, by name."""
+    return {**versions(), "system": SYSTEM, "processor": PROCESSOR, "features": FEATURES}
+
+
+def versions() -> dict[str, str]:
+    """The compiler and its options, which are known before the target is fixed."""
     options = {f"numba.config.{option}": repr(getattr(numba.config, option, None)) for option in OPTIONS}
     options["numba.config.OPT.is_opt_max"] = repr(getattr(numba.config.OPT, "is_opt_max", False))  # "max" is a 3 as well
     return {"numba": numba.__version__, "llvmlite": llvmlite.__version__, "Python": sys.implementation.cache_tag,
-            "system": SYSTEM, "processor": PROCESSOR, "features": FEATURES, **options}
+            **options}

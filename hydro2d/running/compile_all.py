@@ -18,8 +18,9 @@ from hydro2d.base.terminal import say
 from hydro2d.deck import deck as decks
 from hydro2d.files.shipped import problems_folder
 from hydro2d.files.whole import write_json
-from hydro2d.jit import cache, store, target
+from hydro2d.jit import cache, shipped, store, target
 from hydro2d.jit.compilation import announced
+from hydro2d.physics.centroids import box_ends
 from hydro2d.running import run
 
 #: decks that together call every kernel: contact; tracers and a mesh that moves; light points of an explosive; a slip layer
@@ -50,6 +51,7 @@ def compile_decks(files: Sequence[Path]) -> None:
             run_briefly(deck)
             lines = compiled.closing_lines()
         say(f"{file.name}: {'; '.join(lines) or 'was compiled already'}", flush=True)
+    box_ends(1.0, 0.0, 0.0, 0.0, 0.0)  # results and outlines of bodies thinner than a cell call it
 
 
 def main() -> None:
@@ -66,7 +68,7 @@ def main() -> None:
     for file in root.glob("*/*"):
         if file.suffix != store.ENDING:
             file.unlink()
-    write_json(root / cache.ABOUT, cache.about())
+    write_json(root / shipped.ABOUT, shipped.about())
 
 
 if __name__ == "__main__":

@@ -475,7 +475,7 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
 
     Raises RunError, SnapshotError, LockError (another process uses the directory), StrangeFile.
     """
-    from hydro2d.jit import threads
+    from hydro2d.jit import shipped, threads
     from hydro2d.jit.compilation import announced
 
     directory = Path(directory or deck.output.directory)
@@ -495,6 +495,8 @@ def run(deck, directory: Path | None = None, *, restart=False, overwrite=False, 
             announced(report, deck if (threads() > 1 if second is None else second) else None) as compiled,
         ):
             this_run = Run(deck, directory, restart=restart, report=report, columns=columns, compiled=compiled, theory=theory)
+            if not quiet and (advice := shipped.advice()):
+                report.line(advice)
             return this_run.execute(interrupt)
 
 

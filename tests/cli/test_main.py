@@ -100,6 +100,22 @@ def test_kernels_are_compiled_before_they_are_needed(simulation, deck, monkeypat
     assert all(file.is_file() for file in files)
 
 
+def test_native_kernels_take_the_place_of_those_of_the_package(simulation, deck, monkeypatch, capsys):
+    from hydro2d.jit import shipped
+
+    monkeypatch.setenv("HYDRO2D_TARGET", "")
+    asked = []
+    monkeypatch.setattr(shipped, "prefer_native", lambda: asked.append(os.environ["HYDRO2D_TARGET"]))
+    assert call(["compile", deck]) == 0
+    assert asked == []
+    assert call(["compile", "--native", deck]) == 0
+    assert asked == ["native"]
+    monkeypatch.setattr(shipped, "IN_USE", True)  # too late: this process has begun with other code
+    assert call(["compile", "--native", deck]) == 2
+    assert "--native" in capsys.readouterr().err
+    assert len(asked) == 1
+
+
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", ["[1]", '["a", "b"]', '{"a": 1}', "null"])
 def test_a_directory_may_have_a_name_that_json_would_read(simulation, deck, tmp_path, monkeypatch, name):

@@ -4,6 +4,7 @@ import ast
 import importlib
 import inspect
 import math
+import operator
 import os
 import re
 import stat
@@ -14,6 +15,9 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
+from numba.core import caching, codegen, compiler, cpu, imputils, inline_closurecall, registry, targetconfig
+from numba.core.typing import templates
+from numba.np import arrayobj
 
 from hydro2d import jit
 from hydro2d.jit import cache, options
@@ -102,9 +106,63 @@ def test_the_names_of_handles_are_among_the_sources_of_every_phase():
         assert {"hydro2d/kernels/names.py", "hydro2d/mesh/fields.py"} <= seen, phase.__name__
 
 
-#: what numba does not promise to keep: private names on which hydro2d relies
-RELIED_ON = {"_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals", "_verify_declare_only_symbols",
-             "_Cache", "_reduce", "_rebuild", "_fields", "_nrt"}
+#: features that numba does not promise to keep: (object, attribute, words that its signature must have)
+RELIED_ON = [
+    (codegen.CPUCodeLibrary, "_optimize_final_module", ("self",)),
+    (codegen.CPUCodeLibrary, "_finalize_final_module", ("self",)),
+    (codegen.CPUCodeLibrary, "_finalize_dynamic_globals", ("self",)),
+    (codegen.CPUCodeLibrary, "_verify_declare_only_symbols", ("self",)),
+    (codegen.JITCodeLibrary, "get_pointer_to_function", ("name",)),
+    (cpu.CPUContext, "get_executable", ("library", "fndesc", "env")),
+    (numba.core.funcdesc.FunctionDescriptor, "llvm_cfunc_wrapper_name", ()),
+    (imputils, "lower_getattr_generic", ("ty",)),
+    (templates, "infer_getattr", ()),
+    (templates, "AttributeTemplate", ()),
+    (arrayobj, "make_array", ("array_type",)),
+    (arrayobj, "populate_array", ("array", "data", "shape", "strides", "itemsize", "meminfo")),
+    (cpu, "CPUTargetOptions", ()),
+    (numba.core.options, "TargetOptions", ()),
+    (numba.core.options.TargetOptions, "Mapping", ("flag_name",)),
+    (numba.core.compiler.Flags(), "noalias", ()),
+    (caching, "_Cache", ()),
+    (compiler, "CompileResult", ()),
+    (compiler.CompileResult, "_reduce", ("self",)),
+    (compiler.CompileResult, "_rebuild", ("target_context", "reload_init", "referenced_envs")),
+    (compiler.CompileResult, "_fields", ()),
+    (compiler.CompileResult, "lifted", ()),
+    (compiler.CompileResult, "type_annotation", ()),
+    (codegen.CodeLibrary, "has_dynamic_globals", ()),
+    (numba.core.serialize, "dumps", ("obj",)),
+    (numba.core.sigutils, "normalize_signature", ("sig",)),
+    (registry.cpu_target, "target_context", ()),
+    (codegen.JITCPUCodegen, "magic_tuple", ("self",)),
+    (numba.config, "CPU_NAME", ()),
+    (numba.config, "CPU_FEATURES", ()),
+    (numba.config, "ENABLE_AVX", ()),
+    (numba.core, "event", ()),
+    (numba.core.event, "Listener", ()),
+    (numba.core.event, "register", ("kind", "listener")),
+    (numba.core.dispatcher.Dispatcher, "typeof_pyval", ("val",)),
+    (numba.core.dispatcher.Dispatcher, "compile", ("sig",)),
+    (numba.core.options.DefaultOptions, "_nrt", ()),
+    (targetconfig.TargetConfig, "__eq__", ("other",)),
+    (compiler.Flags(), "_values", ()),
+    (numba.types.functions.BaseFunction, "get_call_type", ("self", "context", "args", "kws")),
+    (numba.types.Function(templates.make_concrete_template("max", max, [])), "_impl_keys", ()),
+    (numba.types.Function(templates.make_concrete_template("max", max, [])), "typing_key", ()),
+    (inline_closurecall.InlineWorker, "inline_function", ("caller_ir", "block", "i", "function", "arg_typs")),
+    (inline_closurecall.InlineWorker, "inline_ir", ("caller_ir", "block", "i", "callee_ir", "callee_freevars", "arg_typs")),
+    (inline_closurecall.InlineWorker, "run_untyped_passes", ("func",)),
+    (inline_closurecall.copy, "deepcopy", ("x",)),
+    (numba.config, "THREADING_LAYER", ()),
+    (llvmlite.binding, "set_option", ("name", "option")),
+]
+
+
+@pytest.mark.parametrize(("owner", "name", "words"), RELIED_ON, ids=[name for _, name, _ in RELIED_ON])
+def test_unpromised_features_of_numba_exist(owner, name, words):
+    feature = getattr(owner, name)
+    assert not words or set(words) <= set(inspect.signature(feature).parameters)
 
 
 def test_no_other_private_name_of_numba_is_used():
@@ -209,6 +267,36 @@ def test_kernels_are_not_optimised_again_in_their_callers(only_calls, monkeypatc
     phase.compile((numba.int64[::1], numba.float64[::1]))
     (text,) = phase.inspect_llvm().values()
     assert len(re.findall(r"call [^\n]*named_kernel", text)) == (1 if only_calls else 0)
+
+
+def test_the_type_of_an_operator_between_numbers_is_asked_for_once(monkeypatch):
+    """numba tries half a dozen templates each time, which took a tenth of a compilation."""
+    def power(x):
+        return x * x * x * x * x
+
+    asked, apply = [], templates.ConcreteTemplate.apply
+    monkeypatch.setattr(templates.ConcreteTemplate, "apply", lambda self, *given: asked.append(self.key) or apply(self, *given))
+    compiled = numba.njit(**options.OPTIONS)(power)
+    assert compiled(np.float32(3.0)) == 243.0
+    assert asked.count(operator.mul) <= 1
+    assert compiled(3) == 243
+
+
+@pytest.mark.parametrize("inline", ["always", "never"])
+def test_what_is_inlined_twice_is_not_mixed_up(inline):
+    """Its form in numba is not copied, since it is made anew for every place."""
+    @numba.njit(inline=inline, **options.OPTIONS)
+    def weighted(a, b):
+        total = 0.0
+        for i in range(a.shape[0]):
+            total += a[i] * b
+        return total
+
+    @numba.njit(**options.OPTIONS)
+    def both(a, b, c):
+        return weighted(a, b) - weighted(a[1:], c) * weighted(a, c)
+
+    assert both(np.array([1.0, 2.0, 4.0]), 3.0, 5.0) == 21.0 - 30.0 * 35.0
 
 
 @pytest.mark.parametrize("inner", [True, False])

@@ -80,7 +80,9 @@ READ = {
     "tests/trials/test_texts.py::test_absurd_settings": {"files.toml.assignment: tomllib.loads"},
     "tests/jit/test_store.py::test_a_damaged_file_is_compiled_anew_and_named": {
         "jit.store._rebuilt: pickle.loads", "jit.store._rebuilt: read_bytes"},
-    "tests/jit/test_target.py::test_code_without_a_target_is_not_used": {"jit.cache.say_if_shipped_is_unused: read_json"},
+    "tests/jit/test_target.py::test_code_without_a_target_is_not_used": {"jit.shipped.say_if_unused: read_json"},
+    "tests/jit/test_shipped.py::test_code_that_does_not_say_what_it_is_for_is_not_the_default": {
+        "jit.shipped.default: read_json"},
     "tests/results/test_cutaway.py::test_cutaway_or_a_clear_error": {"results.cutaway.draw: subprocess.run"},
     "tests/jit/test_compilation.py::test_a_second_process_that_fails_is_said_to": {
         "jit.compilation.Second.start: subprocess.Popen"},
@@ -89,7 +91,8 @@ READ = {
     PACKAGE: {"analytic.experience.table: csv.DictReader", "analytic.experience.table: open",
               "analytic.model_transition._rows: csv.DictReader", "analytic.model_transition._rows: open",
               "deck.templates.kinds: read_text", "deck.templates.text: read_text", "jit.cache._imported: read_text",
-              "jit.cache.folder_for: read_bytes", "jit.store._text_hash: read_bytes", "materials.library._library: read_text",
+              "jit.cache.folder_for: read_bytes", "jit.shipped._mark: read_bytes", "jit.store._text_hash: read_bytes",
+              "materials.library._library: read_text",
               "materials.outside.from_package: read_text", "results.viewer.page._asset: read_text"},
     OURS: {"files.checksums.seal: read_bytes", "output.vtk._write: SetFileName", "results.cutaway: json.load",
            "study.report.pictures.Picture.data: read_bytes", "running.bench_compilation.in_an_empty_cache: json.loads",
@@ -182,6 +185,7 @@ NUMBERS, WORDS, MADE, ELSEWHERE = (
 UNGUARDED = {
     NUMBERS: {
         "api._base: file", "deck.templates.text: file", "jit.compilation._mark: file", "jit.recording.first_call: file",
+        "jit.shipped._mark: file",
         "output.series._path: file", "running.compile_all.shipped_decks: file", "running.run._history: file",
         "study.report.pictures.draw: file", "study.report.pictures.films: file", "study.report.pictures.fitted: file",
         "study.report.charts._rear: chart", "study.report.charts._figure: chart", "study.report.rods._tidy: figure",

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from hydro2d import jit
 from hydro2d.deck import deck
 from hydro2d.measure.audit import totals
+from hydro2d.running.team import at_most
 from hydro2d.solver.simulation import WATCH_EVERY, Simulation
 from tests.decks import box, entry, mesh, plate, rod, stop
 from tests.restarts import restarted
@@ -143,3 +145,25 @@ def test_a_run_that_goes_on_with_another_body_takes_its_direction():
         again.load_restart_scalars(kept[0])
         assert again.stop_reason() is None
         assert again.restart_scalars()["stops"]["Rebound"] == {"body": body, "sign": 1.0 if body == "first" else -1.0}
+
+
+@pytest.mark.skipif(jit.max_threads() < 2, reason="this process has one thread")
+def test_a_run_may_go_on_with_fewer_threads(monkeypatch):
+    """With more parts than threads, one part would wait for ever for another that has no thread."""
+    simulation, seen, play = Simulation(deck.loads(TEXT)), [], jit.Tape.play
+
+    def watched(tape, handle, first):
+        seen.append((len(handle.parts) - 1, jit.threads()))
+        assert seen[-1][0] <= jit.threads()
+        play(tape, handle, first)
+
+    monkeypatch.setattr(jit.Tape, "play", watched)
+    with at_most(2):
+        simulation.advance(cycles=4)
+        simulation.advance(cycles=4)
+    with at_most(1):
+        simulation.advance(cycles=4)
+    with at_most(2):
+        simulation.advance(cycles=4)
+    assert (2, 2) in seen
+    assert (1, 1) in seen
