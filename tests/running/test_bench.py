@@ -51,7 +51,7 @@ def test_one_case(quick):
     assert not jit.timings
 
 
-@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("threads", [1, pytest.param(2, marks=pytest.mark.thorough)])
 def test_whole_shot(quick, threads):
     """The phases add up to the whole, and the groups."""
     if threads > jit.max_threads():
