@@ -68,7 +68,7 @@ def test_a_mesh_graded_along_the_rod_is_proposed_and_has_the_cells_that_were_pro
 
 
 @pytest.mark.parametrize("overrides", [
-    ['mesh.z=[{to="-24 mm", first="2.4 mm", last="0.6143 mm"}, {to=0.0, cells=39}, {to="101.352 mm", ratio=1.05}]'],
+    ['mesh.z=[{to="-24 mm", first="2.4 mm", last="0.6143 mm"}, {to=0.0, cells=39}, {to="101.352 mm", cells=165}]'],
     ["body.rod.length=26 mm", "mesh.z_start=-33 mm", 'mesh.z=[{to=0.0, cells=54}, {to="101.352 mm", ratio=1.12}]'],
 ])
 def test_nothing_is_proposed_for_a_mesh_that_is_graded_or_gains_little(overrides):
