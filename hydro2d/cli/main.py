@@ -249,17 +249,20 @@ def export(
 
 
 @app.command
-def bench(*, json: Path | None = None, shot: bool = False, compilation: bool = False, threads: Count | None = None) -> int:
+def bench(deck: Path | None = None, *, json: Path | None = None, shot: bool = False, compilation: bool = False,
+          threads: Count | None = None) -> int:
     """Measures the time per cell and cycle, phase by phase, and the memory bandwidth (a triad) in the same run.
 
     Example: hydro2d bench --json bench.json
 
     Parameters
     ----------
+    deck
+        The deck of --shot; default: the README's first shot.
     json
         Also writes the numbers to this JSON file.
     shot
-        Also runs the shot at 1086 m/s to rest, with all its outputs, on one thread and on all; this takes minutes.
+        Runs a deck to its end instead, with all its outputs, on one thread and on all, and prints where the time goes.
     compilation
         Also compiles all kernels of the README's first shot anew, and reports the time of each kernel and each stage.
     threads
@@ -268,7 +271,9 @@ def bench(*, json: Path | None = None, shot: bool = False, compilation: bool = F
     _set_threads(threads)
     from hydro2d.running import bench as benches
 
-    return benches.main(json, shot=shot, compilation=compilation)
+    if deck is not None and not shot:
+        raise UsageError(f"{deck}: a deck is measured with --shot; without it, omit the deck")
+    return benches.main(json, shot=(deck or Path(benches.DECK)) if shot else None, compilation=compilation)
 
 
 @app.command

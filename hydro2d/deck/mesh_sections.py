@@ -85,7 +85,7 @@ def as_text(segment: dict[str, Any]) -> dict[str, Any]:
 
 
 #: keys of a generated mesh
-GENERATED = ("cells_across", "reach", "across")
+GENERATED = ("cells_across", "reach", "across", "fine")
 
 
 class Mesh(Section):
@@ -95,17 +95,17 @@ class Mesh(Section):
     r_start: Length = Field(0.0, description="inner edge of the mesh", examples=["0 mm"])
     z_start: Length = Field(0.0, description="lower edge of the mesh", examples=["-10 cm"])
     r: tuple[Segment, ...] = Field(
-        (), description="segments from r_start outward; or give cells_across and reach",
+        (), description="segments from r_start outward; default: by cells_across and reach",
         examples=[[{"to": "6 mm", "size": "0.5 mm"}, {"to": "8 cm", "ratio": 1.1}]],
     )
     z: tuple[Segment, ...] = Field(
-        (), description="segments from z_start upward; or give cells_across and reach",
+        (), description="segments from z_start upward; default: by cells_across and reach",
         examples=[[{"to": "10 cm", "cells": 400}]],
     )
     cells_across: CellsAcross | None = Field(
-        None, description="with reach, instead of r and z: cells across the radius of a rod or a sphere, or across the smaller "
-        "of thickness and width of another body; square cells of this size cover that body, all that moves and the way ahead, "
-        "and each cell beyond them is a tenth larger than the one before", examples=[8.5],
+        None, description="with reach, instead of z, or of r and z: cells across the radius of a rod or a sphere, or across "
+        "the smaller of thickness and width of another body; square cells of this size cover that body, all that moves and the "
+        "way ahead, and each cell beyond them is a tenth larger than the one before", examples=[8.5],
     )
     reach: Reach | None = Field(
         None, description="how far the mesh goes ahead of that body and beside it: a length, or a number of its radii; none "
@@ -115,22 +115,27 @@ class Mesh(Section):
         None, description="the body that cells_across and reach refer to; default: the one that the mesh follows, else the rod "
         "of [penetration], else the first that moves", examples=["rod"],
     )
+    fine: Reach | None = Field(
+        None, description="with cells_across and reach, for a rod that stays whole and is followed: how far behind its nose "
+        "the cells along z stay fine, a length or a number of its radii; each cell farther back is a tenth larger than the one "
+        "before, up to four fine cells; default and none: all of the rod has fine cells", examples=["7 radii"],
+    )
     follow: str | None = Field(
         None, description="a body with which the whole mesh travels along z; bodies further ahead enter when the mesh "
         "reaches them; default and none: the mesh does not move",
         examples=["rod"],
     )
 
-    @field_validator("follow")
+    @field_validator("follow", "fine")
     @classmethod
-    def _nobody(cls, follow: str | None) -> str | None:
+    def _nothing(cls, value: Any) -> Any:
         """``none`` cancels the value of an included deck."""
-        return None if follow == "none" else follow
+        return None if value == "none" else value
 
     @model_validator(mode="before")
     @classmethod
     def _cancelled(cls, data: Any) -> Any:
-        """A reach of ``none`` cancels the three keys of a generated mesh."""
+        """A reach of ``none`` cancels the keys of a generated mesh."""
         if isinstance(data, dict) and data.get("reach") == "none":
             return {key: value for key, value in data.items() if key not in GENERATED}
         return data
@@ -138,9 +143,9 @@ class Mesh(Section):
     @model_validator(mode="after")
     def _segments_or_words(self) -> Mesh:
         words = [key for key in GENERATED if getattr(self, key) is not None]
-        if words and (self.r or self.z):
-            raise ValueError(f"give either segments, r and z, or cells_across and reach; {words[0]} and "
-                             f'{"r" if self.r else "z"} are both given (reach = "none" cancels an included deck\'s)')
+        if words and self.z:
+            raise ValueError(f"give either z, its segments, or cells_across and reach; {words[-1]} and z are both given (z = "
+                             '[] cancels the segments of an included deck, reach = "none" its cells_across and reach)')
         lost = [key for key in (("cells_across", "reach") if words else ("r", "z")) if not getattr(self, key)]
         if lost:
             raise ValueError(f"{' and '.join(lost)} missing: a mesh needs r and z, its segments, or cells_across and reach")

@@ -1,14 +1,15 @@
 """`hydro2d bench`: time per cell and cycle, phase by phase, compared with a triad measured in the same run.
 
 A triad update moves 24 bytes (two reads, one write of a double). The bandwidth of a shared machine drifts. It is therefore
-measured before and after every case, and the case is compared with the mean of both. Cases run on the whole mesh, with the
-active region off, so a cell costs as much as in the middle of a shot. "whole shot" runs as its deck says, with all its outputs.
+measured before and after every case, and the case is compared with the better of both. Every time is the least of five batches,
+since other work on the machine can only lengthen one. Cases run on the whole mesh, with the active region off, so a cell costs
+as much as in the middle of a shot. `--shot` measures a deck as it is instead, with all its outputs, and where its time goes.
 """
 
 from __future__ import annotations
 
+import functools
 import resource
-import statistics
 import sys
 import tempfile
 import time
@@ -26,20 +27,26 @@ from hydro2d.deck import deck as decks
 from hydro2d.files.whole import write_json
 from hydro2d.jit.compilation import announced
 from hydro2d.kernels.triad import triad
+from hydro2d.output import snapshot
 from hydro2d.output.directory import LOG
 from hydro2d.running import bench_compilation, provenance, reporting, run
 from hydro2d.solver.simulation import Simulation
 
-DECK = "problems/cth_nose_shape/hemi_5083_1086_layer.toml"
-TRIAD_SHAPE, TRIAD_REPEATS = (2000, 4000), 7
+DECK = bench_compilation.DECK
+TRIAD_SHAPE = (2000, 4000)
 BYTES_PER_UPDATE = 24
+#: batches, of which the fastest counts
+BATCHES = 5
 #: a case takes a multiple of this number of cycles: slip zones are updated every few, and the order of sweeps alternates
 CYCLES = 10
 #: warm-up cycles on the mesh of the deck; largest number of measured cell-cycles, and of measured cycles per warm-up cycle
 WARM_CYCLES, TIMED_WORK, TIMED_OVER_WARM = 60, 16e6, 2
 WHOLE_SHOT = "whole shot"
-#: kernels called only by outputs and stop checks
-OF_OUTPUTS = ("pressures_and_temperatures", "body_sums", "body_totals", "vertex_totals", "velocities")
+#: cycles of a shot between the states in which its cycles are taken apart, and before the first one
+STAGE, FIRST = 2000, 10
+#: phases that are all for mixed cells, or for contact; what others do for them counts as time of the cells
+GROUPS = {"deform_mixed": "mixed cells", "find_contact": "contact"}
+CELLS, PYTHON = "cells", "Python between"
 
 SHOT = """
 include = "cth_nose_shape/hemi_5083_1086_layer.toml"
@@ -154,100 +161,118 @@ class Bandwidth:
         self.seen: list[float] = []
 
     def __call__(self) -> float:
-        """Median bandwidth of a few triads with the current number of threads, GB/s."""
+        """Largest bandwidth of a few triads with the current number of threads, GB/s."""
         a, b, c = (np.full(TRIAD_SHAPE, value) for value in (0.0, 1.0, 2.0))
-        seconds = []
-        for _ in range(TRIAD_REPEATS):
-            start = time.perf_counter()
-            triad(0, TRIAD_SHAPE[0], 3.0, b, c, a)
-            seconds.append(time.perf_counter() - start)
-        self.seen.append(BYTES_PER_UPDATE * a.size / statistics.median(seconds[1:]) / 1e9)
+        triad(0, TRIAD_SHAPE[0], 3.0, b, c, a)
+        seconds = _least(lambda: triad(0, TRIAD_SHAPE[0], 3.0, b, c, a))
+        self.seen.append(BYTES_PER_UPDATE * a.size / seconds / 1e9)
         return self.seen[-1]
 
 
 def timed_cycles(case: Case, cells: int) -> int:
-    """Number of measured cycles, a multiple of CYCLES."""
+    """Number of cycles of a batch, a multiple of CYCLES."""
     most = TIMED_OVER_WARM * case.warm
-    return CYCLES * max(1, round(min(TIMED_WORK / cells, most) / CYCLES))
+    return CYCLES * max(1, round(min(TIMED_WORK / cells, most) / BATCHES / CYCLES))
+
+
+def _least(work: Callable[[], object]) -> float:
+    """Seconds of the fastest of BATCHES calls."""
+    return min(_seconds(work) for _ in range(BATCHES))
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def _advance(simulation: Simulation, cycles: int) -> None:
+    """Cycles as a run does them, by compiled code."""
+    while cycles > 0:
+        cycles -= simulation.advance(cycles=cycles)
+
+
+def _phases(simulation: Simulation, cycles: int) -> dict[str, float]:
+    """Seconds of cycles that Python goes through, by phase: those of the fastest of BATCHES batches."""
+    batches = []
+    for _ in range(BATCHES):
+        jit.profiling(True)
+        for _ in range(cycles):
+            simulation.step()
+        batches.append({name: spent for name, (spent, _) in jit.timings.items()})
+        jit.profiling(False)
+    return min(batches, key=lambda spent: sum(spent.values()))
 
 
 def measure(case: Case, bandwidth: Bandwidth, cycles: int | None = None) -> dict:
-    """One case with the current number of threads: ns per cell and cycle, in total and by phase (kernel).
+    """One case with the current number of threads: ns per cell and cycle, in total and by phase.
 
-    cycles : number of measured cycles, after as many unmeasured ones; default: set by the case and its cells
+    The total is that of cycles by compiled code; phases are timed in cycles that Python goes through, after these.
+
+    cycles : number of cycles of a batch, after as many unmeasured ones; default: set by the case and its cells
     """
     simulation = Simulation(case.deck())
     cells = simulation.grid.cells
-    for _ in range(cycles or case.warm):
-        simulation.step()
-    timed = cycles or timed_cycles(case, cells)
+    _advance(simulation, cycles or case.warm)
+    batch = cycles or timed_cycles(case, cells)
     before = bandwidth()
-    jit.profiling(True)
-    start = time.perf_counter()
-    for _ in range(timed):
-        simulation.step()
-    seconds = time.perf_counter() - start
-    return _case(case.name, cells, timed, seconds, _kernel_seconds(), 0.5 * (before + bandwidth()))
+    seconds = _least(lambda: _advance(simulation, batch))
+    phases = _phases(simulation, batch)
+    return _case(case.name, cells, batch, seconds, phases | {PYTHON: seconds - sum(phases.values())}, max(before, bandwidth()))
 
 
 class _Shot(run.Run):
-    """A run that records the seconds spent outside its cycles, from the end of its first cycle."""
+    """A run that keeps its state every STAGE cycles.
 
-    def __init__(self, deck, directory: Path, report):
-        super().__init__(deck, directory, restart=False, report=report)
-        self.beside: dict[str, float] = {}
-        self.began, self._busy = 0.0, False
-        for name, owner, method in (
-            ("stop checks", self.sim, "stop_reason"), ("history", self.sim, "diagnostics"),
-            ("history", self.sim, "conservation"), ("history", self.history, "write"), ("fields", self.series, "dump"),
-            ("copies and restart files", self, "_snapshot"), ("copies and restart files", self, "_save"),
-        ):
-            setattr(owner, method, self._timed(name, getattr(owner, method)))
+    Attributes
+    ----------
+    stages : copies of the state
+    """
 
-    def _timed(self, name: str, method: Callable) -> Callable:
-        def call(*arguments):
-            if self._busy:
-                return method(*arguments)
-            self._busy, start = True, time.perf_counter()
-            try:
-                return method(*arguments)
-            finally:
-                self.beside[name] = self.beside.get(name, 0.0) + time.perf_counter() - start
-                self._busy = False
-
-        return call
+    def __init__(self, deck, directory: Path, report, compiled):
+        super().__init__(deck, directory, restart=False, report=report, compiled=compiled)
+        self.stages: list[snapshot.Snapshot] = []
 
     def _step(self) -> None:
         super()._step()
-        if self.stepped == 1:  # the first cycle loads or compiles the kernels
-            self.beside.clear()
-            self.began = time.perf_counter()
-            jit.profiling(True)
+        if self.stepped >= FIRST + STAGE * len(self.stages):
+            self.stages.append(self._snapshot())
 
 
-def measure_shot(bandwidth: Bandwidth, overrides: tuple[str, ...] = ()) -> dict:
-    """The shot to rest, with all its outputs, in a temporary directory, measured from its second cycle."""
+def measure_shot(deck: decks.Deck, bandwidth: Bandwidth) -> dict:
+    """A shot to its end, with all its outputs, in a temporary directory; then its cycles are taken apart, stage by stage."""
     before = bandwidth()
-    with tempfile.TemporaryDirectory() as folder, reporting.reporter(Path(folder) / LOG, quiet=True) as report:
-        shot = _Shot(decks.load(DECK, overrides), Path(folder), report)
+    with (tempfile.TemporaryDirectory() as folder, reporting.reporter(Path(folder) / LOG, quiet=True) as report,
+          announced(moving.place()) as compiled):
+        shot = _Shot(deck, Path(folder), report, compiled)
         summary = shot.execute(Interrupt())
-        seconds = time.perf_counter() - shot.began
-    phases = {name: spent for name, spent in _kernel_seconds().items() if name not in OF_OUTPUTS} | shot.beside
-    case = _case(WHOLE_SHOT, summary.cells, summary.cycles - 1, seconds, phases, 0.5 * (before + bandwidth()))
-    return case | {
-        "stop_reason": summary.stop_reason,
-        "penetration_depth_m": summary.penetration_depth_m,
-        "wall_s": seconds,
-        "peak_memory_bytes": _peak_memory(),
-        "shares_beside_cycles": {name: spent / seconds for name, spent in shot.beside.items()},
-    }
+    wall = summary["wall_s"]
+    phases = {name: share * summary["cycles_s"] for name, share in shares(deck, shot.stages).items()}
+    phases |= {name: summary[f"{name.replace(' ', '_')}_s"] for name in ("outputs", "compilation", "set up")}
+    phases["stop checks and the end"] = wall - sum(phases.values())
+    groups: dict[str, float] = {}
+    for name, seconds in phases.items():
+        group = name.split(": ")[0]
+        groups[group] = groups.get(group, 0.0) + seconds
+    case = _case(f"{WHOLE_SHOT}, {deck.name}", summary["cells"], summary["cycles"], wall, phases, max(before, bandwidth()))
+    return case | {"stop_reason": summary["stop_reason"], "wall_s": wall, "groups_s": groups,
+                   "peak_memory_bytes": _peak_memory()}
 
 
-def _kernel_seconds() -> dict[str, float]:
-    """Seconds by kernel since profiling began. Ends profiling."""
-    seconds = {name: spent for name, (spent, _) in jit.timings.items()}
-    jit.profiling(False)
-    return seconds
+def shares(deck: decks.Deck, stages: list[snapshot.Snapshot]) -> dict[str, float]:
+    """Shares of the time of cycles: by "group: phase", and of what is in no phase; the means over stages."""
+    spent = {PYTHON: 0.0}
+    for stage in stages:
+        simulation = Simulation(deck)
+        simulation.load_restart_arrays(stage.arrays)
+        simulation.load_restart_scalars(stage.scalars)
+        _advance(simulation, CYCLES)
+        spent[PYTHON] += _least(functools.partial(_advance, simulation, CYCLES))
+        for name, seconds in _phases(simulation, CYCLES).items():
+            key = f"{GROUPS.get(name, CELLS)}: {name}"
+            spent[key] = spent.get(key, 0.0) + seconds
+            spent[PYTHON] -= seconds
+    return {name: seconds / sum(spent.values()) for name, seconds in spent.items()}
 
 
 def _peak_memory() -> int:
@@ -257,7 +282,6 @@ def _peak_memory() -> int:
 
 def _case(name: str, cells: int, cycles: int, seconds: float, phases: dict[str, float], bandwidth: float) -> dict:
     """An entry of `cases`."""
-    phases = phases | {"between kernels": seconds - sum(phases.values())}
     ns = 1e9 / (cells * cycles)
     return {
         "name": name,
@@ -276,12 +300,11 @@ def lines(case: dict) -> list[str]:
     shown = [f"  {case['name']:26s} {case['ns_per_cell_cycle']:7.1f} ns per cell and cycle, "
              f"{case['triad_updates_per_cell_cycle']:6.1f} triad updates at {case['triad_gb_s']:.1f} GB/s  "
              f"({case['cells']} cells, {case['cycles']} cycles)"]
-    if case["name"] == WHOLE_SHOT:
-        depth, memory = case["penetration_depth_m"] * 1e2, case["peak_memory_bytes"] / 2**20
-        shares = ", ".join(f"{name} {100 * share:.2f} %" for name, share in case["shares_beside_cycles"].items())
-        end = f"{case['stop_reason']} after {duration(case['wall_s'])}"
-        shown.append(f"      {end}, depth {depth:.2f} cm, peak memory {memory:.0f} MiB")
-        shown.append(f"      outside the cycles: {shares}")
+    if "wall_s" in case:
+        memory = case["peak_memory_bytes"] / 2**20
+        shown.append(f"      {case['stop_reason']} after {duration(case['wall_s'])}, peak memory {memory:.0f} MiB")
+        parts = ", ".join(f"{name} {seconds:.3g} s" for name, seconds in case["groups_s"].items())
+        shown.append(f"      {parts}")
     return shown
 
 
@@ -303,12 +326,12 @@ def header(about: dict) -> list[str]:
 
 
 def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = None, cycles: int | None = None,
-            shot: bool = False, shot_overrides: tuple[str, ...] = (), say: Callable[[str], None] = say) -> dict:
+            shot: decks.Deck | None = None, say: Callable[[str], None] = say) -> dict:
     """Measures cases on one thread and on all, and returns what `--json` writes.
 
     cases, threads : the cases, and the numbers of threads for each
     cycles : see `measure`
-    shot, shot_overrides : whether the whole shot is also run, and overrides of its deck
+    shot : a deck that is run to its end before the cases
     say : receives the lines of the report
     """
     about = provenance.collect(jit.max_threads())
@@ -316,7 +339,7 @@ def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = No
     for line in header(about):
         say(line)
     if shot:
-        say("the whole shot takes minutes, on one thread and on all")
+        say(f"{shot.name} is run to its end, which may take minutes, on one thread and on all")
     started_with = jit.threads()
     try:
         for number in sorted({1, jit.max_threads()}) if threads is None else threads:
@@ -324,13 +347,13 @@ def collect(cases: Iterable[Case] = CASES, *, threads: Iterable[int] | None = No
             say(f"\n{several(number, 'thread')}")
             bandwidth, first = Bandwidth(), True
             if shot:
-                _tell(measure_shot(bandwidth, shot_overrides), result, say, phases=True)
+                _tell(measure_shot(shot, bandwidth), result, say, phases=True)
             for case in cases:
                 _tell(measure(case, bandwidth, cycles), result, say, phases=first)
                 first = False
             if seen := bandwidth.seen:
-                result["triad_gb_s"][str(number)] = statistics.median(seen)
-                say(f"  triad {statistics.median(seen):.1f} GB/s, {min(seen):.1f} to {max(seen):.1f}")
+                result["triad_gb_s"][str(number)] = max(seen)
+                say(f"  triad {max(seen):.1f} GB/s, at least {min(seen):.1f}")
     finally:
         jit.set_threads(started_with)
     return result
@@ -342,16 +365,20 @@ def _tell(case: dict, result: dict, say: Callable[[str], None], *, phases: bool)
         say(line)
 
 
-def main(json: Path | None = None, *, shot: bool = False, compilation: bool = False) -> int:
+def main(json: Path | None = None, *, shot: Path | None = None, compilation: bool = False) -> int:
     """Runs every case on one thread and on all, prints a table, and writes it as JSON if a file is named.
 
+    shot : a deck that is measured instead of the cases
     compilation : whether the compilation of kernels is also measured, first
+
+    Raises DeckError.
     """
+    deck = decks.load(shot) if shot else None
     measured = {"compilation": bench_compilation.in_an_empty_cache()} if compilation else {}
     for line in bench_compilation.lines(measured["compilation"]) if measured else ():
         say(line)
     with announced(moving.place()):
-        result = collect(shot=shot) | measured
+        result = collect(() if deck else CASES, shot=deck) | measured
     if json is not None:
         write_json(json, result)
         say(f"wrote {json}")

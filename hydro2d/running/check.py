@@ -11,6 +11,7 @@ from hydro2d.base.errors import DeckError
 from hydro2d.base.formats import one_line
 from hydro2d.base.terminal import duration, several
 from hydro2d.deck import deck as decks
+from hydro2d.deck import grading
 from hydro2d.materials import library, quantities
 from hydro2d.mesh.edges.base import EDGES
 from hydro2d.mesh.edges.registry import halved, made
@@ -136,6 +137,7 @@ class Check:
         radii = f" ({ahead / radius:.3g} radii)" if np.isfinite(radius) else ""
         lines = ["", f"follow    {entry.name}: the mesh reaches {ahead * 1e3:.4g} mm{radii} ahead of it and "
                      f"{behind * 1e3:.4g} mm behind"]
+        lines += [f"          {text}" for text in grading.lines(deck)]
         edge = z[-1] if direction > 0 else z[0]
         for other in deck.body:
             ends = sorted(direction * (end - edge) for end in decks.extent(other, deck, "z"))

@@ -12,6 +12,7 @@ import tempfile
 import types
 from pathlib import Path
 
+import llvmlite.binding
 import numba
 import numpy as np
 import pytest
@@ -167,6 +168,7 @@ def test_unpromised_features_of_numba_exist(owner, name, words):
 
 def test_no_other_private_name_of_numba_is_used():
     """Attributes that begin with an underscore, and imports from inside numba, in the whole of hydro2d."""
+    known = {name for _, name, _ in RELIED_ON}
     for file in (ROOT / "hydro2d").glob("**/*.py"):
         tree = ast.parse(file.read_text(encoding="utf-8"))
         modules = {alias.asname or alias.name for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom))
@@ -174,7 +176,7 @@ def test_no_other_private_name_of_numba_is_used():
         used = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute) and node.attr.startswith("_")
                 and node.attr != "__version__"
                 and isinstance(node.value, ast.Name) and node.value.id in modules}
-        assert used <= RELIED_ON, file
+        assert used <= known, file
 
 
 def test_an_edit_compiles_again_what_can_see_it_and_nothing_else():

@@ -5,10 +5,9 @@ import json
 import pytest
 
 from hydro2d import jit
+from hydro2d.cli.main import call
 from hydro2d.deck import deck
 from hydro2d.running import bench
-
-SMALL = ("mesh.r=[{to=\"16.891 mm\", cells=10}]", 'mesh.z=[{to="0 mm", cells=40}, {to="540 mm", cells=100}]')
 
 
 def by_name(name):
@@ -46,19 +45,42 @@ def test_one_case(quick):
     assert case["threads"] == 1
     assert case["triad_updates_per_cell_cycle"] == pytest.approx(case["ns_per_cell_cycle"] * case["triad_gb_s"] / 24)
     assert sum(case["phases"].values()) == pytest.approx(case["ns_per_cell_cycle"])
-    assert {"close_cells", "between kernels"} <= case["phases"].keys()
+    assert {"close_cells", "Python between"} <= case["phases"].keys()
     assert list(result["triad_gb_s"]) == ["1"]
     assert json.loads(json.dumps(result))["provenance"]["packages"]["numba"] in "\n".join(said)
     assert not jit.timings
 
 
-def test_whole_shot(quick):
-    options = (*SMALL, "stop.cycles=12", "output.vtk_interval=100 ns", "output.history_interval=10 ns")
-    result = bench.collect([], threads=[1], shot=True, shot_overrides=options, say=lambda line: None)
+@pytest.mark.parametrize("threads", [1, pytest.param(2, marks=pytest.mark.thorough)])
+def test_whole_shot(quick, threads):
+    """The phases add up to the whole, and the groups."""
+    if threads > jit.max_threads():
+        pytest.skip("one thread only")
+    shot = deck.load(bench.DECK, ["stop.cycles=30", "output.vtk_interval=500 ns", "output.history_interval=50 ns"])
+    said = []
+    result = bench.collect([], threads=[threads], shot=shot, say=said.append)
     (case,) = result["cases"]
-    assert case["name"] == "whole shot"
-    assert (case["cells"], case["cycles"], case["stop_reason"]) == (1400, 11, "number of cycles")
-    assert case["wall_s"] == pytest.approx(case["ns_per_cell_cycle"] * 1e-9 * 1400 * 11)
+    assert case["name"] == "whole shot, hemi_5083_1086_quick"
+    assert (case["cells"], case["cycles"], case["stop_reason"]) == (7854, 30, "number of cycles")
+    assert case["wall_s"] == pytest.approx(case["ns_per_cell_cycle"] * 1e-9 * 7854 * 30)
+    assert sum(case["phases"].values()) == pytest.approx(case["ns_per_cell_cycle"])
     assert case["peak_memory_bytes"] > 5e7
-    assert {"history", "fields", "stop checks"} <= case["shares_beside_cycles"].keys()
-    assert sum(case["shares_beside_cycles"].values()) < 1.0
+    beside = {"outputs", "compilation", "set up", "stop checks and the end", "Python between"}
+    assert case["groups_s"].keys() == beside | {"cells", "mixed cells", "contact"}
+    assert sum(case["groups_s"].values()) == pytest.approx(case["wall_s"])
+    assert {"cells: close_cells", "mixed cells: deform_mixed", "contact: find_contact"} | beside <= case["phases"].keys()
+    assert min(case["groups_s"][name] for name in ("cells", "mixed cells", "contact", "outputs")) > 0.0
+    assert case["groups_s"]["cells"] > case["groups_s"]["contact"]
+    assert "set up " in "\n".join(said)
+    assert not jit.timings
+
+
+def test_the_fastest_batch_counts(monkeypatch):
+    clock = iter([0.0, 5.0, 5.0, 8.0, 10.0, 11.0, 20.0, 24.0, 30.0, 32.0])
+    monkeypatch.setattr(bench.time, "perf_counter", lambda: next(clock))
+    assert bench._least(lambda: None) == 1.0
+
+
+def test_a_deck_without_shot_is_refused(capsys):
+    assert call(["bench", "rod.toml"]) == 2
+    assert capsys.readouterr().err == "hydro2d: rod.toml: a deck is measured with --shot; without it, omit the deck\n"

@@ -42,3 +42,38 @@ def test_the_start_of_the_program_is_counted():
     checked = check.check(decks.load("problems/classic/long_rod.toml", ["stop.cycles=1"]))
     assert checked.wall(1) == pytest.approx(check.START, abs=0.1)
     assert f"about 1 cycle, {duration(checked.wall(1))} on 1 thread (a guess)" in "\n".join(checked.lines(1))
+
+
+QUICK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
+
+
+def about_rod(overrides, deck=QUICK):
+    """The lines of the report that follow the one on the body that the mesh follows, and the number of cells."""
+    checked = check.check(decks.load(deck, overrides))
+    lines = [line.strip() for line in checked.lines(1)]
+    first = next(number for number, line in enumerate(lines) if line.startswith("follow "))
+    return lines[first + 1:first + 3], checked.grid.cells
+
+
+def test_a_mesh_graded_along_the_rod_is_proposed_and_has_the_cells_that_were_promised():
+    said, cells = about_rod([])
+    assert (said, cells) == ([
+        "if it stays whole, a mesh graded along it would have 4624 instead of 7854 cells:",
+        'mesh.fine = "7 radii", mesh.cells_across = 5.5, mesh.reach = "30 radii" instead of mesh.z'], 7854)
+    keys = [text.replace(" = ", "=") for text in said[1].removesuffix(" instead of mesh.z").split(", ")]
+    said, cells = about_rod([*keys, "mesh.z=[]"])
+    assert (said[0], cells) == ("mesh.fine grades the mesh along it: 4624 cells instead of 7684", 4624)
+    assert about_rod([*keys[1:], "mesh.z=[]"])[0] == [
+        "if it stays whole, a mesh graded along it would have 4624 instead of 7684 cells:", 'mesh.fine = "7 radii"']
+
+
+@pytest.mark.parametrize("overrides", [
+    ['mesh.z=[{to="-24 mm", first="2.4 mm", last="0.6143 mm"}, {to=0.0, cells=39}, {to="101.352 mm", cells=165}]'],
+    ["body.rod.length=26 mm", "mesh.z_start=-33 mm", 'mesh.z=[{to=0.0, cells=54}, {to="101.352 mm", ratio=1.12}]'],
+])
+def test_nothing_is_proposed_for_a_mesh_that_is_graded_or_gains_little(overrides):
+    assert not [line for line in about_rod(["tracer=[]", *overrides])[0] if "graded" in line]
+
+
+def test_nothing_is_proposed_for_a_ball():
+    assert not [line for line in about_rod([], "problems/perforation/sphere.toml")[0] if "graded" in line]
