@@ -156,7 +156,8 @@ def test_dollar_signs_on_several_lines_of_a_picture():
     """A line that ended within an escaped sign began a formula."""
     for begin in ("", "a"):
         case = SimpleNamespace(name=begin + 25 * "$", values={})
-        lines = rods._label(SimpleNamespace(case=case, perforated=False, depth=None, unfinished="")).split("\n")
+        record = SimpleNamespace(case=case, perforated=False, outcome=SimpleNamespace(depth_m=None), unfinished="")
+        lines = rods._label(record).split("\n")
         drawn = [matplotlib.text.Text()._preprocess_math(line) for line in lines]
         assert len(lines) > 1
         assert ("".join(text for text, _ in drawn), any(formula for _, formula in drawn)) == (case.name, False)
