@@ -98,11 +98,11 @@ def test_it_continues_from_a_restart_to_the_same_bits():
 def test_a_surface_that_has_gone_is_nowhere():
     sim = Simulation(decks.loads(DECK))
     sim.state.vof[1] = 0.0
-    sim.stations.record()
+    sim.stations.record(sim.engine.given)
     measured = sim.stations.measure()["gauge_rear"]
     assert measured["z_m"] is None
     assert measured["velocity_z_m_s"] is None
-    sim.stations.record()
+    sim.stations.record(sim.engine.given)
     assert sim.stations.measure()["gauge_rear"]["z_m"] is None
 
 
@@ -111,7 +111,7 @@ def test_it_does_not_jump_to_another_surface():
     sim = Simulation(decks.loads(DECK))
     z = sim.grid.zc[sim.grid.inside[0]]
     sim.grid.interior(sim.state.vof)[1][z > 3.5e-3] = 0.0
-    sim.stations.record()
+    sim.stations.record(sim.engine.given)
     assert sim.stations.measure()["gauge_rear"]["z_m"] is None
 
 

@@ -40,6 +40,7 @@ NOT_RUN = {
     "python3 -m venv": "the tests run in an installation",
     ". .venv/bin/activate": "the tests run in an installation",
     "pip install": "the tests run in an installation",
+    "python -m build": "it compiles all kernels; tests/jit/test_shipped.py builds a wheel",
     "python -m pytest": "it is what runs this",
     "python -m sphinx": "tests/rules/test_documentation.py builds the pages",
     "python -m tests.study.overhead": "a hundred runs: minutes",

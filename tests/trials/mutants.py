@@ -43,7 +43,8 @@ def _base(name: str) -> dict:
     tables["stop"]["cycles"] = CYCLES
     r, z = decks.edges(deck)
     if "cells_across" in tables["mesh"]:  # the segments that these keys define, so that they can be changed
-        tables["mesh"] = {key: value for key, value in tables["mesh"].items() if key not in ("across", "cells_across", "reach")}
+        made = "across", "cells_across", "reach", "fine"
+        tables["mesh"] = {key: value for key, value in tables["mesh"].items() if key not in made}
         tables["mesh"] |= {"r_start": float(r[0]), "z_start": float(z[0]), "r": _segments(r), "z": _segments(z)}
     if (len(r) - 1) * (len(z) - 1) > CELLS:
         z = _cut(deck, tables, z)

@@ -62,13 +62,9 @@ IMPACT = (
 )
 
 
-class At:
+def travels_at(simulation: Simulation, velocity: float) -> None:
     """Makes a following mesh travel at a velocity of one's own choice."""
-
-    def __init__(self, simulation: Simulation, velocity: float):
-        self.mesh = simulation.engine.mesh
-        self.mesh.follow = lambda: setattr(self.mesh, "velocity", velocity)
-        self.mesh.follow()
+    simulation.engine.mesh.follow = lambda given: given.set(mesh_speed=velocity)
 
 
 @pytest.mark.parametrize("choice", ADVECTION)
@@ -80,7 +76,7 @@ def test_tungsten_on_aluminium_in_one_dimension(velocity, choice):
     """
     text = IMPACT.replace('material = "W_alloy"\nshape', 'material = "W_fluid"\nshape')
     simulation = Simulation(decks.loads(text, [advection(choice)]))
-    At(simulation, velocity)
+    travels_at(simulation, velocity)
     while simulation.time < 3e-6:
         simulation.step()
     line = Line(simulation)

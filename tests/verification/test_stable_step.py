@@ -58,6 +58,7 @@ def energy_left(monkeypatch, name: str, linear: float, share: float) -> float:
     {sliding}
     {BLOCKS[name]}"""))
     engine = simulation.engine
+    engine.watches.clear()  # noise that grows is what is wanted
     state, (j0, j1, i0, i1) = engine.state, engine.mesh_box
     random = np.random.default_rng(1)
     for component, fixed in ((state.u, np.s_[:, :, [i0, i1]]), (state.v, np.s_[:, [j0, j1]])):

