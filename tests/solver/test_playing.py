@@ -53,7 +53,8 @@ def test_playing_has_the_bits_of_going_through_the_page(text, options):
 
 
 def test_the_number_of_threads_may_change_between_calls():
-    one, other, most = *(Simulation(deck.loads(SHOT, DECKS["contact"])) for _ in range(2)), jit.max_threads()
+    one, other = (Simulation(deck.loads(SHOT, DECKS["contact"])) for _ in range(2))
+    before, most = jit.threads(), jit.max_threads()
     try:
         for cycle, threads in enumerate((1, most, most, 1, most)):
             while one.cycle < 11 * (cycle + 1):
@@ -65,7 +66,7 @@ def test_the_number_of_threads_may_change_between_calls():
             one.step()  # with other parts than before, on the page
             other.step()
     finally:
-        jit.set_threads(most)
+        jit.set_threads(before)
     assert bits(other) == bits(one)
 
 
