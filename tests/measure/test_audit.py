@@ -16,6 +16,7 @@ CLOSES_BESIDE_PRODUCTS = 1e-9
 def after(text: str, cycles: int, *options: str) -> Simulation:
     """The simulation of a deck after some cycles, without a verdict on it."""
     simulation = Simulation(decks.loads(text, options))
+    simulation.engine.watches.clear()
     for _ in range(cycles):
         simulation.engine.advance()
     return simulation
