@@ -110,6 +110,10 @@ class Simulation:
         self.state.e *= 1 + self.dt * 1e4 / 3
         self._place()
 
+    @property
+    def last_time(self) -> float:
+        return np.inf if self.deck.stop.time is None else self.deck.stop.time
+
     def advance(self, until: float = np.inf, cycles: int | None = None) -> int:
         """One cycle at a time."""
         self.step()

@@ -1,4 +1,4 @@
-"""What studies and commands take of the analytic penetration models; they ask this package and not `hydro2d.penetration`."""
+"""Names from the analytic penetration models for studies and commands, which import no module of `hydro2d.penetration`."""
 
 from hydro2d.penetration import lambert_jonas, recht_ipson
 from hydro2d.penetration.catalogue import MODELS

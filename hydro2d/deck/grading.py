@@ -1,4 +1,4 @@
-"""What a mesh that is graded along its rod saves: the lines of `hydro2d check` on `mesh.fine`."""
+"""Cells that a mesh graded along its rod saves: the lines of `hydro2d check` on `mesh.fine`."""
 
 from __future__ import annotations
 

@@ -27,6 +27,11 @@ CONTACT_TRANSFERS = {
 }
 
 
+def _number(place: int, meaning: str) -> property:
+    """A number of a row."""
+    return property(lambda self: float(self._row[place]), lambda self, value: self._row.__setitem__(place, value), doc=meaning)
+
+
 class Transfer:
     """Axial momentum and heat that two groups have exchanged in one way; per radian (per unit depth in planar geometry).
 
@@ -36,23 +41,7 @@ class Transfer:
     def __init__(self, row: np.ndarray):
         self._row = row
 
-    @property
-    def momentum(self) -> float:
-        """Axial momentum, N s."""
-        return float(self._row[0])
-
-    @momentum.setter
-    def momentum(self, momentum: float) -> None:
-        self._row[0] = momentum
-
-    @property
-    def energy(self) -> float:
-        """Energy, J."""
-        return float(self._row[1])
-
-    @energy.setter
-    def energy(self, energy: float) -> None:
-        self._row[1] = energy
+    momentum, energy = _number(0, "Axial momentum, N s."), _number(1, "Energy, J.")
 
     def saved(self) -> dict:
         """Data for a restart file."""

@@ -14,7 +14,6 @@ continues bitwise as if it had not been interrupted.
 
 from __future__ import annotations
 
-import math
 import os
 import time as clock
 import tomllib
@@ -248,8 +247,7 @@ class Run:
 
     def _next_output(self) -> float:
         """The time at which an output is due or the run is over, s."""
-        end = self.deck.stop.time
-        return min(*(due.next for due in self.due.values()), math.inf if end is None else end)
+        return min(*(due.next for due in self.due.values()), self.sim.last_time)
 
     # ------------------------------------------------------------------------------------------------ outputs
 

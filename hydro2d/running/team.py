@@ -1,6 +1,6 @@
 """Chooses the fastest number of threads for a run, up to the maximum.
 
-Threads wait for each other some sixty times a cycle. On a small mesh, a second thread gains nothing. If another process uses a
+Threads wait for each other dozens of times a cycle. On a small mesh, a second thread gains nothing. If another process uses a
 core, each of these waits lasts until the operating system lets the second thread run again. The results do not depend on
 the number of threads, so a run may change it between any two cycles.
 """

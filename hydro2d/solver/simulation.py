@@ -242,12 +242,12 @@ class Simulation:
         Raises UnphysicalState, ColumnError for a column that fails, and KeyboardInterrupt, after which `run` can continue: an
         interrupt waits for the end of the cycle.
         """
-        ended, callbacks, interrupt = self._end(until), tuple(callbacks), Interrupt()
+        ended, last, callbacks, interrupt = *self._end(until), tuple(callbacks), Interrupt()
         most = 1 if callbacks or callable(until) else None
         self._recorder(self)
         with signals(interrupt):
             while (reason := ended()) is None and not interrupt.reason:
-                self.advance(min(self._next_stop(until), self._recorder.due.next), most)
+                self.advance(min(last, self._recorder.due.next), most)
                 for each in callbacks:
                     each(self)
                 self._recorder(self)
@@ -257,22 +257,19 @@ class Simulation:
         self._recorder.last(self)
         return reason
 
-    def _next_stop(self, until: float | str | Callable[[Simulation], bool] | None) -> float:
-        """The time that `run` may not pass by more than a cycle, s."""
-        if callable(until):
-            return math.inf
-        if until is not None:
-            return units.to_si(until, "s")
+    @property
+    def last_time(self) -> float:
+        """The time at which the [stop] of the deck ends a run, s; inf without one."""
         return math.inf if self.deck.stop.time is None else self.deck.stop.time
 
-    def _end(self, until: float | str | Callable[[Simulation], bool] | None) -> Callable[[], str | None]:
-        """A function that gives the reason why `run` is over, or None."""
+    def _end(self, until: float | str | Callable[[Simulation], bool] | None) -> tuple[Callable[[], str | None], float]:
+        """A function that gives the reason why `run` is over, or None; and the time at which it is, s, inf if none is set."""
         if until is None:
-            return self.stop_reason
+            return self.stop_reason, self.last_time
         if callable(until):
-            return lambda: "as asked" if until(self) else None
+            return lambda: "as asked" if until(self) else None, math.inf
         time = units.to_si(until, "s")
-        return lambda: "end time" if self.time >= time else None
+        return lambda: "end time" if self.time >= time else None, time
 
     @property
     def history(self) -> dict[str, np.ndarray]:

@@ -7,7 +7,7 @@ CELL, GROWTH, EDGE = 0, 1, 2
 
 
 @control
-def choose_step(w):
+def choose_step_length(w):
     """The time step, and what has set it.
 
     Reads    least_row [3]; row_step [j]

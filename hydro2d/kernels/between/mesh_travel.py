@@ -3,13 +3,12 @@
 from math import inf
 
 from hydro2d.jit import control
+from hydro2d.kernels.column_ranges import NOTHING
 from hydro2d.mesh.grid import GHOSTS
 from hydro2d.mesh.sums import HALF, axis_run, core_sums
 
 #: entering material is looked up in a strip of at least this share of a cell, so that it has a height when the mesh rests
 THINNEST = 1e-9
-#: a range of columns that is empty
-NOTHING = 1 << 30
 
 
 @control
