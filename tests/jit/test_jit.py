@@ -68,7 +68,7 @@ def test_two_models_with_one_id_are_an_error():
 
 
 ROOT = cache.ROOT
-KERNELS = sorted(file for file in ROOT.glob("hydro2d/kernels/[a-z]*.py") if "def " in file.read_text(encoding="utf-8"))
+KERNELS = sorted(file for file in ROOT.glob("hydro2d/kernels/[a-z]*.py") if "\n@" in file.read_text(encoding="utf-8"))
 
 
 def seen_by(name: str) -> set[str]:
