@@ -61,8 +61,8 @@ def test_whole_shot(quick, threads):
     result = bench.collect([], threads=[threads], shot=shot, say=said.append)
     (case,) = result["cases"]
     assert case["name"] == "whole shot, hemi_5083_1086_quick"
-    assert (case["cells"], case["cycles"], case["stop_reason"]) == (7854, 30, "number of cycles")
-    assert case["wall_s"] == pytest.approx(case["ns_per_cell_cycle"] * 1e-9 * 7854 * 30)
+    assert (case["cells"], case["cycles"], case["stop_reason"]) == (5372, 30, "number of cycles")
+    assert case["wall_s"] == pytest.approx(case["ns_per_cell_cycle"] * 1e-9 * 5372 * 30)
     assert sum(case["phases"].values()) == pytest.approx(case["ns_per_cell_cycle"])
     assert case["peak_memory_bytes"] > 5e7
     beside = {"outputs", "compilation", "set up", "stop checks and the end", "Python between"}

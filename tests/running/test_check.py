@@ -55,15 +55,20 @@ def about_rod(overrides, deck=QUICK):
     return lines[first + 1:first + 3], checked.grid.cells
 
 
+#: cells of one size along the rod
+EVEN = ["mesh.reach=none", "mesh.cells_across=none", "mesh.fine=none", "mesh.z_start=-104.423273 mm",
+        'mesh.z=[{ to = 0.0, cells = 170 }, { cells = 37, across = "rod", cells_across = 5.5 }, { to = "101.352 mm", ratio = 1.12 }]']
+
+
 def test_a_mesh_graded_along_the_rod_is_proposed_and_has_the_cells_that_were_promised():
-    said, cells = about_rod([])
+    said, cells = about_rod(EVEN)
     assert (said, cells) == ([
         "if it stays whole, a mesh graded along it would have 4624 instead of 7854 cells:",
         'mesh.fine = "7 radii", mesh.cells_across = 5.5, mesh.reach = "30 radii" instead of mesh.z'], 7854)
     keys = [text.replace(" = ", "=") for text in said[1].removesuffix(" instead of mesh.z").split(", ")]
-    said, cells = about_rod([*keys, "mesh.z=[]"])
+    said, cells = about_rod([EVEN[3], *keys])
     assert (said[0], cells) == ("mesh.fine grades the mesh along it: 4624 cells instead of 7684", 4624)
-    assert about_rod([*keys[1:], "mesh.z=[]"])[0] == [
+    assert about_rod([EVEN[3], "mesh.fine=none"])[0] == [
         "if it stays whole, a mesh graded along it would have 4624 instead of 7684 cells:", 'mesh.fine = "7 radii"']
 
 
@@ -72,7 +77,7 @@ def test_a_mesh_graded_along_the_rod_is_proposed_and_has_the_cells_that_were_pro
     ["body.rod.length=26 mm", "mesh.z_start=-33 mm", 'mesh.z=[{to=0.0, cells=54}, {to="101.352 mm", ratio=1.12}]'],
 ])
 def test_nothing_is_proposed_for_a_mesh_that_is_graded_or_gains_little(overrides):
-    assert not [line for line in about_rod(["tracer=[]", *overrides])[0] if "graded" in line]
+    assert not [line for line in about_rod(["tracer=[]", *EVEN[:4], *overrides])[0] if "graded" in line]
 
 
 def test_nothing_is_proposed_for_a_ball():
