@@ -10,7 +10,8 @@ from hydro2d.jit import log, point
 PARAMETERS = (
     Parameter("rate_coefficient", "", 0.0, "increase per e-fold of strain rate", "C"),
     Parameter("reference_rate", "1/s", 1.0, "strain rate below which the rate does not matter", "rate0", POSITIVE),
-    Parameter("max_rate_factor", "", math.inf, "largest factor by which the rate raises the flow stress", "Rmax", POSITIVE),
+    Parameter("max_rate_factor", "", math.inf, "largest factor by which the rate raises the flow stress", "Rmax", POSITIVE,
+              example=1.3),
 )
 
 

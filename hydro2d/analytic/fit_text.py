@@ -67,7 +67,8 @@ def table(fit: Fit, others: Mapping[str, np.ndarray]) -> list[str]:
         group = f"group {points.group[test[0]]:g}, " if len(points.groups) > 1 else ""
         said.append(f"{group}{points.rate[test[0]]:g} /s, {points.temperature[test[0]]:g} K")
         rows = {"measured [MPa]": [f"{points.stress[each].mean() / 1e6:.0f}" if each.size else "" for each in own]}
-        rows |= {name: [f"{residual[each].mean():+.1%}" if each.size else "" for each in own] for name, residual in laws.items()}
+        for name, residual in laws.items():
+            rows[name] = [f"{residual[each].mean():+.1%}" if each.size else "" for each in own]
         said += [f"  {name:<{wide - 2}}{''.join(f'{text:>14}' for text in row)}".rstrip() for name, row in rows.items()]
     return said
 

@@ -187,8 +187,8 @@ def test_the_command(tmp_path, capsys):
 def test_many_points_fit_a_screen(capsys):
     """251 points: lists in bins, and a table by test and strain with the law of a material beside the fit."""
     arguments = ["fit-strength", str(shipped.problems_folder() / "materials" / "flow_stress_5083.txt"), "--stress-unit", "MPa",
-                 "--model", "voce", "--material", "Al5083", "--fix", "shear_modulus=26.36 GPa", "--fix", "melt_temperature=893 K",
-                 "--heated-from", "100 /s", "--temperature", "290 K:480 K"]
+                 "--model", "voce", "--material", "Al5083", "--fix", "shear_modulus=26.36 GPa",
+                 "--fix", "melt_temperature=893 K", "--heated-from", "100 /s", "--temperature", "290 K:480 K"]
     assert call(arguments) == 0
     short = capsys.readouterr().out.splitlines()
     assert len(short) < 35
@@ -296,7 +296,8 @@ def test_the_librarys_aluminium_is_the_fits_of_the_page(alloy, variant, file, gi
     fitted = fitting.fit(law, points, fitting.from_material(law, base) | given, heating=fitting.heating_of(base, 100.0))
     assert (len(points), round(fitted.rms, 3), round(fitted.largest, 3)) == quality
     constants, free = fitted.constants[0.0], [name for name in law.free if name not in given]
-    assert {name: kept.strength.values[name] for name in free} == pytest.approx({name: constants[name] for name in free}, rel=1e-3)
+    own = {name: kept.strength.values[name] for name in free}
+    assert own == pytest.approx({name: constants[name] for name in free}, rel=1e-3)
     assert {kept.strength.numbers[name].confidence for name in free} == {"fitted"}
     assert {kept.strength.numbers[name].confidence for name in given} <= {"chosen", "derived", "recalled", "found"}
     assert round(float(np.sqrt(np.mean(fitting.beside(kept, points, 100.0) ** 2))), 3) == quality[1]
