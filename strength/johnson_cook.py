@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.base.parameters import POSITIVE, REQUIRED, Parameter, collect
-from hydro2d.jit import log, point, power
-from strength import thermal
+from hydro2d.jit import point, power
+from strength import logarithmic_rate, thermal
 from strength.layout import ROW, SHEAR, YIELD
 
 NAME = "johnson-cook"
@@ -14,7 +14,7 @@ ID = 2
 CONSTANT_MODULUS = True
 THERMAL = True
 EQUATION = """\
-Y = (A + B ep^n) (1 + C ln max(1, rate/rate0)) (1 - T*^m),  T* = (T - Tr)/(Tm - Tr) in [0, 1],  G constant"""
+Y = (A + B ep^n) min(1 + C ln max(1, rate/rate0), Rmax) (1 - T*^m),  T* = (T - Tr)/(Tm - Tr) in [0, 1],  G constant"""
 SOURCE = "Johnson & Cook, 7th Int. Symp. Ballistics, The Hague (1983) 541"
 VALIDITY = "metals; the rate only hardens (no softening below rate0); no strength from Tm on, without Tm no softening"
 PARAMETERS = (
@@ -22,14 +22,13 @@ PARAMETERS = (
     Parameter("yield_stress", "Pa", REQUIRED, "yield stress at zero plastic strain, rate0 and Tr", "A"),
     Parameter("hardening", "Pa", 0.0, "strain hardening", "B"),
     Parameter("hardening_exponent", "", 1.0, "exponent of the plastic strain", "n", POSITIVE),
-    Parameter("rate_coefficient", "", 0.0, "increase per e-fold of strain rate", "C"),
-    Parameter("reference_rate", "1/s", 1.0, "strain rate below which the rate does not matter", "rate0", POSITIVE),
+    *logarithmic_rate.PARAMETERS,
     Parameter("thermal_exponent", "", 1.0, "exponent of the homologous temperature", "m", POSITIVE),
     *thermal.PARAMETERS,
 )
 
 #: slots of the row; the common ones are SHEAR and YIELD
-HARDENING, EXPONENT, RATE, INVERSE_RATE0, THERMAL_EXPONENT, REFERENCE_T, INVERSE_RANGE = range(2, 9)
+HARDENING, EXPONENT, RATE, INVERSE_RATE0, LARGEST, THERMAL_EXPONENT, REFERENCE_T, INVERSE_RANGE = range(2, 10)
 
 
 @point
@@ -41,12 +40,9 @@ def shear_modulus(p, rho, T, par):
 @point
 def flow_stress(ep, rate, T, p, rho, par):
     """Flow stress at plastic strain ``ep``, its ``rate`` (1/s) and temperature ``T``, Pa: explanation/strength, (5)."""
-    hot = thermal.homologous_temperature(T, par[REFERENCE_T], par[INVERSE_RANGE])
-    exponent = par[THERMAL_EXPONENT]
-    fast = rate * par[INVERSE_RATE0]
     Y = par[YIELD] + par[HARDENING] * power(0.0 if ep < 0.0 else ep, par[EXPONENT])
-    Y *= 1.0 + par[RATE] * log(1.0 if fast < 1.0 else fast)
-    return Y * (1.0 - (hot if exponent == 1.0 else power(hot, exponent)))
+    Y *= logarithmic_rate.factor(rate, par[RATE], par[INVERSE_RATE0], par[LARGEST])
+    return Y * thermal.softening(T, par[REFERENCE_T], par[INVERSE_RANGE], par[THERMAL_EXPONENT])
 
 
 def row(values) -> np.ndarray:
@@ -55,7 +51,7 @@ def row(values) -> np.ndarray:
     par = np.zeros(ROW)
     par[SHEAR], par[YIELD] = given["shear_modulus"], given["yield_stress"]
     par[HARDENING], par[EXPONENT] = given["hardening"], given["hardening_exponent"]
-    par[RATE], par[INVERSE_RATE0] = given["rate_coefficient"], 1.0 / given["reference_rate"]
+    par[RATE], par[INVERSE_RATE0], par[LARGEST] = logarithmic_rate.packed(NAME, given)
     par[THERMAL_EXPONENT] = given["thermal_exponent"]
     par[REFERENCE_T], par[INVERSE_RANGE] = given["reference_temperature"], thermal.inverse_range(NAME, given)
     return par

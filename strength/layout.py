@@ -7,4 +7,4 @@ SHEAR, YIELD = 0, 1
 INTACT, TENSION, PLASTIC_STRAIN, JOHNSON_COOK, CRACKS, OTHER = range(6)
 
 #: length of a row of a strength model, and of a damage model
-ROW, DAMAGE_ROW = 16, 12
+ROW, DAMAGE_ROW = 24, 12

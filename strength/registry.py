@@ -11,7 +11,7 @@ from hydro2d.jit import modules
 
 STRENGTH_MODULES = modules(
     "strength", "hydrodynamic", "elastic_plastic", "johnson_cook", "steinberg_guinan", "power_law",
-    "kinematic_hardening", "zerilli_armstrong", "johnson_holmquist")
+    "kinematic_hardening", "zerilli_armstrong", "johnson_holmquist", "voce", "steinberg_lund", "preston_tonks_wallace")
 DAMAGE_MODULES = modules("strength", "no_damage", "johnson_cook_damage", "johnson_holmquist_damage", "cochran_banner")
 STRENGTH_MODELS = {module.NAME: module for module in STRENGTH_MODULES}
 DAMAGE_MODELS = {module.NAME: module for module in DAMAGE_MODULES}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from hydro2d.base.parameters import POSITIVE, Parameter
-from hydro2d.jit import point
+from hydro2d.jit import point, power
 
 PARAMETERS = (
     Parameter("reference_temperature", "K", 298.0, "temperature at which softening begins", "Tr", POSITIVE),
@@ -19,6 +19,13 @@ def homologous_temperature(T, reference, inverse_range):
     share = (T - reference) * inverse_range
     share = 0.0 if share < 0.0 else share  # a NaN stays one
     return 1.0 if share > 1.0 else share
+
+
+@point
+def softening(T, reference, inverse_range, exponent):
+    """1 - T*^m with the homologous temperature T*: explanation/strength, (5)."""
+    hot = homologous_temperature(T, reference, inverse_range)
+    return 1.0 - (hot if exponent == 1.0 else power(hot, exponent))
 
 
 def inverse_range(model: str, given: dict[str, float]) -> float:

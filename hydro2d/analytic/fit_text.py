@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from hydro2d.files.whole import replacing
 from hydro2d.materials.fitting import Fit
+
+#: most rows of a list of differences, and most columns of a table: beyond it values are taken together in bins
+MOST_ROWS, MOST_COLUMNS = 12, 8
 
 
 def lines(fit: Fit) -> list[str]:
@@ -27,12 +31,45 @@ def lines(fit: Fit) -> list[str]:
             about = ", at its lower bound" * (value == 0.0) + ", shared by all groups" * (name in fit.shared)
             said.append(f"  {name:<24}{value / scale:>11.5g} +- {error / scale:.2g} {shown}".rstrip() + about)
         said.append(f"  {deck_table(fit, group)}")
-    for title, values, form in (("strain rate [1/s]", points.rate, "g"), ("temperature [K]", points.temperature, "g"),
-                                ("plastic strain", points.strain, "g")):
+    for title, values in (("strain rate [1/s]", points.rate), ("temperature [K]", points.temperature),
+                          ("plastic strain", points.strain)):
         said += ["", f"{title:<20}  points  mean difference   rms   largest"]
-        for value in np.unique(values):
-            own = fit.residual[values == value]
-            said.append(f"{value:<20{form}}  {own.size:>6}  {own.mean():>+15.1%}  {_rms(own):>4.1%}  {np.abs(own).max():>8.1%}")
+        for name, mask in _bins(values, MOST_ROWS):
+            own = fit.residual[mask]
+            said.append(f"{name:<20}  {own.size:>6}  {own.mean():>+15.1%}  {_rms(own):>4.1%}  {np.abs(own).max():>8.1%}")
+    return said
+
+
+def _bins(values: np.ndarray, most: int) -> list[tuple[str, np.ndarray]]:
+    """(name, mask) of each value, or of at most ``most`` bins of equal width where there are more values; no bin is empty."""
+    distinct = np.unique(values)
+    if distinct.size <= most:
+        return [(f"{value:g}", values == value) for value in distinct]
+    power = 10.0 ** math.floor(math.log10(distinct[-1] / most))
+    width = next(each for each in (power, 2.0 * power, 5.0 * power, 10.0 * power)
+                 if distinct[-1] // each - distinct[0] // each < most)
+    bins = values // width
+    return [(f"{k * width:g} to {(k + 1) * width:g}", bins == k) for k in np.unique(bins)]
+
+
+def table(fit: Fit, others: Mapping[str, np.ndarray]) -> list[str]:
+    """Mean measured stress of every test by plastic strain, and the mean differences of the fit and of other laws from it.
+
+    others : relative differences of every point, float64[n], by the name of a law
+    """
+    points, laws = fit.points, {fit.law.name: fit.residual, **others}
+    columns = _bins(points.strain, MOST_COLUMNS)
+    wide = max(len("measured [MPa]"), *map(len, laws)) + 4
+    said = ["mean measured flow stress and mean differences of the laws, by test and plastic strain", "",
+            " " * wide + "".join(f"{name:>14}" for name, _ in columns)]
+    for test in points.tests():
+        own = [test[mask[test]] for _, mask in columns]
+        group = f"group {points.group[test[0]]:g}, " if len(points.groups) > 1 else ""
+        said.append(f"{group}{points.rate[test[0]]:g} /s, {points.temperature[test[0]]:g} K")
+        rows = {"measured [MPa]": [f"{points.stress[each].mean() / 1e6:.0f}" if each.size else "" for each in own]}
+        for name, residual in laws.items():
+            rows[name] = [f"{residual[each].mean():+.1%}" if each.size else "" for each in own]
+        said += [f"  {name:<{wide - 2}}{''.join(f'{text:>14}' for text in row)}".rstrip() for name, row in rows.items()]
     return said
 
 

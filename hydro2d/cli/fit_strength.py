@@ -22,7 +22,10 @@ def fit_strength(
     columns: str | None = None,
     stress_unit: str = "Pa",
     temperature: str | None = None,
+    rate: str | None = None,
     heated_from: str | None = None,
+    table: Annotated[bool, Parameter(negative="")] = False,
+    beside: Annotated[list[str] | None, Parameter(negative="")] = None,
     csv: Path | None = None,
     figure: Path | None = None,
 ) -> int:
@@ -36,7 +39,7 @@ def fit_strength(
         File with a measured point in each line: plastic strain, strain rate in 1/s, temperature in K, flow stress. The first
         line may name the columns.
     model
-        johnson-cook, zerilli-armstrong, power-law or steinberg-guinan.
+        johnson-cook, voce, zerilli-armstrong, power-law, steinberg-guinan or preston-tonks-wallace.
     material
         Material of the library, NAME or NAME:VARIANT. It gives the density and specific heat for --heated-from, and those
         constants of the model that are not fitted, if its own law has them too.
@@ -52,8 +55,14 @@ def fit_strength(
         Unit of the stresses.
     temperature
         Range of temperatures of the fitted points, as LOW:HIGH, such as "150 K:800 K".
+    rate
+        Range of strain rates of the fitted points, as LOW:HIGH, such as "100 /s:1e4 /s".
     heated_from
         Strain rate, such as "100 /s", from which on plastic work heats the specimen during a test.
+    table
+        Prints the measured stresses and the differences from them by test and plastic strain.
+    beside
+        Material of the library, NAME or NAME:VARIANT, whose own law stands in that table as well; can be repeated.
     csv
         Writes every point with the fitted stress and the difference to this file.
     figure
@@ -64,15 +73,20 @@ def fit_strength(
 
     data = fitting.read_points(points, columns.split(",") if columns else None,
                                quantity(f"1 {stress_unit}", "Pa", "--stress-unit"))
-    data = _chosen(data, group, temperature)
+    data = _chosen(data, group, temperature, rate)
     base = library.load(material)
     law = fitting.law(model)
     given = fitting.from_material(law, base) | {name: quantity(text, law.unit(name), f"--fix {name}")
                                                 for name, text in map(_assignment, fix or [])}
-    heating = fitting.heating_of(base, quantity(heated_from, "1/s", "--heated-from")) if heated_from else None
+    from_rate = quantity(heated_from, "1/s", "--heated-from") if heated_from else None
+    heating = fitting.heating_of(base, from_rate) if from_rate else None
+    others = {name: fitting.beside(library.load(name), data, from_rate) for name in beside or []}
     fit = fitting.fit(law, data, given, share or [], heating)
     for line in fit_text.lines(fit):
         say(line)
+    if table or others:
+        for line in ["", *fit_text.table(fit, others)]:
+            say(line)
     if csv is not None:
         fit_text.write_csv(fit, csv)
     if figure is not None:
@@ -92,8 +106,8 @@ def _assignment(text: str) -> tuple[str, str]:
     return name, value
 
 
-def _chosen(data, groups: list[float] | None, temperature: str | None):
-    """The points of some groups and within a range of temperatures. Raises UsageError where none are left."""
+def _chosen(data, groups: list[float] | None, temperature: str | None, rate: str | None):
+    """The points of some groups and within ranges of temperature and rate. Raises UsageError where none are left."""
     import numpy as np
 
     mask = np.full(len(data), True)
@@ -102,11 +116,12 @@ def _chosen(data, groups: list[float] | None, temperature: str | None):
         if unknown:
             raise UsageError(f"--group {unknown[0]:g}: the file has the groups {', '.join(f'{g:g}' for g in data.groups)}")
         mask &= np.isin(data.group, groups)
-    if temperature is not None:
-        if temperature.count(":") != 1:
-            raise UsageError(f'--temperature {temperature}: expected LOW:HIGH, such as "150 K:800 K"')
-        low, high = (quantity(end.strip(), "K", "--temperature") for end in temperature.split(":"))
-        mask &= (data.temperature >= low) & (data.temperature <= high)
+    for name, text, unit, example in (("temperature", temperature, "K", "150 K:800 K"), ("rate", rate, "1/s", "100 /s:1e4 /s")):
+        if text is not None:
+            if text.count(":") != 1:
+                raise UsageError(f'--{name} {text}: expected LOW:HIGH, such as "{example}"')
+            low, high = (quantity(end.strip(), unit, f"--{name}") for end in text.split(":"))
+            mask &= (getattr(data, name) >= low) & (getattr(data, name) <= high)
     if not mask.any():
         raise UsageError("no points are left to fit")
     return data.chosen(mask)

@@ -13,9 +13,9 @@
 A `Phase` of the step is a list of kernels, one after another, for all parts at the same time.
 
 numba's options are in `options`, the processor that code is compiled for in `target`, the place of compiled code in `cache`
-and its format in `store`, the decorators in `calls`, arguments by name in `by_name`, exp, log and x^y for several cells at
-once in `elementary`, phases in `phases`, what goes through many of them in `tape`, the names of their arrays in `handle`, and
-the record of kernel calls in `recording`. Other files import from here.
+and its format in `store`, the decorators in `calls`, arguments by name in `by_name`, exp, log, x^y and erf for several
+cells at once in `elementary`, phases in `phases`, what goes through many of them in `tape`, the names of their arrays in
+`handle`, and the record of kernel calls in `recording`. Other files import from here.
 """
 
 from hydro2d.jit import store, target
@@ -44,7 +44,7 @@ from hydro2d.jit.calls import (
     vertex_rows,
     wait,
 )
-from hydro2d.jit.elementary import exp, log, power
+from hydro2d.jit.elementary import erf, exp, log, power
 from hydro2d.jit.handle import Handle, declare, declared
 from hydro2d.jit.options import MACHINE_CODE, OPTIMISE, compiler_events
 from hydro2d.jit.phases import TYPES as PHASE_TYPES
@@ -54,7 +54,7 @@ from hydro2d.jit.tape import Conductor, Tape
 
 __all__ = [
     "Call", "Conductor", "FIRST_CALL", "GATE", "Handle", "MACHINE_CODE", "OPTIMISE", "PHASE_TYPES", "Phase", "Tape", "WAIT",
-    "add_model", "all_folder", "alone", "by_id", "cell_rows", "compiler_events", "control", "declare", "declared", "exp",
+    "add_model", "all_folder", "alone", "by_id", "cell_rows", "compiler_events", "control", "declare", "declared", "erf", "exp",
     "given", "is_recording", "kernel", "late_bound", "log", "max_threads", "module_of", "modules", "not_inlined",
     "parts_at_once", "plus", "point", "power", "prange", "profiling", "recorded", "returns", "rows_by_id", "rowwise",
     "serial", "set_threads", "store", "target", "threaded", "threads", "timings", "unless", "vertex_rows", "wait", "when",

@@ -34,6 +34,8 @@ HEAT_SHARE, STEP = 0.9, 0.01
 WORST_CONDITION = 1e8
 #: smallest share of its first value that a constant can fall to; share below which one that may be 0 counts as 0
 LEAST, NOTHING = 1e-9, 1e-6
+#: difference that counts for every point where a trial has impossible constants, so that the search turns back
+IMPOSSIBLE = 10.0
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,11 @@ _LAWS = {
     "steinberg-guinan": (
         {"yield_stress": 0.8, "hardening_coefficient": 30.0, "hardening_exponent": 0.1, "temperature_coefficient": 5e-4},
         ("yield_stress",), ()),
+    "voce": (
+        {"yield_stress": 0.8, "saturation": 0.4, "hardening_rate": 10.0, "rate_coefficient": 0.01, "thermal_exponent": 1.0},
+        ("yield_stress", "saturation"), ("melt_temperature",)),
+    "preston-tonks-wallace": (
+        {"theta": 0.03, "s0": 0.012, "s_inf": 0.005, "y0": 0.008, "y_inf": 0.003, "kappa": 0.3}, (), ()),
 }
 
 
@@ -246,6 +253,20 @@ def computed(law: Law, values: Mapping[str, float], points: Points, heating: Hea
     return stresses
 
 
+def beside(material: Material, points: Points, from_rate: float | None = None) -> np.ndarray:
+    """Relative differences of the law of a material of the library from the measured stresses, float64[n]; nothing is fitted.
+
+    from_rate : strain rate from which plastic work heats the specimen, 1/s
+
+    Raises DeckError for a material without strength, and for one whose specific heat is needed and not known.
+    """
+    if not material.has_strength:
+        raise DeckError(f"{material.name} has no strength")
+    heating = heating_of(material, from_rate) if from_rate else None
+    own = Law(material.strength.module("strength"), {}, frozenset())
+    return computed(own, material.strength.values, points, heating) / points.stress - 1.0
+
+
 def fit(
     law: Law, points: Points, given: Mapping[str, float], shared: Sequence[str] = (), heating: Heating | None = None
 ) -> Fit:
@@ -277,10 +298,15 @@ def fit(
         differences = np.empty(len(points))
         for group, values in constants(x).items():
             mask = members[group]
-            differences[mask] = computed(law, values, points.chosen(mask), heating) / points.stress[mask] - 1.0
+            try:
+                differences[mask] = computed(law, values, points.chosen(mask), heating) / points.stress[mask] - 1.0
+            except ValueError:
+                differences[mask] = IMPOSSIBLE
         return differences
 
     try:
+        for values in constants(np.ones(len(places))).values():
+            law.model.row(values)
         best = least_squares(residual, np.ones(len(places)), bounds=(LEAST, np.inf), xtol=1e-10, ftol=1e-10)
     except ValueError as problem:
         raise DeckError(str(problem)) from None

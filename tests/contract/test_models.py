@@ -76,6 +76,7 @@ STRENGTH_CASES = {
         "hardening": 343e6,
         "hardening_exponent": 0.41,
         "rate_coefficient": 0.01,
+        "max_rate_factor": 1.15,
         "thermal_exponent": 1.3,
         "melt_temperature": 877.0,
     },
@@ -102,7 +103,19 @@ STRENGTH_CASES = {
         "shear_modulus": 90.16e9, "A": 0.93, "B": 0.31, "C": 0.007, "M": 0.6, "N": 0.6, "T": 0.2e9, "HEL": 2.79e9,
         "P_HEL": 1.46e9, "crushed_limit": 0.2,
     },
+    "voce": {
+        "shear_modulus": G, "yield_stress": Y, "saturation": 250e6, "hardening_rate": 6.0, "rate_coefficient": 0.02,
+        "max_rate_factor": 1.2, "thermal_exponent": 1.3, "melt_temperature": 877.0,
+    },
+    "preston-tonks-wallace": {
+        "shear_modulus": 51.8e9, "modulus_softening": 0.2, "pressure_coefficient": 2.8e-11, "theta": 0.025, "p": 2.0,
+        "s0": 0.0085, "s_inf": 0.00055, "y0": 0.0001, "y_inf": 0.0001, "y1": 0.094, "y2": 0.575, "beta": 0.25, "kappa": 0.11,
+        "gamma": 1e-5, "molar_mass": 0.063546, "melt_temperature": 1357.0, "melt_exponent": 1.5, "grueneisen": 2.02,
+        "reference_density": 2700.0,
+    },
 }
+STRENGTH_CASES["steinberg-lund"] = STRENGTH_CASES["steinberg-guinan"] | {
+    "peierls_stress": 0.82e9, "activation_energy": 0.31 * 1.602176634e-19, "attempt_rate": 0.71e6, "drag": 0.012e6}
 
 #: one constant yield stress for every model that has one, some of the special terms switched off by their values
 CONSTANT_YIELD = {
@@ -120,7 +133,10 @@ CONSTANT_YIELD = {
     "power-law": {"youngs_modulus": 2.5 * G, "poisson_ratio": 0.25, "yield_stress": Y, "hardening_exponent": 0.0},
     "kinematic-hardening": {"shear_modulus": G, "yield_stress": Y, "isotropic_share": 0.4},
     "zerilli-armstrong": {"shear_modulus": G, "athermal_stress": Y, "thermal_stress": 0.0, "thermal_softening": 7e-3},
+    "voce": {"shear_modulus": G, "yield_stress": Y, "thermal_exponent": 1.3},
 }
+CONSTANT_YIELD["steinberg-lund"] = CONSTANT_YIELD["steinberg-guinan"] | {
+    "peierls_stress": 0.0, "activation_energy": 5e-20, "attempt_rate": 0.71e6, "drag": 0.012e6}
 
 DAMAGE_CASES = {
     "none": {},
@@ -168,12 +184,12 @@ def test_ids_differ(part):
 
 def test_the_yield_stress_of_the_row_is_the_parameter():
     for name, values in STRENGTH_CASES.items():
-        if name not in ("zerilli-armstrong", "johnson-holmquist"):  # whose yield stress is computed
+        if name not in ("zerilli-armstrong", "johnson-holmquist", "preston-tonks-wallace"):  # whose yield stress is computed
             assert strength.STRENGTH_MODELS[name].row(values)[strength.YIELD] == values.get("yield_stress", 0.0)
 
 
 def test_constant_yield_has_the_same_numbers_in_every_model():
-    assert set(CONSTANT_YIELD) == set(strength.STRENGTH_MODELS) - {"hydrodynamic", "johnson-holmquist"}
+    assert set(CONSTANT_YIELD) == set(strength.STRENGTH_MODELS) - {"hydrodynamic", "johnson-holmquist", "preston-tonks-wallace"}
     for name, values in CONSTANT_YIELD.items():
         row = strength.STRENGTH_MODELS[name].row(values)
         assert (row[strength.SHEAR], row[strength.YIELD]) == (G, Y)
@@ -224,7 +240,7 @@ FLOW = strength.STRENGTH_MODELS["johnson-cook"].flow_stress
 @pytest.mark.parametrize(
     ("check", "case", "words"),
     [
-        (contract.row, metal(row=lambda values: np.zeros(3)), r"row gives float64 \(3,\), not float64 \(16,\)"),
+        (contract.row, metal(row=lambda values: np.zeros(3)), r"row gives float64 \(3,\), not float64 \(24,\)"),
         (contract.row, metal(row=lambda values: np.full(strength.ROW, np.nan)), "NaN in slot 0"),
         (contract.wrong_parameters, metal(row=lambda values: np.zeros(strength.ROW)), 'unknown parameter "colour"'),
         (contract.ranges, metal(PARAMETERS=POSITIVE_YIELD), r"row takes a parameter that is wrong \(yield_stress = 0\)"),

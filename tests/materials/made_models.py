@@ -24,7 +24,7 @@ from hydro2d.jit import point
 from hydro2d.base.parameters import REQUIRED, Parameter, collect
 from strength.layout import ROW, SHEAR, YIELD
 
-NAME = "voce"
+NAME = "own-voce"
 CONSTANT_MODULUS = True
 THERMAL = False
 EQUATION = "Y = Y0 + Q (1 - exp(-10 ep))"

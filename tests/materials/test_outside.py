@@ -31,12 +31,12 @@ def test_a_deck_names_a_file_next_to_it_and_carries_its_text(folder, monkeypatch
     monkeypatch.chdir("/")
     loaded = deck.load(folder / "shot.toml")
     model = loaded.materials["Al5083"].strength
-    assert (model.name, model.file, model.code) == ("voce", "my_model.py", VOCE)
+    assert (model.name, model.file, model.code) == ("own-voce", "my_model.py", VOCE)
     assert model.values == {"shear_modulus": 26e9, "yield_stress": 240e6, "saturation": 0.0}
     text = loaded.to_toml()
     (folder / "my_model.py").unlink()
     assert tomllib.loads(text)["materials"]["Al5083"]["strength"]["code"] == VOCE
-    assert '\nNAME = \\"voce\\"\n' in text  # line by line
+    assert '\nNAME = \\"own-voce\\"\n' in text  # line by line
     again = deck.loads(text)
     assert again.to_toml() == text
     assert again.materials["Al5083"].strength.module("strength") is model.module("strength")
@@ -46,12 +46,12 @@ def test_a_deck_names_a_file_next_to_it_and_carries_its_text(folder, monkeypatch
 def test_the_file_of_an_included_deck_is_next_to_it(folder):
     (folder / "below").mkdir()
     (folder / "below" / "shot.toml").write_text('include = "../shot.toml"\nstop.time = "2 us"\n')
-    assert deck.load(folder / "below" / "shot.toml").materials["Al5083"].strength.name == "voce"
+    assert deck.load(folder / "below" / "shot.toml").materials["Al5083"].strength.name == "own-voce"
 
 
 def test_a_file_of_the_command_line_is_in_the_working_folder_and_replaces_the_text(folder, tmp_path_factory, monkeypatch):
     elsewhere = tmp_path_factory.mktemp("elsewhere")
-    (elsewhere / "other.py").write_text(VOCE.replace('"voce"', '"other"'))
+    (elsewhere / "other.py").write_text(VOCE.replace('"own-voce"', '"other"'))
     monkeypatch.chdir(elsewhere)
     chosen = ["materials.Al5083.strength.file=other.py"]
     assert deck.load(folder / "shot.toml", chosen).materials["Al5083"].strength.name == "other"
@@ -75,7 +75,7 @@ def test_a_file_of_a_study_is_next_to_the_study(folder, tmp_path_factory, monkey
     """The file of an override on the command line is in the working folder, for a study as for a deck."""
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     for place, name in ((folder, "study"), (elsewhere, "command")):
-        (place / "law.py").write_text(VOCE.replace('"voce"', f'"{name}"'))
+        (place / "law.py").write_text(VOCE.replace('"own-voce"', f'"{name}"'))
     (folder / "laws.toml").write_text(STUDY)
     monkeypatch.chdir(elsewhere)
     assert 'model = "study"' in cases.plan(folder / "laws.toml", quiet=True).cases[0].text
@@ -91,7 +91,7 @@ soft = { based_on = "Al5083", strength = { yield_stress = "100 MPa" } }
 plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_modulus = "1 GPa", yield_stress = "1 MPa" } }
 """
     loaded = deck.loads(DECK + further, folder=folder).materials
-    assert (loaded["soft"].strength.name, loaded["soft"].strength.values["yield_stress"]) == ("voce", 1e8)
+    assert (loaded["soft"].strength.name, loaded["soft"].strength.values["yield_stress"]) == ("own-voce", 1e8)
     assert (loaded["plain"].strength.name, loaded["plain"].strength.code) == ("elastic-plastic", "")
 
 
@@ -101,9 +101,9 @@ plain = { based_on = "Al5083", strength = { model = "elastic-plastic", shear_mod
         ('"my_model.py"', '"no_model.py"', "shot.toml:18: materials.Al5083.strength.file: "),
         ('"my_model.py"', "3", "must be the name of a Python file"),
         ('file = "my_model.py"', 'file = "my_model.py"\nmodel = "vocal"', 'strength.model: is "vocal", but the model in'),
-        ('file = "my_model.py"', 'model = "voce"', 'unknown strength model "voce"'),
-        ('file = "my_model.py"', 'file = "my_model.py"\nhardening = 3', 'unknown parameter of voce "hardening"'),
-        ('yield_stress = "240 MPa"', "", "voce needs yield_stress (initial yield stress, Pa)"),
+        ('file = "my_model.py"', 'model = "own-voce"', 'unknown strength model "own-voce"'),
+        ('file = "my_model.py"', 'file = "my_model.py"\nhardening = 3', 'unknown parameter of own-voce "hardening"'),
+        ('yield_stress = "240 MPa"', "", "own-voce needs yield_stress (initial yield stress, Pa)"),
         ('yield_stress = "240 MPa"', 'yield_stress = "240 mm"', "materials.Al5083.strength.yield_stress"),
     ],
 )
@@ -118,7 +118,7 @@ def test_a_mistake_in_the_deck_says_where(folder, old, new, said):
 def test_a_restart_with_another_text_is_refused(folder):
     before = deck.load(folder / "shot.toml").to_toml()
     (folder / "my_model.py").write_text(VOCE.replace("-10.0 * ep", "-11.0 * ep"))
-    with pytest.raises(RunError, match="the deck differs from that of the run in materials, the code of the model voce"):
+    with pytest.raises(RunError, match="the deck differs from that of the run in materials, the code of the model own-voce"):
         run.check_same_deck(deck.load(folder / "shot.toml").to_toml(), before)
     run.check_same_deck(before.replace("my_model.py", "renamed.py"), before)
 
@@ -187,7 +187,7 @@ LATE = """
 def test_a_model_that_comes_after_the_kernels_is_reported_when_it_is_used(folder):
     output = python(LATE, folder).splitlines()
     assert len(output) == 2
-    kernels = "the kernels of this process were loaded without the strength model voce of my_model.py"
+    kernels = "the kernels of this process were loaded without the strength model own-voce of my_model.py"
     assert output[0].startswith(f"material Al5083: {kernels}")
     assert "hydro2d.register" in output[1]
     assert "start a new process" in output[1]
@@ -214,7 +214,7 @@ CHOSEN = """
 
 def test_only_code_that_sees_the_model_is_compiled_anew(folder):
     """Kernels that do not choose among strength models use the cache of runs without models from outside."""
-    assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "voce", "True", "240000000.0", "False", "0"]
+    assert python(CHOSEN, folder).split() == ["False", "False", "True", "True", "own-voce", "True", "240000000.0", "False", "0"]
 
 
 PHASES = """
@@ -246,7 +246,7 @@ def test_steps_before_a_deck_do_not_load_the_kernels(tmp_path):
 
 def test_workers_take_over_the_models_of_a_study(folder):
     """A worker loads the kernels with its first case, and by then has the models of all other cases."""
-    (folder / "b.py").write_text(VOCE.replace('"voce"', '"b"'))
+    (folder / "b.py").write_text(VOCE.replace('"own-voce"', '"b"'))
     models = json.dumps([(VOCE, "my_model.py", "strength"), ((folder / "b.py").read_text(), "b.py", "strength")])
     text = f"""
         import json
@@ -301,15 +301,15 @@ def package(tmp_path):
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: my-models\nVersion: 1.2\n")
     (about / "entry_points.txt").write_text("[hydro2d.strength]\n" + "".join(
-        f"{name} = my_models.{module}\n" for name, module in (("voce", "voce"), ("lost", "lost"), ("another", "voce"))))
+        f"{name} = my_models.{module}\n" for name, module in (("own-voce", "voce"), ("lost", "lost"), ("another", "voce"))))
     return site
 
 
 def test_a_package_gives_models_by_name(folder, package):
-    (folder / "shot.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voce"'))
+    (folder / "shot.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "own-voce"'))
     (folder / "wrong.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "lost"'))
     (folder / "other.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "another"'))
-    (folder / "typo.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "voze"'))
+    (folder / "typo.toml").write_text(DECK.replace('file = "my_model.py"', 'model = "own-voze"'))
     text = """
         from hydro2d.cli.main import call
         from hydro2d.deck import deck
@@ -322,19 +322,19 @@ def test_a_package_gives_models_by_name(folder, package):
             except DeckError as error:
                 print(error)
         call(["info"])
-        call(["info", "voce"])
-        print("voce" in deck.schema()["$defs"]["Strength"]["properties"]["model"]["enum"])
-        print("status", call(["check-model", "voce"]))
+        call(["info", "own-voce"])
+        print("own-voce" in deck.schema()["$defs"]["Strength"]["properties"]["model"]["enum"])
+        print("status", call(["check-model", "own-voce"]))
     """
     output = python(text, folder, package)
     assert output.startswith("my_models.voce (my-models 1.2)\n")
     assert "my_models.lost (my-models 1.2): the entry point lost names a module that cannot be found" in output
-    assert "the entry point is called another and the model voce; the names must be the same" in output
-    assert 'unknown strength model "voze"; did you mean "voce"?' in output
-    assert re.search(r"^  voce +strength model from the package my-models", output, re.MULTILINE)
-    assert "voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in output
+    assert "the entry point is called another and the model own-voce; the names must be the same" in output
+    assert 'unknown strength model "own-voze"; did you mean "own-voce"?' in output
+    assert re.search(r"^  own-voce +strength model from the package my-models", output, re.MULTILINE)
+    assert "own-voce (strength model)\n\nY = Y0 + Q (1 - exp(-10 ep))" in output
     assert "\nTrue\n" in output
-    assert output.endswith("voce: all checks passed\nstatus 0\n")
+    assert output.endswith("own-voce: all checks passed\nstatus 0\n")
 
 
 # ------------------------------------------------------------------------------------------------ a run

@@ -50,9 +50,9 @@ WRONG = [
     (VOCE, "CONSTANT_MODULUS = True", "CONSTANT_MODULUS = Tru", ":12: cannot be imported: NameError: name 'Tru'"),
     (VOCE, "CONSTANT_MODULUS = True", "CONSTANT_MODULUS =", ":12: is not Python: invalid syntax"),
     (VOCE, "CONSTANT_MODULUS = True\n", "", "needs CONSTANT_MODULUS, True or False"),
-    (VOCE, 'NAME = "voce"', "", "needs NAME, a text"),
-    (VOCE, '"voce"', '"johnson-cook"', "the NAME 'johnson-cook' is taken by a strength model of hydro2d"),
-    (VOCE, '"voce"', '"my model"', "the NAME 'my model' has blanks"),
+    (VOCE, 'NAME = "own-voce"', "", "needs NAME, a text"),
+    (VOCE, '"own-voce"', '"johnson-cook"', "the NAME 'johnson-cook' is taken by a strength model of hydro2d"),
+    (VOCE, '"own-voce"', '"my model"', "the NAME 'my model' has blanks"),
     (VOCE, 'SOURCE = "Voce', 'SOURCE = "" #', "needs SOURCE, a text"),
     (VOCE, "PARAMETERS = (", "PARAMETERS = (1.0,", "needs PARAMETERS, a tuple of hydro2d.base.parameters.Parameter"),
     (VOCE, '"saturation", "Pa", 0.0', '"shear_modulus", "Pa", 0.0', "has the parameter shear_modulus twice"),
@@ -91,7 +91,7 @@ def test_a_mistake_in_the_file_is_one_line_with_its_reason(tmp_path, capsys, tex
     assert old in text
     file = tmp_path / "model.py"
     file.write_text(text.replace(old, new))
-    part = {"voce": "strength", "gamma-two": "eos", "strain": "damage"}[text.split('NAME = "')[1].split('"')[0]]
+    part = {"own-voce": "strength", "gamma-two": "eos", "strain": "damage"}[text.split('NAME = "')[1].split('"')[0]]
     with pytest.raises(outside.ModelError) as error:
         outside.read(file, part)
     assert str(error.value).startswith(str(file))

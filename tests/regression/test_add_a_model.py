@@ -80,7 +80,7 @@ def test_the_mistakes_of_the_page_are_found(folder):
 def test_the_deck_is_in_order(folder):
     assert "`hydro2d check bar.toml`" in WALK
     done = typed("hydro2d check bar.toml", folder)
-    assert "strength voce" in done.stdout
+    assert "strength own-voce" in done.stdout
     assert done.returncode == 0
 
 

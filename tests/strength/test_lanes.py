@@ -105,6 +105,8 @@ def test_neither_place_nor_company_changes_a_bit(name):
 FEELS = {
     "johnson-cook": ("strain", "T"), "steinberg-guinan": ("strain", "T", "p", "rho"), "power-law": ("strain",),
     "zerilli-armstrong": ("strain", "T"), "elastic-plastic": ("strain", "T"), "kinematic-hardening": ("strain",),
+    "voce": ("strain", "T"), "steinberg-lund": ("strain", "T", "p", "rho"),
+    "preston-tonks-wallace": ("strain", "T", "p", "rho"),
 }
 
 
