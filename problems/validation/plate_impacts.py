@@ -1,0 +1,152 @@
+"""Free-surface velocities of plate impacts of 5083 aluminium beside the measured records.
+
+    python -m problems.validation.plate_impacts STUDY_DIRECTORY
+
+prints a row for every run of plate_impacts_5083.toml, as results/plate_impacts.csv keeps them; without a directory, the table of
+the README from the kept rows. `draw` makes the picture of how-to/free-surface-velocity.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+import hydro2d
+from problems import kept as results
+
+HERE = Path(__file__).parent
+KEPT, RECORDS = HERE / "results" / "plate_impacts.csv", HERE / "plate_impacts_5083.csv"
+#: velocity at which a record begins, m/s; time after that at which the elastic front is over, us
+START, FRONT = 20.0, 0.03
+#: times between which the median is the plateau, us; share of it below which the release has come
+PLATEAU, RELEASED = (0.5, 0.9), 0.95
+#: share of the time between the fronts at which the ramp is read
+RAMP = 0.7
+
+
+@dataclass(frozen=True)
+class Features:
+    """Numbers of a free-surface velocity: velocities in m/s, times in us after the elastic front.
+
+    front : velocity behind the elastic front;  ramp : further rise before the plastic front;  delay : of the plastic front,
+    where half of it is reached;  rise : of the plastic front from a quarter to three quarters;  plateau;  release : its end
+    """
+
+    front: float
+    ramp: float
+    delay: float
+    rise: float
+    plateau: float
+    release: float
+
+
+COLUMNS = ("shot", "law", *(each.name for each in fields(Features)), "method")
+
+
+def begun(time: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Times after the elastic front, where the velocity is START."""
+    return time - crossed(time, velocity, START)
+
+
+def crossed(time: np.ndarray, velocity: np.ndarray, level: float) -> float:
+    """The first time at which a velocity reaches a level. Raises ValueError if it never does."""
+    above = np.flatnonzero(velocity >= level)
+    if above.size == 0 or above[0] == 0:
+        raise ValueError(f"the velocity does not rise through {level:.4g} m/s")
+    k = int(above[0])
+    return float(np.interp(level, velocity[k - 1:k + 1], time[k - 1:k + 1]))
+
+
+def features(time: np.ndarray, velocity: np.ndarray) -> Features:
+    """The numbers of a record. time : us;  velocity : m/s. Raises ValueError for a record without both fronts and a release."""
+    since = begun(time, velocity)
+    front = float(np.interp(FRONT, since, velocity))
+    grid = np.linspace(*PLATEAU, 101)
+    plateau = float(np.median(np.interp(grid, since, velocity)))
+    low, delay, high = (crossed(since, velocity, front + share * (plateau - front)) for share in (0.25, 0.5, 0.75))
+    after = since > PLATEAU[1]
+    fallen = np.flatnonzero(velocity[after] < RELEASED * plateau)
+    if fallen.size == 0:
+        raise ValueError("the record ends before the release")
+    k = int(np.flatnonzero(after)[0] + fallen[0])
+    release = float(np.interp(-RELEASED * plateau, -velocity[k - 1:k + 1], since[k - 1:k + 1]))
+    return Features(front, float(np.interp(RAMP * delay, since, velocity)) - front, delay, high - low, plateau, release)
+
+
+def records() -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """The measured records by shot: time in us after the elastic front, velocity in m/s."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    for row in results.rows(RECORDS, ("shot", "time_us", "velocity_m_s")):
+        found.setdefault(row["shot"], []).append((float(row["time_us"]), float(row["velocity_m_s"])))
+    return {shot: (np.array(points)[:, 0], np.array(points)[:, 1]) for shot, points in found.items()}
+
+
+def of_run(run: hydro2d.Run) -> tuple[np.ndarray, np.ndarray]:
+    """Time in us and velocity of the tracer at the rear in m/s, of a run."""
+    velocity = run.to_pandas()["tracer_rear_velocity_z_m_s"]
+    return velocity.index.to_numpy() * 1e6, velocity.to_numpy()
+
+
+def rows_of(directory: Path) -> list[tuple]:
+    """A row for every finished case of a study directory, in the order of COLUMNS."""
+    found = []
+    for case in hydro2d.open_study(directory).cases:
+        if case.status == "done":
+            run = hydro2d.open_run(case.directory)
+            numbers = (f"{value:.4g}" for value in astuple(features(*of_run(run))))
+            found.append((case.values["shot"], case.values["law"], *numbers, run.summary.provenance.method))
+    return found
+
+
+def table() -> list[str]:
+    """The kept rows beside the records, as lines of the README's table."""
+    kept = results.rows(KEPT, COLUMNS)
+    lines = ["| shot | law | elastic front | ramp | delay | rise | plateau | release |", "|---|---|---|---|---|---|---|---|"]
+    for shot, record in records().items():
+        measured = features(*record)
+        lines.append(f"| {shot} | **measured** | " + " | ".join(_told(measured)) + " |")
+        for row in kept:
+            if row["shot"] == shot:
+                found = Features(*(float(row[each.name]) for each in fields(Features)))
+                lines.append(f"| | {row['law']} | " + " | ".join(_told(found)) + " |")
+    return lines
+
+
+def _told(each: Features) -> list[str]:
+    return [f"{each.front:.0f} m/s", f"{each.ramp:.0f} m/s", f"{each.delay:.3f} us", f"{1e3 * each.rise:.0f} ns",
+            f"{each.plateau:.0f} m/s", f"{each.release:.2f} us"]
+
+
+def draw(directory: Path | str, file: Path | str) -> None:
+    """A figure of the records and of the runs of a study directory, by shot."""
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 3, figsize=(12.0, 3.8), layout="constrained")
+    cases = [case for case in hydro2d.open_study(directory).cases if case.status == "done"]
+    for place, (shot, (time, velocity)) in zip(axes, records().items(), strict=True):
+        for case in cases:
+            if case.values["shot"] == shot:
+                mine, rear = of_run(hydro2d.open_run(case.directory))
+                place.plot(begun(mine, rear), rear, linewidth=1.0, label=case.values["law"])
+        place.plot(time, velocity, color="black", linewidth=1.4, label="measured")
+        place.set(xlim=(-0.05, 1.6), title=shot, xlabel="time after the elastic front [us]", ylabel="velocity of the rear [m/s]")
+    axes[0].legend(fontsize=7)
+    figure.savefig(file, dpi=110)
+    plt.close(figure)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Prints the rows of a study directory as CSV, or the table of the kept rows."""
+    if not arguments:
+        print("\n".join(table()))
+        return 0
+    results.write_to(sys.stdout, COLUMNS, (dict(zip(COLUMNS, row, strict=True)) for row in rows_of(Path(arguments[0]))))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
