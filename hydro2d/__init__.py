@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         sweep,
     )
     from hydro2d.base.errors import DeckError, Error, UnphysicalState
+    from hydro2d.base.method_version import METHOD
     from hydro2d.base.units import to_si
     from hydro2d.deck.deck import Deck
     from hydro2d.materials.outside import register
@@ -78,6 +79,7 @@ _PLACES = {
     "to_si": "hydro2d.base.units",
     "Summary": "hydro2d.measure.summary",
     "LEAST_KEPT_LENGTH": "hydro2d.measure.regime",
+    "METHOD": "hydro2d.base.method_version",
     "new_figure": "hydro2d.results.figures",
     "save_figure": "hydro2d.results.figures",
     "register": "hydro2d.materials.outside",
@@ -91,6 +93,7 @@ _PLACES = {
 
 __all__ = [
     "LEAST_KEPT_LENGTH",
+    "METHOD",
     "Case",
     "Deck",
     "DeckError",

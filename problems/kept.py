@@ -80,6 +80,16 @@ def grouped(rows: Iterable[dict[str, str]], columns: Sequence[str]) -> dict[tupl
     return groups
 
 
+def renew(file: Path, text: str, check: bool) -> bool:
+    """Writes a file of results, unless it has this text; check : writes nothing. Returns whether it has another text."""
+    changed = not file.is_file() or file.read_text(encoding="utf-8") != text
+    if changed:
+        print(f"{file.name}: {'is another table' if check else 'written'}")
+        if not check:
+            file.write_text(text, encoding="utf-8")
+    return changed
+
+
 def filled(text: str, tables: Mapping[str, Callable[[], list[str]]]) -> str:
     """The text of a page with its tables: each stands between `<!-- NAME -->` and `<!-- end -->`, and a function makes it."""
     return _BLOCK.sub(lambda found: "\n".join([found[1].rstrip(), *tables[found[2]](), found[3]]), text)

@@ -45,12 +45,9 @@ STAYED_RIGID, ERODED = "stayed rigid", "eroded"
 HARDNESS, WELDOX, BAR = "tungsten into 4340 steel of four hardnesses", "steel rods through Weldox 460 E", "Taylor bar"
 SHIELDS, SHIELDS_CHOSEN = "Whipple shields, half B", "Whipple shields, half A"
 CHOSEN = {each.name: not each.predicted for each in against.SETS} | {
-    HARDNESS: False, WELDOX: False, BAR: False, SHIELDS: False, SHIELDS_CHOSEN: True}
-#: sets of the twelve shots by the law of the rod
-LAWS = {"Steinberg-Guinan": "tungsten into aluminium", "Johnson-Cook, sintered": "tungsten into aluminium, sintered alloy",
-        "Johnson-Cook, 90W": "tungsten into aluminium, 90W-7Ni-3Fe", "Johnson-Cook, Y925": "tungsten into aluminium, Y925"}
-#: relative standard deviation of measurements where a source gives it: Odermatt's fit, 2 to 3 % (problems/long_rods/README.md)
-ERRORS = {"tungsten into armour steel": 0.03, HARDNESS: 0.03}
+    HARDNESS: False, BAR: False, SHIELDS: False, SHIELDS_CHOSEN: True}
+#: relative standard deviation of measurements where a source gives it
+ERRORS = {each.name: each.error for each in against.SETS} | {HARDNESS: against.ODERMATT}
 #: measured length of the bar of problems/classic, mm: Johnson & Cook (1983), as copper_bars.csv has it
 BAR_LENGTH = 16.2
 #: that bar in copper_bars.csv; cells across the radius of the sample; yield stress and hardening of copper as published, MPa
@@ -140,8 +137,9 @@ def twelve() -> list[Shot]:
         perforated = experiment.kind == "at least"
         ratios = () if through or perforated else tuple(1e-2 * run.reach / experiment.depth for run in members)
         about = {"velocity": shot.velocity, "cells": _cells(members)}
-        compared.append(Shot(LAWS[law], DEPTH, what, _ended(members), ratios, missed=through and not perforated, **about))
-        compared.append(Shot(LAWS[law], PERFORATION, what, "", (), right=through == perforated, **about))
+        name = against.LAWS[law][0]
+        compared.append(Shot(name, DEPTH, what, _ended(members), ratios, missed=through and not perforated, **about))
+        compared.append(Shot(name, PERFORATION, what, "", (), right=through == perforated, **about))
     return compared
 
 
@@ -453,12 +451,7 @@ def main(arguments: list[str] | None = None) -> int:
     runs, models = rows(of_runs()), rows(of_models())
     made = tables(runs, models)
     print("\n\n".join("\n".join(make()) for make in made.values()))
-    new = text([*runs, *models])
-    changed = not FILE.is_file() or FILE.read_text(encoding="utf-8") != new
-    if changed:
-        print(f"{FILE.name}: {'is another table' if check else 'written'}")
-        if not check:
-            FILE.write_text(new, encoding="utf-8")
+    changed = kept.renew(FILE, text([*runs, *models]), check)
     return max(kept.fill([PAGE], made, check), int(check and changed))
 
 

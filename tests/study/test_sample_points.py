@@ -2,12 +2,14 @@
 
 import json
 import tomllib
+from collections import Counter
 
 import numpy as np
 import pytest
 from scipy import stats
 
 from hydro2d.cli.main import call
+from hydro2d.deck import deck as decks
 from hydro2d.materials.library import load
 from hydro2d.study.plan import cases, members, relating, sampling
 from hydro2d.study.plan.definition import StudyError
@@ -205,6 +207,96 @@ def test_choices_have_their_weights():
     values = each.values(np.linspace(0.0005, 0.9995, 1000))
     assert (values.count("a"), values.count("b")) == (250, 750)
     assert each.level_of(each.points(["a", "b"])).tolist() == [0, 1]
+
+
+JOINT = """
+[[sample.joint]]
+keys = ["materials.plate.eos.sound_speed", "materials.plate.eos.hugoniot_slope"]
+mean = ["5.33 km/s", 1.34]
+covariance = [[4e-4, -9e-4], [-9e-4, 2.5e-3]]
+"""
+#: a rod whose density, and a plate whose law and shock fit, are inputs
+SHOT = BASE + """
+[set]
+materials.rod.based_on = "W_alloy"
+materials.plate.based_on = "Al5083"
+body.rod.material = "rod"
+body.plate.material = "plate"
+[sample]
+method = "METHOD"
+n = 256
+[sample.input."materials.rod.eos.reference_density"]
+normal = [1, 0.002]
+relative = "factor"
+[sample.input."body.plate.strength_factor"]
+uniform = [0.87, 1.3]
+[sample.input."materials.plate.strength"]
+choice = [
+    {model = "power-law", yield_stress = "276 MPa", youngs_modulus = "70 GPa", poisson_ratio = 0.3, hardening_exponent = 0.084},
+    {model = "elastic-plastic", yield_stress = "340 MPa", shear_modulus = "26 GPa"},
+]
+weights = [3, 1]
+""" + JOINT
+
+
+@pytest.mark.parametrize("method", ["sobol", "latin-hypercube"])
+def test_joint_inputs_go_along_with_each_other(tmp_path, method):
+    made = plan(tmp_path, SHOT.replace("METHOD", method))
+    speed, slope = np.array([row[-2:] for row in made.sample.rows], dtype=float).T
+    assert (speed.mean(), slope.mean()) == pytest.approx((5.33, 1.34), rel=1e-3)
+    assert np.cov(speed, slope) == pytest.approx(np.array([[4e-4, -9e-4], [-9e-4, 2.5e-3]]), rel=0.03)
+    assert abs(np.corrcoef(speed, [row[0] for row in made.sample.rows])[0, 1]) < 0.05
+    strata = [len(set(np.floor(256 * each.points(column)))) for each, column in
+              zip(made.sample.inputs[-2:], (speed, slope), strict=True)]
+    assert strata == [256, 256] if method == "latin-hypercube" else strata[0] == 256
+
+
+def test_laws_as_tables_and_constants_of_materials_are_inputs(tmp_path):
+    made = plan(tmp_path, SHOT.replace("METHOD", "sobol"))
+    laws = Counter(row[2].split('"')[1] for row in made.sample.rows)
+    assert laws == {"power-law": 192, "elastic-plastic": 64}
+    for row, case in zip(made.sample.rows[:4], made.cases, strict=False):
+        deck = decks.loads(case.text)
+        assert deck.materials["rod"].reference_density == pytest.approx(load("W_alloy").reference_density * row[0], rel=1e-9)
+        assert deck.materials["plate"].strength.name == row[2].split('"')[1]
+        assert deck.materials["plate"].number("eos", "sound_speed").value == pytest.approx(1e3 * row[3], rel=1e-9)
+        assert deck.body_named("plate").strength_factor == pytest.approx(row[1], rel=1e-9)
+
+
+def test_joint_inputs_come_back_from_the_file_of_a_study(tmp_path):
+    made = plan(tmp_path, SHOT.replace("METHOD", "sobol").replace("n = 256", "n = 4")).sample
+    data = json.loads(json.dumps(made.data()))
+    again = Points.of_data(data)
+    assert (again.inputs, again.rows) == (made.inputs, made.rows)
+    assert made.inputs[-1].words == ("normal, mean 1.34, standard deviation 0.05, correlation -0.9 with "
+                                     "materials.plate.eos.sound_speed")
+    data["inputs"][-1]["correlation"] = [2.0, 1.0]
+    data["inputs"][-2]["correlation"] = [1.0, 2.0]
+    with pytest.raises(ValueError, match="positive definite"):
+        Points.of_data(data)
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    (("-9e-4], [-9e-4", "-9e-4], [9e-4"), "is not symmetric: row 1 has -0.0009 in column 2, row 2 has 0.0009 in column 1"),
+    (("-9e-4], [-9e-4", "-2e-3], [-2e-3"), "covariance: is not positive definite: the smallest eigenvalue of its matrix of "
+     "correlations is -1"),
+    (("[[4e-4", "[[0"), "the variance of materials.plate.eos.sound_speed, in row and column 1, must be positive"),
+    (("[-9e-4, 2.5e-3]]", "[-9e-4]]"), "covariance: needs 2 rows of 2 numbers, one for each key"),
+    (("[[4e-4, -9e-4], ", "["), "covariance: needs 2 rows of 2 numbers, one for each key"),
+    (("1.34]", "1.34, 2]"), "mean: has 3 values, and keys 2"),
+    (("1.34]", '"inf km/s"]'), "a number is not finite"),
+    (("[[4e-4", "[[inf"), "should be a finite number, is inf"),
+    (("hugoniot_slope", "sound_speed"), "keys: has materials.plate.eos.sound_speed twice"),
+    (("hugoniot_slope", "hugoniot_slop"), 'did you mean "hugoniot_slope"'),
+    (('"5.33 km/s"', '"5.33 kg"'), "sample.joint: materials.plate.eos.sound_speed: row 1 has "),
+    (("\n[[sample.joint]]",
+      '\n[sample.input."materials.plate.eos.sound_speed"]\nuniform = ["5 km/s", "6 km/s"]\n[[sample.joint]]'),
+     "sample: materials.plate.eos.sound_speed: the sample (materials.plate.eos.sound_speed) sets"),
+])
+def test_a_wrong_joint_distribution_is_refused(tmp_path, change, said):
+    assert change[0] in SHOT
+    lines = refused(tmp_path, SHOT.replace("METHOD", "sobol").replace("n = 256", "n = 2").replace(*change))
+    assert any(said in line and line.startswith("study.toml:") for line in lines), lines
 
 
 def test_a_table(tmp_path):

@@ -3,10 +3,13 @@
 import numpy as np
 import pandas
 import pytest
+from scipy.special import ndtri
 from scipy.stats import qmc
 
+from hydro2d.study.plan import joint
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import Distribution
+from hydro2d.study.plan.sample_section import Joint
 from hydro2d.study.samples import gaussian, sobol, surrogates, text
 from hydro2d.study.samples.results import Samples
 
@@ -21,7 +24,7 @@ ANGLES = [Distribution(f"x{n}", "uniform", "", (-np.pi, np.pi)) for n in (1, 2, 
 
 def sample(inputs, function, rows, seed):
     """A sample of a function by Sobol's points: Samples, with the result "y"."""
-    cube = qmc.Sobol(len(inputs), seed=np.random.default_rng(seed)).random(rows)
+    cube = joint.correlated(inputs, qmc.Sobol(len(inputs), seed=np.random.default_rng(seed)).random(rows))
     values = {each.head: np.array(each.values(points)) for each, points in zip(inputs, cube.T, strict=True)}
     columns = {"row": np.arange(1.0, rows + 1), **values, "status": np.full(rows, "done"), "y": function(*values.values())}
     return Samples("a function", inputs, pandas.DataFrame(columns))
@@ -86,6 +89,22 @@ def test_sums_have_no_interactions_and_choices_have_levels():
     assert [len(figure.axes) for figure in (samples.scatter("y"), samples.tornado("y"))] == [2, 1]
 
 
+def test_inputs_of_a_joint_distribution_have_the_indices_of_their_group():
+    """A sum a + 2 b + 3 c with an independent c: the variance of a + 2 b is 1 + 4 + 2 * 2 * 0.8."""
+    pair = Joint(keys=("a", "b"), mean=(5.0, -1.0), covariance=((1.0, 0.8), (0.8, 1.0)))
+    inputs = [Distribution("c", "normal", "", (0.0, 1.0)), *Distribution.of_joint(pair)]
+    made = sample(inputs, lambda c, a, b: a + 2.0 * b + 3.0 * c, 64, 0)
+    shares, alone = made.indices("y"), 9.0 / (9.0 + 8.2)
+    assert [each.input for each in shares.inputs] == ["c", "a with b"]
+    assert [each.first for each in shares.inputs] == pytest.approx([alone, 1.0 - alone], abs=0.02)
+    assert [each.total for each in shares.inputs] == pytest.approx([alone, 1.0 - alone], abs=0.02)
+    assert shares["a"] == shares["b"] == shares.inputs[1]
+    assert sobol.GROUPED in text.indices(made, "y")[1]
+    slopes = {each.input: (each.high - each.low) / (2.0 * ndtri(0.9)) for each in made.effects("y")}
+    assert slopes == pytest.approx({"c": 3.0, "a": 1.0 + 2.0 * 0.8, "b": 2.0 + 0.8}, rel=0.05), "the other one follows"
+    assert made.scatter("y").axes
+
+
 def test_the_ends_of_a_bar_stand_apart_even_on_one_side_of_the_middle():
     samples = sample(ANGLES[:1], lambda x1: (x1 + 0.5) ** 2, 64, 0)
     (effect,), axes = samples.effects("y"), samples.tornado("y").axes[0]
@@ -93,6 +112,14 @@ def test_the_ends_of_a_bar_stand_apart_even_on_one_side_of_the_middle():
     assert min(effect.low, effect.high) > middle
     places = sorted((text.xy[0], text.get_ha()) for text in axes.texts)
     assert places == [(pytest.approx(middle), "right"), (pytest.approx(max(effect.low, effect.high)), "left")]
+
+
+def test_pictures_name_tables_by_their_beginning():
+    laws = tuple(f'{{ model = "{name}", yield_stress = "276 MPa", n = 1 }}' for name in ("power-law", "voce"))
+    inputs = [Distribution("law", "choice", levels=laws, weights=(0.5, 0.5)), ANGLES[0]]
+    made = sample(inputs, lambda law, x: np.where(law == laws[0], 1.0, 3.0) + x, 32, 0)
+    assert [label.get_text() for label in made.scatter("y").axes[0].get_xticklabels()] == [
+        '"power-law", yield_stre\u2026', '"voce", yield_stress = \u2026']
 
 
 def test_labels_of_a_tornado_lie_within_its_frame():

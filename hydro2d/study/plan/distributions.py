@@ -1,6 +1,7 @@
 """The distribution of an uncertain input: its values at points between 0 and 1, and the point of a value.
 
-A point is the cumulative probability of a value, so that independent inputs fill the unit cube evenly. A choice has levels: its
+A point is the cumulative probability of a value, so that independent inputs fill the unit cube evenly, and those of a joint
+distribution (joint.py) fill it as they go along with each other. A choice has levels: its
 point lies within the level's share of 0 to 1. An input of a table has the empirical distribution of its column.
 """
 
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from hydro2d.files import toml
-from hydro2d.study.plan.sample_section import DIFFERENCE, FACTOR, Input
+from hydro2d.study.plan.sample_section import DIFFERENCE, FACTOR, Input, Joint, in_one_unit
 
 #: significant digits of a value in a deck; the last bits of a quantile may differ between machines
 DIGITS = 9
@@ -38,6 +39,8 @@ class Distribution:
     levels, weights : of a choice: its values as text, in order, and the probability of each
     column : of a table, its numbers, sorted
     relative : "difference" or "factor", for numbers that are added to the value of the deck or multiply it
+    joint, correlation : the keys that are normally distributed together with this one, itself among them, and its correlation
+        with each
     """
 
     key: str
@@ -49,6 +52,8 @@ class Distribution:
     weights: tuple[float, ...] = ()
     column: tuple[float, ...] = ()
     relative: str = ""
+    joint: tuple[str, ...] = ()
+    correlation: tuple[float, ...] = ()
 
     @property
     def head(self) -> str:
@@ -70,7 +75,9 @@ class Distribution:
             "normal": f"normal, mean {first:.6g}{unit}, standard deviation {second:.6g}{unit}",
             "lognormal": f"lognormal, median {first:.6g}{unit}, factor {second:.6g}",
             "uniform": f"uniform from {first:.6g} to {second:.6g}{unit}",
-        }[self.kind] + bounds + RELATIVE.get(self.relative, "")
+        }[self.kind] + bounds + RELATIVE.get(self.relative, "") + "".join(
+            f", correlation {number:.3g} with {key}" for key, number in zip(self.joint, self.correlation, strict=True)
+            if key != self.key)
 
     def data(self) -> dict[str, Any]:
         """The contents as plain data, for JSON."""
@@ -80,8 +87,9 @@ class Distribution:
     def of_data(cls, data: dict[str, Any]) -> Distribution:
         """The inverse of `data`. Raises TypeError, ValueError, LookupError or ArithmeticError for what no distribution has."""
         made = cls(**{name: tuple(value) if isinstance(value, list) else value for name, value in data.items()})
-        numbers = (*made.numbers, *made.weights, *made.column, *(made.within or ()))
-        if not all(isinstance(text, str) for text in (made.key, made.kind, made.unit, made.relative, *made.levels)):
+        numbers = (*made.numbers, *made.weights, *made.column, *(made.within or ()), *made.correlation)
+        texts = (made.key, made.kind, made.unit, made.relative, *made.levels, *made.joint)
+        if not all(isinstance(text, str) for text in texts):
             raise TypeError(f"an input has something else than text: {made}")
         with np.errstate(divide="raise", invalid="raise"):
             count = len(made.points(made.levels or made.numbers[:1] or made.column[:1]))
@@ -105,6 +113,17 @@ class Distribution:
         low, high = made._ends()
         if high - low < LEAST:
             raise ValueError(f"within: only {high - low:.1g} of the distribution lies between the bounds")
+        return made
+
+    @classmethod
+    def of_joint(cls, given: Joint) -> list[Distribution]:
+        """The distributions of the inputs of a joint one of a study file."""
+        columns = zip(given.keys, given.mean, given.covariance, given.correlation().tolist(), strict=True)
+        made = []
+        for number, (key, mean, row, correlation) in enumerate(columns):
+            (middle,), unit = in_one_unit((mean,))
+            made.append(cls(key, "normal", unit, (middle, math.sqrt(row[number])), joint=given.keys,
+                            correlation=tuple(correlation)))
         return made
 
     @classmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -12,7 +13,7 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import key_messages
 from hydro2d.files import toml
 from hydro2d.study.plan import members, relating, sampling
-from hydro2d.study.plan.distributions import Distribution
+from hydro2d.study.plan.distributions import Distribution, label
 from hydro2d.study.plan.planned import Option, Planned
 from hydro2d.study.plan.study_file import StudyFile, keys_of, place_of, share
 
@@ -44,7 +45,8 @@ class SampleRows:
                 inputs.append(Distribution.of_input(key, entry))
             except ValueError as error:
                 self.study.say(self.place_of(key), f"{_spelled_input(key)}: {error}")
-        self._distinct_inputs(given.input)
+        inputs += sampling.together(given)
+        self._distinct_inputs([*given.input, *itertools.chain(*(each.keys for each in given.joint))])
         self.study.refuse()
         self.points = sampling.points(given, inputs, self.study.folder)
         if given.table is not None:
@@ -56,6 +58,8 @@ class SampleRows:
         """Place of an input of the sample in the study file; that of the table for one of its columns."""
         if self.given.table is not None:
             return ("sample", "table")
+        if (joint := next((number for number, each in enumerate(self.given.joint) if key in each.keys), None)) is not None:
+            return ("sample", "joint", joint, "keys")
         return place_of(("sample", "input"), key, self.study.data.get("sample", {}).get("input", {}))
 
     def _distinct_inputs(self, keys: Iterable[str]) -> None:
@@ -122,16 +126,17 @@ class SampleRows:
         if of is None:
             return key, f"{self.study.where(('sample',))}: sample: row {row}: {wrong}"
         where = self.study.where(self.place_of(key))
-        return key, f"{where}: {_spelled_input(key)}: row {row} has {settings[key]}: {wrong}"
+        name = f"sample.joint: {key}" if of.joint else _spelled_input(key)
+        return key, f"{where}: {name}: row {row} has {label(settings[key])}: {wrong}"
 
     def known_keys(self, tables: list[dict]) -> None:
         """Finds inputs whose keys no deck has; ``tables`` are those of the decks."""
-        for key in self.given.input:
-            if problem := key_messages.no_such_key(tables, key):
-                self.study.say(self.place_of(key), problem)
-        for column in self.points.inputs if self.given.table else ():
-            if problem := key_messages.no_such_key(tables, column.key):
-                self.study.wrong.append(f'{self.file}: column "{column.head}": {problem}')
+        for each in self.points.inputs:
+            if problem := key_messages.no_such_key(tables, each.key):
+                if self.given.table:
+                    self.study.wrong.append(f'{self.file}: column "{each.head}": {problem}')
+                else:
+                    self.study.say(self.place_of(each.key), problem)
 
 
 def _alike(others: int) -> str:

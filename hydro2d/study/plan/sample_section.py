@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from hydro2d.base import units
@@ -138,6 +140,59 @@ class Input(Section):
         return (first, second), (bounds[0], bounds[1]) if bounds else None, unit
 
 
+#: smallest eigenvalue of a matrix of correlations that is positive definite and not only so by round-off
+DEFINITE = 1e-9
+
+
+class Joint(Section):
+    """Deck keys that are normally distributed together, such as the two constants of one fit."""
+
+    keys: tuple[str, ...] = Field(description="the deck keys")
+    mean: tuple[Quantity, ...] = Field(description="mean of each")
+    covariance: tuple[tuple[float, ...], ...] = Field(
+        description="a row of numbers for each key; a number has the unit of the mean of its row times that of its column"
+    )
+
+    @model_validator(mode="after")
+    def _whole(self):
+        count = len(self.keys)
+        if count < 2:
+            raise ValueError("keys: needs at least two keys; one alone belongs to [sample.input]")
+        if twice := [key for number, key in enumerate(self.keys) if key in self.keys[:number]]:
+            raise ValueError(f"keys: has {twice[0]} twice")
+        if len(self.mean) != count:
+            raise ValueError(f"mean: has {len(self.mean)} values, and keys {count}")
+        if {len(row) for row in (self.covariance, *self.covariance)} != {count}:
+            raise ValueError(f"covariance: needs {count} rows of {count} numbers, one for each key")
+        means = [in_one_unit((value,))[0][0] for value in self.mean]
+        if not all(map(math.isfinite, (*means, *itertools.chain(*self.covariance)))):
+            raise ValueError("a number is not finite")
+        self._definite()
+        return self
+
+    def _definite(self) -> None:
+        """Checks the covariance. Raises ValueError."""
+        numbers = range(len(self.keys))
+        for i, j in itertools.combinations(numbers, 2):
+            above, below = self.covariance[i][j], self.covariance[j][i]
+            if not math.isclose(above, below, rel_tol=1e-9):
+                raise ValueError(f"covariance: is not symmetric: row {i + 1} has {above:g} in column {j + 1}, row {j + 1} has "
+                                 f"{below:g} in column {i + 1}")
+        for i in numbers:
+            if not self.covariance[i][i] > 0.0:
+                raise ValueError(f"covariance: the variance of {self.keys[i]}, in row and column {i + 1}, must be positive")
+        least = float(np.linalg.eigvalsh(self.correlation())[0])
+        if least < DEFINITE:
+            raise ValueError(f"covariance: is not positive definite: the smallest eigenvalue of its matrix of correlations is "
+                             f"{least:.3g}")
+
+    def correlation(self) -> np.ndarray:
+        """The correlations of the keys, float64[keys, keys]."""
+        covariance = np.array(self.covariance)
+        deviations = np.sqrt(np.diag(covariance))
+        return covariance / np.outer(deviations, deviations)
+
+
 #: a change that should not matter
 Change = Literal["mesh offset", "flank offset", "first step"]
 
@@ -191,6 +246,7 @@ class Sample(Section):
     n: int | None = Field(None, ge=2, le=MOST, description="number of points; for sobol a power of two")
     seed: int | None = Field(None, ge=0, le=2**32, description="another seed makes other points; default 0")
     input: Annotated[dict[str, Input], BeforeValidator(_by_key)] = Field({}, description="distribution of each deck key")
+    joint: tuple[Joint, ...] = Field((), description="keys that are normally distributed together")
     by: Annotated[tuple[Change, ...], AfterValidator(different)] | None = Field(
         None, description="changes that should not matter, by another amount in every row, so that what no input explains is "
         "the chance of a run; their meaning is that of [ensemble]"
@@ -204,10 +260,10 @@ class Sample(Section):
         if (self.table is None) == (self.method is None):
             raise ValueError("give either table or method")
         if self.table is not None:
-            extra = [name for name in ("n", "seed", "input") if name in self.model_fields_set]
+            extra = [name for name in ("n", "seed", "input", "joint") if name in self.model_fields_set]
             if extra:
                 raise ValueError(f"{' and '.join(extra)}: belongs to method; a table has its own points")
-        elif self.n is None or not self.input:
+        elif self.n is None or not (self.input or self.joint):
             raise ValueError(f'method = "{self.method}" needs n, and a table of its distribution for each input, such as '
                              '[sample.input."body.rod.velocity"]')
         return self

@@ -9,9 +9,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from hydro2d.base import units
 from hydro2d.files import csv_tables, toml
-from hydro2d.study.plan import relating
+from hydro2d.study.plan import joint, relating
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution, label
 from hydro2d.study.plan.sample_section import MOST, Sample
@@ -63,6 +65,7 @@ class Points:
             for each, value in zip(inputs, row, strict=True):
                 if not each.has(value):
                     raise ValueError(f"row {number} of the sample has {value!r} as {each.head}")
+        joint.correlated(inputs, np.full((1, len(inputs)), 0.5))
         return cls(inputs, rows, (), data["method"], data["seed"], data["table"], tuple(map(str, data["results"])))
 
     def inputs_of(self, row: int | str) -> dict[str, float | str]:
@@ -75,11 +78,17 @@ class Points:
                 "inputs": [each.data() for each in self.inputs], "rows": [list(row) for row in self.rows]}
 
 
+def together(sample: Sample) -> list[Distribution]:
+    """The inputs of the joint distributions of a sample."""
+    return [each for given in sample.joint for each in Distribution.of_joint(given)]
+
+
 def points(sample: Sample, inputs: Sequence[Distribution], folder: Path) -> Points:
     """The points of a sample; `inputs` are the distributions of its keys, `folder` that of its table. Raises StudyError."""
     if sample.table is not None:
         return read(folder / sample.table, sample.results)
     cube, notes = _cube(sample, len(inputs))
+    cube = joint.correlated(inputs, cube, strata=sample.method == "latin-hypercube")
     columns = [each.values(cube[:, number]) for number, each in enumerate(inputs)]
     chosen = [dict(zip(each.levels, sample.input[each.key].choice, strict=True)) if each.kind == CHOICE else None
               for each in inputs]

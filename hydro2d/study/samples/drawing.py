@@ -13,6 +13,8 @@ from hydro2d.study.samples import surrogates
 
 #: panels in a row; width and height of one in inches; points of a curve; places of the marks of a level beside one another
 COLUMNS, SIZE, POINTS, APART = 3, (3.6, 2.9), 60, 0.25
+#: most characters of a value of an input, which may be a whole table
+LONGEST = 24
 #: numbers along an axis; points between a bar and its label, and between the label and the frame
 NUMBERS, GAP = 5, 3
 #: rounds in which the room for the labels is found; each brings its error to 0.8 of it or less
@@ -25,6 +27,12 @@ def _axis(samples, result: str) -> tuple[str, float]:
         return f"fraction: {result}", 1.0
     unit, factor = readers(result)
     return title(result) + (f" [{unit}]" if unit else ""), factor
+
+
+def _brief(value: str) -> str:
+    """A value of an input in a picture; of a table the beginning, from its model on."""
+    value = value.removeprefix("{ model = ")
+    return value if len(value) <= LONGEST else value[: LONGEST - 1] + "\u2026"
 
 
 def scatter(samples, result: str):
@@ -68,7 +76,7 @@ def _levels(place, each, points: np.ndarray, values: np.ndarray) -> None:
         own = values[level == number]
         place.plot(number + APART * np.linspace(-1.0, 1.0, max(own.size, 1))[: own.size], own, "o", markersize=3, alpha=0.6,
                    color="C0")
-    place.set_xticks(range(len(each.levels)), [verbatim(level) for level in each.levels], rotation=20)
+    place.set_xticks(range(len(each.levels)), [verbatim(_brief(level)) for level in each.levels], rotation=20)
 
 
 def tornado(samples, result: str):
@@ -84,8 +92,8 @@ def tornado(samples, result: str):
             place.barh(number, end - middle, left=middle, color=colour, height=0.6)
         (low, at_low), (high, at_high) = sorted(zip(ends, (each.at_low, each.at_high), strict=True))
         sides = (at_low, min(low, middle), -GAP, "right"), (at_high, max(high, middle), GAP, "left")  # both may lie on one side
-        labels += [place.annotate(verbatim(at), (end, number), (offset, 0), textcoords="offset points", ha=side, va="center",
-                                  fontsize=7) for at, end, offset, side in sides]
+        labels += [place.annotate(verbatim(_brief(at)), (end, number), (offset, 0), textcoords="offset points", ha=side,
+                                  va="center", fontsize=7) for at, end, offset, side in sides]
     place.set_yticks(range(len(effects)), [verbatim(each.input) for each in effects], fontsize=8)
     place.invert_yaxis()
     place.axvline(middle, color="black", linewidth=0.8)

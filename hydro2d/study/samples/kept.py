@@ -48,7 +48,7 @@ def _inputs(sample: Sample, folder: Path) -> tuple[Distribution, ...]:
     if sample.table is not None:
         return sampling.read(folder / sample.table).inputs
     try:
-        return tuple(Distribution.of_input(key, given) for key, given in sample.input.items())
+        return (*(Distribution.of_input(key, given) for key, given in sample.input.items()), *sampling.together(sample))
     except ValueError as error:
         raise StudyError(f"sample.input: {error}") from None
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hydro2d.base.terminal import several
+from hydro2d.study.plan import joint
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.distributions import CHOICE, Distribution
 from hydro2d.study.samples import gaussian
@@ -112,7 +113,7 @@ def middle(inputs: Sequence[Distribution]) -> np.ndarray:
 
 
 def along(inputs: Sequence[Distribution], number: int, points: np.ndarray) -> np.ndarray:
-    """Points of the cube along an input, the other ones as in `middle`."""
+    """Points of the cube along an input, the other ones as in `middle`; those of its joint distribution follow it."""
     cube = np.tile(middle(inputs), (len(points), 1))
     cube[:, number] = points
-    return cube
+    return joint.follow(inputs, cube, number)

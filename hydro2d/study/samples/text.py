@@ -54,7 +54,8 @@ def indices(samples: Samples, result: str) -> tuple[Table, str]:
     rows = [(each.input, f"{each.first:z.2f}", f"{each.first_low:z.2f} to {each.first_high:z.2f}", f"{each.total:z.2f}",
              f"{each.total_low:z.2f} to {each.total_high:z.2f}") for each in shares.inputs]
     words = f"{title(result)}: shares of its variance, by a surrogate: {shares.surrogate.words} (SI)"
-    return (INDICES, rows), words + (f". Warning: {shares.doubt}" if shares.doubt else "")
+    notes = shares.grouped, f"Warning: {shares.doubt}" if shares.doubt else ""
+    return (INDICES, rows), ". ".join(filter(None, (words, *notes)))
 
 
 def report(samples: Samples, shares: bool = True) -> Iterator[str]:
