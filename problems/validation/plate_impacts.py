@@ -17,6 +17,7 @@ import numpy as np
 
 import hydro2d
 from problems import kept as results
+from problems.spall import read
 
 HERE = Path(__file__).parent
 KEPT, RECORDS = HERE / "results" / "plate_impacts.csv", HERE / "plate_impacts_5083.csv"
@@ -33,7 +34,8 @@ class Features:
     """Numbers of a free-surface velocity: velocities in m/s, times in us after the elastic front.
 
     front : velocity behind the elastic front;  ramp : further rise before the plastic front;  delay : of the plastic front,
-    where half of it is reached;  rise : of the plastic front from a quarter to three quarters;  plateau;  release : its end
+    where half of it is reached;  rise : of the plastic front from a quarter to three quarters;  plateau;  release : its end;
+    pull_back : from the plateau to the first lowest velocity after it
     """
 
     front: float
@@ -42,6 +44,7 @@ class Features:
     rise: float
     plateau: float
     release: float
+    pull_back: float
 
 
 COLUMNS = ("shot", "law", *(each.name for each in fields(Features)), "method")
@@ -74,7 +77,8 @@ def features(time: np.ndarray, velocity: np.ndarray) -> Features:
         raise ValueError("the record ends before the release")
     k = int(np.flatnonzero(after)[0] + fallen[0])
     release = float(np.interp(-RELEASED * plateau, -velocity[k - 1:k + 1], since[k - 1:k + 1]))
-    return Features(front, float(np.interp(RAMP * delay, since, velocity)) - front, delay, high - low, plateau, release)
+    ramp = float(np.interp(RAMP * delay, since, velocity)) - front
+    return Features(front, ramp, delay, high - low, plateau, release, plateau - read.pull_back(velocity)[1])
 
 
 def records() -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -98,14 +102,15 @@ def rows_of(directory: Path) -> list[tuple]:
         if case.status == "done":
             run = hydro2d.open_run(case.directory)
             numbers = (f"{value:.4g}" for value in astuple(features(*of_run(run))))
-            found.append((case.values["shot"], case.values["law"], *numbers, run.summary.provenance.method))
+            found.append((case.values["shot"], case.values["law"], *numbers, run.summary.method))
     return found
 
 
 def table() -> list[str]:
     """The kept rows beside the records, as lines of the README's table."""
     kept = results.rows(KEPT, COLUMNS)
-    lines = ["| shot | law | elastic front | ramp | delay | rise | plateau | release |", "|---|---|---|---|---|---|---|---|"]
+    lines = ["| shot | law | elastic front | ramp | delay | rise | plateau | release | pull-back |",
+             "|---|---|---|---|---|---|---|---|---|"]
     for shot, record in records().items():
         measured = features(*record)
         lines.append(f"| {shot} | **measured** | " + " | ".join(_told(measured)) + " |")
@@ -118,7 +123,7 @@ def table() -> list[str]:
 
 def _told(each: Features) -> list[str]:
     return [f"{each.front:.0f} m/s", f"{each.ramp:.0f} m/s", f"{each.delay:.3f} us", f"{1e3 * each.rise:.0f} ns",
-            f"{each.plateau:.0f} m/s", f"{each.release:.2f} us"]
+            f"{each.plateau:.0f} m/s", f"{each.release:.2f} us", f"{each.pull_back:.0f} m/s"]
 
 
 def draw(directory: Path | str, file: Path | str) -> None:
@@ -133,7 +138,7 @@ def draw(directory: Path | str, file: Path | str) -> None:
                 mine, rear = of_run(hydro2d.open_run(case.directory))
                 place.plot(begun(mine, rear), rear, linewidth=1.0, label=case.values["law"])
         place.plot(time, velocity, color="black", linewidth=1.4, label="measured")
-        place.set(xlim=(-0.05, 1.6), title=shot, xlabel="time after the elastic front [us]", ylabel="velocity of the rear [m/s]")
+        place.set(xlim=(-0.05, 2.1), title=shot, xlabel="time after the elastic front [us]", ylabel="velocity of the rear [m/s]")
     axes[0].legend(fontsize=7)
     figure.savefig(file, dpi=110)
     plt.close(figure)

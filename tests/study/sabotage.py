@@ -36,18 +36,18 @@ def _befall(what):
             file.write("x")
 
 
-def _unphysical(_sim):
+def _unphysical(_sim, *_until):
     raise simulation.UnphysicalState("a state that cannot be")
 
 
 def dask_setup(worker):
     """Called by dask as the worker starts."""
-    honest, step = run.run, simulation.Simulation.step
+    honest, advance = run.run, simulation.Simulation.advance
 
     def dishonest(deck, directory=None, **options):
         what = PLANNED.get(Path(directory).name)
         _befall(what)
-        simulation.Simulation.step = _unphysical if what == "unphysical" else step
+        simulation.Simulation.advance = _unphysical if what == "unphysical" else advance
         try:
             return honest(deck, directory, **options)
         finally:
