@@ -181,9 +181,10 @@ class Row:
             "u_D_from": NOT_GIVEN if of.error is None else f"{100.0 * of.error:g} %, stated" if of.error else "exact"}
 
     def _computed(self) -> dict[str, str]:
-        """The median of the runs, and their least and largest value if there are several."""
-        ends = {"least": min(self.computed), "most": max(self.computed)} if len(self.computed) > 1 else {}
-        middle = {"computed": median(self.computed)} if self.computed else {}
+        """The median of the runs, and their least and largest value if there are several; nothing of runs without a value."""
+        values = () if self.said else self.computed
+        ends = {"least": min(values), "most": max(values)} if len(values) > 1 else {}
+        middle = {"computed": median(values)} if values else {}
         return {name: _text(value) for name, value in (middle | ends).items()}
 
 

@@ -94,6 +94,7 @@ def test_an_error_is_within_twice_the_uncertainty_or_not(computed, error, verdic
 def test_shots_without_a_value_end_alike_or_otherwise(measured, ended, said, verdict):
     record = Row("a", "b", measured, "cm", (53.3,), said, ended=ended).record(STATED)
     assert (record["within"], record["E"], record["u_val"]) == (verdict, "", "")
+    assert record["computed"] == ("" if said else "53.3"), "the thickness of the plate is no depth"
     assert f"| {verdict} |" in against.line(record)
 
 
