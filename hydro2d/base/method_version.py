@@ -5,4 +5,5 @@ on, and is kept with every result. A change of the method must update it: tests/
 Faster code and new features leave it alone.
 """
 
+#: the present version of the method
 METHOD = "2026-11-29.4"

@@ -26,6 +26,7 @@ from problems.explosives import read as of_explosives
 from problems.handbook import compare
 from problems.long_rods import depths
 from problems.perforation import residual
+from problems.validation import copper_bars
 
 HERE = Path(__file__).parent
 PROBLEMS = HERE.parent
@@ -41,7 +42,7 @@ SAME = "the same"
 #: relative standard deviation of a measurement of which the source gives none, and how a row says so
 ASSUMED, NOT_GIVEN = 0.05, "not given; 5 % assumed"
 #: what a row has where a part of u_val is missing, and where the version of the method was not kept
-NOT_SAMPLED, ONE_RUN, UNKNOWN = "not sampled", "one run", "unknown"
+NOT_SAMPLED, NOT_KNOWN, UNKNOWN = "not sampled", "not known", "unknown"
 #: verdicts: whether |E| < 2 u_val, where u_val is not known at all, and whether runs without a value end as measured
 YES, NO, OPEN, ALIKE, OTHERWISE = VERDICTS = ("yes", "no", "open", "ended alike", "ended otherwise")
 #: what to do about a file that is not as it would be made
@@ -68,6 +69,8 @@ class Set:
 
 #: relative scatter of the shots about Odermatt's fit, 2 to 3 % (problems/long_rods/README.md)
 ODERMATT = 0.03
+#: sets of which other files speak
+WELDOX, BAR = "steel rods through Weldox 460 E", "Taylor bar"
 SETS = (
     Set("tungsten into aluminium", "Scheffler, CTH nose-shape study, Table 2",
         "nothing: Steinberg and Guinan's law for the study's alloy, its fracture pressures, no friction, 8.5 cells",
@@ -89,8 +92,11 @@ SETS = (
         "sweep problems/validation/steel_rods_fitted.toml"),
     Set("tungsten into armour steel", "Odermatt's fit to many shots, BHN 270, read in a public source",
         "nothing: 6.5 cells", "sweep problems/long_rods/velocities.toml", error=ODERMATT),
-    Set("steel rods through Weldox 460 E", "Borvik and others, Int. J. Impact Engng 27 (2002) 19, recalled",
+    Set(WELDOX, "Borvik and others, Int. J. Impact Engng 27 (2002) 19, recalled",
         "nothing: 20.5 cells, one run each", "sweep problems/perforation/weldox_velocities.toml"),
+    Set(BAR, "Johnson & Cook (1983) and Gust (1982), as B. Banerjee tabulates them",
+        "nothing: Johnson and Cook's constants as published; one bar with every advection, 8 and 16 cells, the others by the "
+        "surrogate of a sample, 8 cells", "sweep problems/validation/copper_bars.toml"),
     Set("cylinder test", "Dobratz & Crawford, UCRL-52997 (1985), recalled", "nothing", "run problems/explosives/cylinder.toml"),
     Set("driven by an explosive", "Gurney's formula with the energies of the same handbook, recalled: a fit to many shots",
         "nothing", "run problems/explosives/sandwich.toml"),
@@ -170,14 +176,15 @@ class Row:
         return about | self._computed() | {name: _text(part) for name, part in parts.items()} | {
             "E": _text(difference), "u_val": _text(u_val),
             "within": OPEN if not u_val else YES if abs(difference) < 2.0 * u_val else NO,
-            "u_num_from": f"{len(values)} runs, {meshes} mesh{'es' * (meshes > 1)}" if len(values) > 1 else ONE_RUN,
+            "u_num_from": f"{len(values)} runs, {meshes} mesh{'es' * (meshes > 1)}" if len(values) > 1 else NOT_KNOWN,
             "u_input_from": f"{len(sample)} samples of {method}" if len(sample) > 1 else NOT_SAMPLED,
             "u_D_from": NOT_GIVEN if of.error is None else f"{100.0 * of.error:g} %, stated" if of.error else "exact"}
 
     def _computed(self) -> dict[str, str]:
-        """The median of the runs, and their least and largest value if there are several."""
-        ends = {"least": min(self.computed), "most": max(self.computed)} if len(self.computed) > 1 else {}
-        middle = {"computed": median(self.computed)} if self.computed else {}
+        """The median of the runs, and their least and largest value if there are several; nothing of runs without a value."""
+        values = () if self.said else self.computed
+        ends = {"least": min(values), "most": max(values)} if len(values) > 1 else {}
+        middle = {"computed": median(values)} if values else {}
         return {name: _text(value) for name, value in (middle | ends).items()}
 
 
@@ -266,6 +273,12 @@ def weldox(name: str) -> list[Row]:
     return rows
 
 
+def bars(name: str) -> list[Row]:
+    """Taylor bars of copper: the length that is left."""
+    return [Row(name, f"{bar.name}, {bar.velocity:g} m/s", bar.measured, "mm", bar.computed, quantity="length", digits=2,
+                around=(bar.computed, len(set(bar.cells))), method=bar.method or UNKNOWN) for bar in copper_bars.bars()]
+
+
 def explosives(name: str) -> list[Row]:
     """Velocities of the wall of the cylinder test."""
     return [Row(name, f"{row['explosive']}, {row['quantity']}", *_of_explosive(row), digits=2, quantity=row["quantity"])
@@ -305,8 +318,8 @@ def rows() -> dict[str, list[Row]]:
     others = names[len(LAWS):]
     sets = (*map(twelve, names, LAWS), eroding(others[0]),
             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
-            steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), weldox(others[4]),
-            explosives(others[5]), gurney(others[6]), *map(single, SINGLE), *map(handbooks, names[-2:], (False, True)))
+            steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), weldox(WELDOX), bars(BAR),
+            explosives(others[6]), gurney(others[7]), *map(single, SINGLE), *map(handbooks, names[-2:], (False, True)))
     return dict(zip(names, sets, strict=True))
 
 

@@ -26,11 +26,11 @@ from statistics import median
 
 import hydro2d
 from problems import kept
-from problems.classic import table as classic
 from problems.cth_nose_shape import heads, rigid_rod
 from problems.explosives import read as of_explosives
 from problems.long_rods import depths
 from problems.validation import against_experiments as against
+from problems.validation import copper_bars
 from problems.whipple import read as whipple
 
 HERE = Path(__file__).parent
@@ -42,19 +42,14 @@ SHOTS = ("series", "deck", "rod", "velocity_m_s", "depth_mm", "width_mm", "ended
 RUNS, DEPTH, HOLE, RESIDUAL, PERFORATION = "hydro2d", "depth", "hole diameter", "residual velocity", "perforation"
 STAYED_RIGID, ERODED = "stayed rigid", "eroded"
 #: sets that against_experiments does not have, and whether something was chosen by looking at results
-HARDNESS, WELDOX, BAR = "tungsten into 4340 steel of four hardnesses", "steel rods through Weldox 460 E", "Taylor bar"
+HARDNESS = "tungsten into 4340 steel of four hardnesses"
 SHIELDS, SHIELDS_CHOSEN = "Whipple shields, half B", "Whipple shields, half A"
 CHOSEN = {each.name: not each.predicted for each in against.SETS} | {
-    HARDNESS: False, BAR: False, SHIELDS: False, SHIELDS_CHOSEN: True}
+    HARDNESS: False, SHIELDS: False, SHIELDS_CHOSEN: True}
 #: relative standard deviation of measurements where a source gives it
 ERRORS = {each.name: each.error for each in against.SETS} | {HARDNESS: against.ODERMATT}
-#: measured length of the bar of problems/classic, mm: Johnson & Cook (1983), as copper_bars.csv has it
-BAR_LENGTH = 16.2
-#: that bar in copper_bars.csv; cells across the radius of the sample; yield stress and hardening of copper as published, MPa
-SAME_BAR, CELLS_OF_BARS = "Johnson-190", 8.0
-PUBLISHED = {"materials.copper.strength.yield_stress": (90.0,), "materials.copper.strength.hardening": (292.0,)}
-#: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv, and of the bars in classic
-LONG_ROD, BARS = 6.5, {"methods.csv": 8.0, "methods_fine.csv": 16.0}
+#: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv
+LONG_ROD = 6.5
 #: significant digits of a number in the file
 DIGITS = 4
 #: regime of rows that do not say whether the nose was kept
@@ -204,8 +199,8 @@ def weldox() -> list[Shot]:
         what, about = impact("perforation/weldox_hemispherical.toml"), {
             "velocity": velocity, "cells": (run[rigid_rod.CELLS],)}
         ratios = (run["residual_velocity_m_s"] / left,) if through and left else ()
-        compared.append(Shot(WELDOX, RESIDUAL, what, "", ratios, missed=left > 0.0 and not through, **about))
-        compared.append(Shot(WELDOX, PERFORATION, what, "", (), right=through == (left > 0.0), **about))
+        compared.append(Shot(against.WELDOX, RESIDUAL, what, "", ratios, missed=left > 0.0 and not through, **about))
+        compared.append(Shot(against.WELDOX, PERFORATION, what, "", (), right=through == (left > 0.0), **about))
     return compared
 
 
@@ -224,21 +219,10 @@ def driven() -> list[Shot]:
 
 
 def bars() -> list[Shot]:
-    """The lengths of Taylor bars of copper: one with every advection on two meshes, the others by the surrogate of a sample."""
-    runs = [(run.value / BAR_LENGTH, cells) for name, cells in BARS.items()
-            for run in classic.read(PROBLEMS / "classic" / "results" / name)
-            if (run.shot, run.sliding, run.status) == ("taylor_bar", "none", "trusted")]
-    ratios, cells = zip(*runs, strict=True)
+    """The lengths of Taylor bars of copper."""
     what = impact("classic/taylor_bar.toml")
-    compared = [Shot(BAR, "length", what, "", ratios, velocity=190.0, cells=cells)]
-    measured = {row["bar"]: row for row in kept.rows(HERE / "copper_bars.csv", ("bar", "velocity_m_s", "final_length_mm"))}
-    for sample in hydro2d.kept_samples(HERE / "copper_bars.toml"):
-        row = measured[sample.labels["bar"]]
-        if row["bar"] != SAME_BAR:
-            length = float(sample.surrogate("bodies.bar.length_m")(sample.points(PUBLISHED))[0])
-            compared.append(Shot(BAR, "length", what, "", (1e3 * length / float(row["final_length_mm"]),),
-                                 velocity=float(row["velocity_m_s"]), cells=(CELLS_OF_BARS,)))
-    return compared
+    return [Shot(against.BAR, "length", what, "", tuple(each / bar.measured for each in bar.computed), velocity=bar.velocity,
+                 cells=bar.cells) for bar in copper_bars.bars()]
 
 
 def shields() -> list[Shot]:

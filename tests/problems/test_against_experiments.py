@@ -75,7 +75,7 @@ def test_a_row_has_the_comparison_error_and_its_uncertainties():
 
 def test_what_is_not_known_is_said():
     record = Row("a", "b", 10.0, "cm", (9.0,), method="2026-11-25").record(NOT_GIVEN)
-    assert against.line(record) == ("| a | b | 10.0 cm | 9.0 cm | -1.0, -10 % | one run | not sampled | 0.5 (not given; 5 % "
+    assert against.line(record) == ("| a | b | 10.0 cm | 9.0 cm | -1.0, -10 % | not known | not sampled | 0.5 (not given; 5 % "
                                     "assumed) | at least 0.5 | no | 2026-11-25 |")
 
 
@@ -94,6 +94,7 @@ def test_an_error_is_within_twice_the_uncertainty_or_not(computed, error, verdic
 def test_shots_without_a_value_end_alike_or_otherwise(measured, ended, said, verdict):
     record = Row("a", "b", measured, "cm", (53.3,), said, ended=ended).record(STATED)
     assert (record["within"], record["E"], record["u_val"]) == (verdict, "", "")
+    assert record["computed"] == ("" if said else "53.3"), "the thickness of the plate is no depth"
     assert f"| {verdict} |" in against.line(record)
 
 

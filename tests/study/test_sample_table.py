@@ -246,6 +246,28 @@ def test_samples_from_kept_rows(tmp_path):
         hydro2d.kept_samples(study)
 
 
+def test_joint_inputs_of_runs_and_of_kept_rows(tmp_path):
+    """A table as a choice and a joint distribution come back from the directory, from samples.csv and from kept rows."""
+    text = STUDY[: STUDY.index("[sample.input")].replace("[sample]", 'keep = "kept.csv"\n[sample]', 1) + """
+[sample.input."materials.mine.strength"]
+choice = [{model = "elastic-plastic", shear_modulus = "26 GPa", yield_stress = "1 GPa"}, {yield_stress = "2 GPa"}]
+[[sample.joint]]
+keys = ["body.rod.velocity", "body.rod.strength_factor"]
+mean = ["1100 m/s", 1]
+covariance = [[2500, -2], [-2, 0.0025]]
+[set]
+materials.mine.based_on = "W_alloy"
+"""
+    directory, _ = swept(tmp_path, text=text)
+    whole = hydro2d.open_study(directory).samples()
+    (kept,) = hydro2d.kept_samples(next(tmp_path.glob("*.toml")))
+    assert kept.inputs == whole.inputs
+    assert kept.heads == ["materials.mine.strength", "body.rod.velocity [m/s]", "body.rod.strength_factor"]
+    assert kept.table[kept.heads].to_numpy().tolist() == whole.table[whole.heads].to_numpy().tolist()
+    assert np.corrcoef(*whole.table[whole.heads[1:]].to_numpy(float).T)[0, 1] == pytest.approx(-0.8, abs=0.15)
+    assert [len(samples.indices("depth_m").inputs) for samples in (whole, kept)] == [2, 2]
+
+
 def test_the_terminal(rough, monkeypatch, tmp_path, capsys):
     client = made_up.Client(outcome)
     monkeypatch.setattr(cluster, "local", lambda *_, **__: client.connect())
