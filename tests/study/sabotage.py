@@ -36,7 +36,7 @@ def _befall(what):
             file.write("x")
 
 
-def _unphysical(_sim, *_until):
+def _unphysical(_sim, *_until, **_cycles):
     raise simulation.UnphysicalState("a state that cannot be")
 
 
