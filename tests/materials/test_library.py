@@ -283,7 +283,7 @@ def test_strength_takes_what_the_eos_has():
         ('based_on = "W_alloy"\neos.sound_speed = -4.0', 19, "sound_speed = -4: must be positive"),
         ('based_on = "W_alloy"\neos.sound_speed = { valu = 1 }', 19, 'unknown key "valu"; did you mean "value"?'),
         ('based_on = "W_alloy"\neos.sound_speed = { value = 1, confidence = "high" }', 19, 'unknown confidence "high"'),
-        ('based_on = "W_alloy"\nstrength.model = "steinberg"', 19, 'did you mean "steinberg-guinan"?'),
+        ('based_on = "W_alloy"\nstrength.model = "steinberg-gunan"', 19, 'did you mean "steinberg-guinan"?'),
         ('based_on = "W_alloy"\nstrenth.model = "hydrodynamic"', 19, 'did you mean "strength"?'),
         ('based_on = "W_alloy"\nfracture_pressure = "-3 GPa"', 19, "must be positive (a tension)"),
         ('[materials.A.eos]\nmodel = "ideal-gas"\nreference_density = 1.0', 18, "ideal-gas needs adiabatic_index"),

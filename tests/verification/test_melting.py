@@ -21,7 +21,8 @@ LAWS = {
     "power-law": {},
     "elastic-plastic": {"shear_modulus": 26e9, "yield_stress": 0.3e9},
     **{name: {key: value for key, value in STRENGTH_CASES[name].items() if key != "melt_temperature"}
-       for name in ("johnson-cook", "zerilli-armstrong")},
+       for name in ("johnson-cook", "zerilli-armstrong", "voce", "steinberg-lund")},
+    "preston-tonks-wallace": STRENGTH_CASES["preston-tonks-wallace"] | {"melt_temperature": 3000.0},
     "kinematic-hardening": STRENGTH_CASES["kinematic-hardening"],
     "steinberg-guinan": {"shear_modulus": 27.6e9, "yield_stress": 0.29e9},
     "johnson-holmquist": {**STRENGTH_CASES["johnson-holmquist"], "P_HEL": 1.08392e9},  # the value of this equation of state
@@ -59,7 +60,8 @@ def test_a_melt_has_no_deviator(law):
     assert abs(line.simulation.conservation()["total_energy"]) < 1e-12
 
 
-@pytest.mark.parametrize("law", [None, "elastic-plastic", "kinematic-hardening", "steinberg-guinan"])
+@pytest.mark.parametrize("law", [None, "elastic-plastic", "kinematic-hardening", "steinberg-guinan", "voce", "steinberg-lund",
+                                 "preston-tonks-wallace"])
 def test_below_the_line_the_deviator_stays(law):
     """A shock of 77 GPa; the cell in which the plates first meet is hotter, and its melt sends out a wave."""
     more = (SLOW, *([with_law(law)] if law else []))
