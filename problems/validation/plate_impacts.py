@@ -1,13 +1,14 @@
 """Free-surface velocities of plate impacts of 5083 aluminium beside the measured records.
 
-    python -m problems.validation.plate_impacts STUDY_DIRECTORY
+    python -m problems.validation.plate_impacts [STUDY_DIRECTORY] [--check]
 
-prints a row for every run of plate_impacts_5083.toml, as results/plate_impacts.csv keeps them; without a directory, the table of
-the README from the kept rows. `draw` makes the picture of how-to/free-surface-velocity.
+prints a row for every run of plate_impacts_5083.toml, as results/plate_impacts.csv keeps them. Without a directory, the table of
+README.md is filled from the kept rows; with --check, only compared. `draw` makes the picture of how-to/free-surface-velocity.
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, fields
@@ -144,14 +145,17 @@ def draw(directory: Path | str, file: Path | str) -> None:
     plt.close(figure)
 
 
-def main(arguments: Sequence[str]) -> int:
-    """Prints the rows of a study directory as CSV, or the table of the kept rows."""
-    if not arguments:
-        print("\n".join(table()))
-        return 0
-    results.write_to(sys.stdout, COLUMNS, (dict(zip(COLUMNS, row, strict=True)) for row in rows_of(Path(arguments[0]))))
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Prints the rows of a study directory as CSV, or fills the table of the README. Returns the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", nargs="?", type=Path, help="a study directory")
+    parser.add_argument("--check", action="store_true", help="write nothing; status 1 if the page has another table")
+    given = parser.parse_args(arguments)
+    if given.study is None:
+        return results.fill([HERE / "README.md"], {"plate_impacts": table}, given.check)
+    results.write_to(sys.stdout, COLUMNS, (dict(zip(COLUMNS, row, strict=True)) for row in rows_of(given.study)))
     return 0
 
 
 if __name__ == "__main__":
-    raise SystemExit(main(sys.argv[1:]))
+    raise SystemExit(main())
