@@ -15,7 +15,9 @@ from hydro2d.base.errors import Error
 from hydro2d.base.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
 from hydro2d.base.terminal import flush, say, wrapped
 from hydro2d.base.version import __version__
-from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_environment, refuse_old_names
+from hydro2d.cli.base import (
+    Count, Out, Overrides, UsageError, flowing, import_matplotlib, refuse_environment, refuse_old_names,
+)
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.compile import compile_kernels
 from hydro2d.cli.curve import curve
@@ -43,7 +45,8 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for impact: rods, balls and plates.",
     help_format="plaintext",
-    default_parameter=Parameter(json_list=False, json_dict=False),  # "[1]" is the name of a directory
+    # "[1]" is the name of a directory; an option is negated only where that does something, as --no-open
+    default_parameter=Parameter(json_list=False, json_dict=False, negative_bool="", negative_iterable=""),
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
     "machine (disk, memory, permissions); 129, 130, 141, 143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
@@ -220,8 +223,8 @@ def export(
     run: Path,
     *,
     out: Out | None = None,
-    fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
-    trust: Trust = False,
+    fields: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    trust: bool = False,
 ) -> int:
     """Writes a VTK series that ParaView opens with one click, and the history as CSV.
 
@@ -288,6 +291,11 @@ def schema() -> int:
 
     say(json.dumps(decks.schema(), indent=2))
     return 0
+
+
+for _name in app:
+    if not _name.startswith("-"):
+        app[_name].default_command.__doc__ = flowing(app[_name].default_command.__doc__ or "")
 
 
 def main(arguments: list[str] | None = None) -> None:

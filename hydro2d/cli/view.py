@@ -16,12 +16,12 @@ DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 
 
 def view(
-    runs: Annotated[list[Path], Parameter(negative="")],
+    runs: list[Path],
     *,
     out: Out | None = None,
-    fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
+    fields: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
     bits: Literal[8, 10, 12, 14, 16] = 14,
-    open_: Annotated[bool, Parameter(name="--open")] = True,
+    open_: Annotated[bool, Parameter(name="--open", negative="--no-open")] = True,
 ) -> int:
     """Shows a run, or two side by side, in the browser: one HTML page with all dumps, which needs no server and no network.
 

@@ -320,7 +320,8 @@ def header(about: dict) -> list[str]:
     commit = (about["git_commit"] or "no repository")[:10] + (", modified" if about["git_dirty"] else "")
     return [
         f"hydro2d {about['version']} ({commit}), {about['written']}",
-        f"{about['cpu']}, {about['cpu_count']} cores, {about['threads']} threads at most, {about['system']}, {about['host']}",
+        f"{about['cpu']}, {several(about['cpu_count'], 'core')}, {several(about['threads'], 'thread')} at most, "
+        f"{about['system']}, {about['host']}",
         ", ".join(f"{name} {packages[name]}" for name in ("python", "numpy", "numba", "llvmlite")),
     ]
 

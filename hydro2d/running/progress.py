@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeVar
 from hydro2d.base.formats import in_shell, one_line
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
-from hydro2d.base.terminal import duration, moment, number, say
+from hydro2d.base.terminal import duration, moment, number, say, several
 from hydro2d.measure.outcome import EXACT, Outcome
 from hydro2d.measure.result import unit
 from hydro2d.measure.summary import Conservation, Summary, Target
@@ -41,8 +41,8 @@ SETTLED = 1e-3
 OTHER_COSTS, LEAST_COST = {"compilation": "compilation_s", "set-up": "set_up_s", "outputs": "outputs_s"}, 0.05
 #: lines with commands and paths, which the terminal itself wraps, so that they can be copied; others break at words
 WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
-#: seconds over which the pace is measured
-PACE_SECONDS = 60.0
+#: seconds over which the pace is measured, at most and at least
+PACE_SECONDS, FIRST_SECONDS = 60.0, 2.0
 
 
 def worst_mass(conservation: Conservation | dict) -> float:
@@ -76,7 +76,7 @@ class Clock:
 
     The end is that of `status`, see `ending.ends`; until the history has enough rows, the end time or the number of cycles of
     the deck. The pace is that of the last minute, so compilation and the small time steps after an impact affect it only for so
-    long.
+    long. Where the steps have grown since, the present one counts. In the first seconds no time is predicted.
 
     Parameters
     ----------
@@ -118,7 +118,10 @@ class Clock:
         while len(self._marks) > 2 and now - self._marks[1][0] >= PACE_SECONDS:
             self._marks.popleft()
         then, time, cycle = self._marks[0]
-        return ((sim.time - time) / (now - then), (sim.cycle - cycle) / (now - then)) if now > then else (0.0, 0.0)
+        if now - then < FIRST_SECONDS or sim.cycle == cycle:
+            return 0.0, 0.0
+        by_cycle = (sim.cycle - cycle) / (now - then)
+        return by_cycle * max((sim.time - time) / (sim.cycle - cycle), sim.dt), by_cycle
 
 
 def how_far(sim, outlook: Outlook) -> str:
@@ -210,7 +213,7 @@ class Report:
             commit = f" ({origin['git_commit'][:10]}{', modified' if origin['git_dirty'] else ''})"
         self.line(f"hydro2d {origin['version']}{commit}: {run.deck.title or run.deck.name}")
         self.line(f"{origin['command']}")
-        self.line(f"{origin['cpu']}, {origin['threads']} threads; results in {run.directory}")
+        self.line(f"{origin['cpu']}, {several(origin['threads'], 'thread')}; results in {run.directory}")
         self.line(
             f"{grid.nr} x {grid.nz} cells ({grid.geometry}; r is x and the axis is r = 0, z is y), "
             f"interface order: {', '.join(run.sim.table.names)}"
