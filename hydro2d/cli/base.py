@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 from importlib import import_module
 from pathlib import Path
@@ -47,19 +46,6 @@ def whole(least: int, most: int) -> Parameter:
         return int(text)
 
     return Parameter(converter=convert)
-
-
-def flowing(text: str) -> str:
-    """A docstring whose paragraphs are one line each, so that help wraps them to the width of the terminal."""
-    lines: list[str] = []
-    for line in inspect.cleandoc(text).split("\n"):
-        before, words = lines[-1] if lines else "", line.lstrip()
-        names = line == words and "Parameters" in lines  # the name of a parameter stands alone
-        if before and words and not names and before.startswith(" ") == line.startswith(" ") and words != "Parameters":
-            lines[-1] = f"{before} {words}"
-        else:
-            lines.append(line)
-    return "\n".join(lines)
 
 
 def refuse_old_names(arguments: list[str]) -> None:

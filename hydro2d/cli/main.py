@@ -13,11 +13,9 @@ from cyclopts import App, Parameter
 
 from hydro2d.base.errors import Error
 from hydro2d.base.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
-from hydro2d.base.terminal import flush, say, wrapped
+from hydro2d.base.terminal import flowing, flush, say, wrapped
 from hydro2d.base.version import __version__
-from hydro2d.cli.base import (
-    Count, Out, Overrides, UsageError, flowing, import_matplotlib, refuse_environment, refuse_old_names,
-)
+from hydro2d.cli.base import Count, Out, Overrides, UsageError, import_matplotlib, refuse_environment, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.compile import compile_kernels
 from hydro2d.cli.curve import curve

@@ -18,7 +18,8 @@ from hydro2d.base.formats import in_shell, one_line
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, moment, number, say, several
-from hydro2d.measure.outcome import EXACT, Outcome
+from hydro2d.measure import outcome
+from hydro2d.measure.outcome import DONE, EXACT, Outcome
 from hydro2d.measure.result import unit
 from hydro2d.measure.summary import Conservation, Summary, Target
 from hydro2d.measure.wall_damage import NO_DAMAGE
@@ -338,11 +339,17 @@ def result(summary: Summary, theory: Sequence[str] = ()) -> list[str]:
     ]
 
 
+def ended_by(summary: Summary) -> str:
+    """The stop reason; with the speed of a projectile that still moved."""
+    moves = summary.status == DONE and summary.outcome and summary.outcome.final is False
+    return outcome.cut(summary.stop_reason, summary.rod_core_velocity_m_s) if moves else summary.stop_reason
+
+
 def _how_it_ended(summary: Summary) -> str:
     """'done: end time', or 'interrupted at 26.800 us (SIGINT); continue with: hydro2d run shot.toml --restart'."""
     why = re.fullmatch(r"interrupted \((.*)\)", summary.stop_reason)
     if summary.status != "interrupted" or why is None:
-        return f"{summary.status}: {summary.stop_reason}"
+        return f"{summary.status}: {ended_by(summary)}"
     return (f"interrupted at {moment(summary.time_s)} ({why[1]}); "
             f"continue with: {continuing(summary.provenance.command)}")
 
@@ -443,30 +450,31 @@ def _of_targets(targets: dict[str, Target]) -> Iterator[str]:
             yield f"{f'damage of {name}':<21} {target.damage_class}{width}"
 
 
-def _error(outcome: Outcome) -> str:
+def _error(of: Outcome) -> str:
     """The error of a depth, with the word for one that is a bound; empty without one."""
-    if outcome.depth_error_m is None:
+    if of.depth_error_m is None:
         return ""
-    bound = "" if outcome.depth_error_is == EXACT else f"{outcome.depth_error_is} "
-    return f" (error {bound}{outcome.depth_error_m * 1e2:+.2f} cm, {outcome.depth_error_percent:+.1f} %)"
+    bound = "" if of.depth_error_is == EXACT else f"{of.depth_error_is} "
+    return f" (error {bound}{of.depth_error_m * 1e2:+.2f} cm, {of.depth_error_percent:+.1f} %)"
 
 
 def _rod(summary: Summary, theory: Sequence[str]) -> list[str]:
     from hydro2d.measure.regime import LEFT
 
-    experiment, shape, outcome = summary.experiment, summary.projectile, summary.outcome
+    experiment, shape, came_to = summary.experiment, summary.projectile, summary.outcome
     body = shape.body
     bound = "at least " if summary.regime == LEFT else ""
     largest, at_end = (number(summary[name], 1e2, ".2f", "cm") for name in ("penetration_depth_m", "nose_depth_m"))
-    if outcome.perforated:
-        lines = [f"perforated            {', '.join(summary.targets)}; nose {at_end} behind the first face"]
+    if came_to.perforated:
+        lines = [f"perforated            {outcome.beyond(summary.targets, at_end)}"]
     else:
         back = "" if at_end == largest else f"; {at_end} at the end"
-        lines = [f"penetration depth     {bound}{largest}{_over_length(summary)}{back}"]
+        depth = "depth so far" if came_to.final is False else "penetration depth"
+        lines = [f"{depth:<21} {bound}{largest}{_over_length(summary)}{back}"]
     if experiment and experiment.penetration_m:
         measured = experiment.penetration_m
         qualifier = "" if experiment.qualifier == "measured" else f"{experiment.qualifier} "
-        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(outcome)}  {experiment.source}")
+        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(came_to)}  {experiment.source}")
     lines += theory
     if shape.residual_mass_kg is not None:
         velocity, mass = shape.residual_velocity_m_s, shape.residual_mass_kg

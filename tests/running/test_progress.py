@@ -246,6 +246,8 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
             "targets": {"first": stopped}, "outcome": {"perforated": False}}
     assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
     assert "penetration depth     1.47 cm, P/D 1.473; 0.81 cm at the end" in closing(**shot | {"nose_depth_m": 8.1e-3})
+    short = shot | {"status": "done", "stop_reason": "end time", "rod_core_velocity_m_s": 763.2, "outcome": {"final": False}}
+    assert {"done: end time, still moving at 763 m/s", "depth so far          1.47 cm, P/D 1.473"} <= set(closing(**short))
     theory = "analytic, at rest     Tate 1.83 cm"
     said = closing([theory], **shot)
     assert said[said.index(theory) - 1].startswith("penetration depth")
@@ -256,7 +258,7 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     assert any(line.startswith("penetration depth") for line in one)
     both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through},
                              "outcome": {"perforated": True}})
-    assert "perforated            first, second; nose 1.46 cm behind the first face" in both
+    assert "perforated            first, second; nose 1.46 cm beyond the front face of first" in both
     assert not any(line.startswith("penetration depth") for line in both)
     assert "ejecta                2 g, 0.42 N s; momentum multiplication 1.210" in said
     assert not any(line.startswith("damage") for line in said)
