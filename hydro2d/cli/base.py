@@ -74,7 +74,7 @@ def refuse_environment() -> None:
 
 def import_matplotlib() -> None:
     """Imports matplotlib without the `matplotlibrc` of the current directory, which may name programs to run as ffmpeg."""
-    here = os.open(".", os.O_RDONLY)
+    here = os.open(".", os.O_RDONLY) if hasattr(os, "fchdir") else os.getcwd()  # a directory may have been removed
     os.chdir(Path(__file__).parent)
     try:
         import_module("matplotlib")
@@ -82,6 +82,7 @@ def import_matplotlib() -> None:
         backend = os.environ.get("MPLBACKEND")
         raise UsageError(f'MPLBACKEND = "{backend}" is not a backend of matplotlib: unset it') from error
     finally:
-        os.fchdir(here)
-        os.close(here)
+        os.chdir(here)
+        if isinstance(here, int):
+            os.close(here)
 

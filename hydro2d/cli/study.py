@@ -49,8 +49,8 @@ def sweep(
     set_
         Overrides a value of the deck in all cases, as key=value; can be repeated.
     only
-        Runs the cases whose names match this pattern, such as "*ogive*", or these parts; can be repeated. The others wait for a
-        later --resume.
+        Runs the cases whose names match this pattern, such as "*ogive*", or these parts; can be repeated. The others stay
+        pending; --resume runs them later.
     members
         Number of members of each case, instead of that of the study file; 1 runs each case once.
     cells

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -61,4 +62,5 @@ def _open(file: Path) -> bool:
     """Opens a page in a browser with windows; False if there is none. A browser in the terminal could not show it."""
     import webbrowser
 
-    return any(os.environ.get(name) for name in DISPLAYS) and webbrowser.open(file.absolute().as_uri())
+    shows = sys.platform in ("win32", "darwin") or any(os.environ.get(name) for name in DISPLAYS)
+    return shows and webbrowser.open(file.absolute().as_uri())

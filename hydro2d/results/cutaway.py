@@ -37,7 +37,7 @@ def draw(dump_file: Path, path: Path, field: str = "pressure", window=None, size
     for window in windows:
         environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
         try:
-            done = subprocess.run(children.python("hydro2d.results.cutaway"), input=task, text=True, errors="replace",
+            done = subprocess.run(children.python("hydro2d.results.cutaway"), input=task, encoding="utf-8", errors="replace",
                                   env=environment, capture_output=True, timeout=RENDER_SECONDS, check=False)
         except subprocess.TimeoutExpired:
             said = f"no picture after {RENDER_SECONDS} s"

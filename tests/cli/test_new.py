@@ -40,8 +40,8 @@ def test_a_template_is_written_checked_and_runs(kind, tmp_path, monkeypatch, cap
 def alternatives():
     """What the comments of the templates offer: kind of shot, number of the line, the lines in its place, and overrides.
 
-    A quoted word is another value of the key, with the key in brackets after it; so is a number of cells. A whole assignment is a
-    further line, or a value in the table that it names.
+    A quoted word is another value of the key, with the key in brackets after it; so is a number of cells. A whole assignment
+    is a further line, or a value in the table that it names.
     """
     for kind in templates.kinds():
         for number, line in enumerate(templates.text(kind).splitlines()):
@@ -49,7 +49,8 @@ def alternatives():
             key = setting.partition("=")[0].strip()
             values = re.findall(r'(?<!= )("[\w-]+")(?: \(with ([^)]*)\))?', comment)
             values += [(count, "") for count in re.findall(r"\d+(?:\.\d+)?", comment) if key == "cells_across"]
-            elsewhere = [f"{table}.{name}={value}" for name, value, table in re.findall(r'(\w+) = ("[^"]*") in \[(.*?)\]', comment)]
+            others = re.findall(r'(\w+) = ("[^"]*") in \[(.*?)\]', comment)
+            elsewhere = [f"{table}.{name}={value}" for name, value, table in others]
             yield from ((kind, number, [f"{key} = {value}", more], elsewhere) for value, more in values)
             if not key and (whole := re.search(r'\w+ = "[^"]*"$', comment)):
                 yield kind, number, [whole[0]], []

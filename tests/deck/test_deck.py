@@ -399,7 +399,7 @@ def test_the_study_has_the_printed_mesh_and_factor():
 def test_coarse_rods_are_warned_of():
     coarse = deck.loads(changed("cells_across = 8", "cells_across = 4"))
     assert deck.warnings(coarse) == [
-        'body "rod": 4.0 cells across the radius; below 5 a rod is neither rigid nor round'
+        'body "rod": 4.0 cells across the radius; with fewer than 5 a rod is poorly resolved'
     ]
     assert deck.warnings(deck.loads(changed("cells_across = 8", "cells_across = 5"))) == []
     jump = deck.loads(changed("{ cells = 5, ratio = 1.05 }", '{ cells = 5, size = "1 mm" }'))
