@@ -150,7 +150,8 @@ def test_a_release_is_made_from_the_name_of_its_tag(tmp_path):
     assert re.search(r"^## \[9\.8\.7\] - \d{4}-\d\d-\d\d$", git("show", "v9.8.7:CHANGELOG.md"), re.M)
     assert "Unreleased" not in git("show", "v9.8.7:CHANGELOG.md")
     cited = git("show", "v9.8.7:CITATION.cff")
-    assert re.search(r"^version: 9\.8\.7\ndate-released: \S+\nlicense: .*\nrepository-code: .https://example.org/hydro2d.$", cited, re.M)
+    address = re.escape('repository-code: "https://example.org/hydro2d"')
+    assert re.search(rf"^version: 9\.8\.7\ndate-released: \S+\nlicense: .*\n{address}$", cited, re.M)
     assert '"9.9.0.dev0"' in (tmp_path / "hydro2d/base/version.py").read_text()
     assert "## [Unreleased]\n\n## [9.8.7]" in (tmp_path / "CHANGELOG.md").read_text()
     assert "exists" in release("v9.8.7").stderr
