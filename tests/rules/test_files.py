@@ -147,11 +147,11 @@ def test_a_release_is_made_from_the_name_of_its_tag(tmp_path):
     git("commit", "-q", "-m", "before")
     assert release("v9.8.7").returncode == 0
     assert '"9.8.7"' in git("show", "v9.8.7:hydro2d/base/version.py")
-    assert re.search(r"^## \[9\.8\.7\] - \d{4}-\d\d-\d\d$", git("show", "v9.8.7:CHANGELOG.md"), re.M)
+    day = re.search(r"^## \[9\.8\.7\] - (\d{4}-\d\d-\d\d)$", git("show", "v9.8.7:CHANGELOG.md"), re.M)[1]
     assert "Unreleased" not in git("show", "v9.8.7:CHANGELOG.md")
     cited = git("show", "v9.8.7:CITATION.cff")
     address = re.escape('repository-code: "https://example.org/hydro2d"')
-    assert re.search(rf"^version: 9\.8\.7\ndate-released: \S+\nlicense: .*\n{address}$", cited, re.M)
+    assert re.search(rf"^version: 9\.8\.7\ndate-released: {day}\nlicense: .*\n{address}$", cited, re.M)
     assert '"9.9.0.dev0"' in (tmp_path / "hydro2d/base/version.py").read_text()
     assert "## [Unreleased]\n\n## [9.8.7]" in (tmp_path / "CHANGELOG.md").read_text()
     assert "exists" in release("v9.8.7").stderr
