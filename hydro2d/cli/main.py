@@ -291,9 +291,16 @@ def schema() -> int:
     return 0
 
 
-for _name in app:
-    if not _name.startswith("-"):
-        app[_name].default_command.__doc__ = flowing(app[_name].default_command.__doc__ or "")
+def _let_flow(commands: App) -> None:
+    """Makes each paragraph of the help of commands, and of commands below them, one line."""
+    for name in commands:
+        if not name.startswith("-"):
+            function = commands[name].default_command
+            function.__doc__ = flowing(function.__doc__ or "")
+            _let_flow(commands[name])
+
+
+_let_flow(app)
 
 
 def main(arguments: list[str] | None = None) -> None:

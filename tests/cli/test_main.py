@@ -1,6 +1,8 @@
 """The command line: one message and status 2 for a user's mistake; no traceback."""
 
+import functools
 import json
+import operator
 import os
 import re
 import signal
@@ -258,18 +260,18 @@ def test_the_output_option_has_one_name(command, capsys):
 
 
 def commands():
-    return [name for name in app if not name.startswith("-")]
+    return [*(name for name in app if not name.startswith("-")), "model transition"]
 
 
 @pytest.mark.parametrize("command", commands())
 def test_help_breaks_lines_at_the_width_of_the_terminal_and_negates_no_option_in_vain(command, capsys, monkeypatch):
     """A paragraph, and what explains an option, is one line of the text that is wrapped."""
-    first, _, options = app[command].help.partition("\nParameters\n")
+    first, _, options = functools.reduce(operator.getitem, command.split(), app).help.partition("\nParameters\n")
     assert not re.search(r"\S\n\S", first)
     assert not re.search(r"^ .*\n ", options, re.M)
     for width in (80, 120):
         monkeypatch.setenv("COLUMNS", str(width))
-        assert call([command, "--help"]) == 0
+        assert call([*command.split(), "--help"]) == 0
         shown = capsys.readouterr().out
         assert max(map(len, shown.splitlines())) <= width
         assert set(re.findall(r"--(?:no|empty)-\w+", shown)) <= {"--no-open", "--no-plot", "--no-watch"}
