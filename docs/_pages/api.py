@@ -28,7 +28,7 @@ def directive(path: str, thing) -> str:
     if hasattr(thing, "model_fields"):  # a deck or a summary: what it holds has a page of its own
         known = ("from_file", "from_toml", "from_dict", "to_toml", "edges", "body_named")
         members = [name for name in known if hasattr(thing, name)]
-        page_of_it = "[Deck keys](deck.md)" if members else "[Results](results.md)"
-        text, signature = f"{page_of_it} has what it holds.\n\n", "()"
+        page_of_it, what = ("[Deck keys](deck.md)", "a deck") if members else ("[Results](results.md)", "a summary")
+        text, signature = f"{page_of_it} lists everything that {what} can hold.\n\n", "()"
         options = [f"   :members: {', '.join(members)}"] if members else []
     return "\n".join([f"## `{path}`", "", f"{text}```{{eval-rst}}", f".. {kind}:: {path}{signature}", *options, "```"])

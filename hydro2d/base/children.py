@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
@@ -23,9 +24,11 @@ def detached(arguments: Sequence[str], log: Path, nice: int) -> int:
 
     log : file to which its output is appended;  nice : by how much its priority is lowered
     """
-    command = ["nice", "-n", str(nice), *python("hydro2d"), *arguments]
+    lowered = ["nice", "-n", str(nice)] if shutil.which("nice") else []
+    flags = sum(getattr(subprocess, name, 0) for name in ("DETACHED_PROCESS", "BELOW_NORMAL_PRIORITY_CLASS"))  # of Windows
     with open(log, "a", encoding="utf-8") as file:
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, start_new_session=True).pid
+        return subprocess.Popen([*lowered, *python("hydro2d"), *arguments], stdin=subprocess.DEVNULL, stdout=file, stderr=file,
+                                start_new_session=True, creationflags=flags).pid
 
 
 @contextmanager

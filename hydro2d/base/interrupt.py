@@ -10,10 +10,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-#: exit status of a process ended by a signal, as in shells
-STATUS = {number.name: 128 + number for number in (signal.SIGHUP, signal.SIGINT, signal.SIGPIPE, signal.SIGTERM)}
-#: the signals that end a run after its cycle
-CAUGHT = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+#: exit status of a process ended by a signal, as in shells; the same where a system has no such signal
+STATUS = {"SIGHUP": 129, "SIGINT": 130, "SIGPIPE": 141, "SIGTERM": 143}
+#: the signals that end a run after its cycle, and the one of a timer; Windows lacks SIGHUP and timers
+CAUGHT = tuple(getattr(signal, name) for name in ("SIGHUP", "SIGINT", "SIGTERM") if hasattr(signal, name))
+ALARM: int | None = getattr(signal, "SIGALRM", None)
 #: seconds after which a signal that arrived during an import is handled again
 AGAIN = 0.01
 
@@ -78,30 +79,32 @@ def raise_between_imports() -> None:
 
     An exception in the middle of an import turns into another one or, in C libraries, ends in a crash. Where Python cannot
     propagate the exception, such as in a finaliser or in a callback from C, it is raised again shortly after. A signal that was
-    ignored before, such as SIGHUP under nohup, stays ignored. To be called in the main thread of a command.
+    ignored before, such as SIGHUP under nohup, stays ignored. To be called in the main thread of a command. Where there is no
+    timer, nothing waits for the end of an import.
     """
 
     def handle(number, frame):
-        if number != signal.SIGALRM:
+        if number != ALARM:
             _came.append(signal.Signals(number).name)
         while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
             frame = frame.f_back
-        if frame is None:
+        if frame is None or ALARM is None:
             raise KeyboardInterrupt
-        if number != signal.SIGALRM and len(_came) > 1:
+        if number != ALARM and len(_came) > 1:
             os._exit(STATUS[ended_by()])
         signal.setitimer(signal.ITIMER_REAL, AGAIN)
 
     previous_hook = sys.unraisablehook
 
     def lost(unraisable):
-        if unraisable.exc_type is KeyboardInterrupt and _came:
+        if unraisable.exc_type is KeyboardInterrupt and _came and ALARM is not None:
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
         else:
             previous_hook(unraisable)
 
     sys.unraisablehook = lost
-    signal.signal(signal.SIGALRM, handle)
+    if ALARM is not None:
+        signal.signal(ALARM, handle)
     for number in CAUGHT:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, handle)

@@ -77,21 +77,26 @@ def one_of(kinds: Mapping[str, type[Section]], key: str) -> Any:
     return annotated[union, Field(discriminator=key)] if len(kinds) > 1 else union  # pydantic discriminates from two on
 
 
-def _positive(value: float) -> float:
+def _is(value: float, written: object) -> str:
+    """'is -2 inch', as it was written, or 'is -0.0508' for a number."""
+    return f"is {written if isinstance(written, str) else format(value, 'g')}"
+
+
+def _positive(value: float, written: object = None) -> float:
     if value <= 0:
-        raise ValueError(f"must be positive, is {value:g}")
+        raise ValueError(f"must be positive, {_is(value, written)}")
     return value
 
 
-def _not_negative(value: float) -> float:
+def _not_negative(value: float, written: object = None) -> float:
     if value < 0:
-        raise ValueError(f"must not be negative, is {value:g}")
+        raise ValueError(f"must not be negative, {_is(value, written)}")
     return value
 
 
-def _fraction(value: float) -> float:
+def _fraction(value: float, written: object = None) -> float:
     if not 0 <= value <= 1:
-        raise ValueError(f"must lie between 0 and 1, is {value:g}")
+        raise ValueError(f"must lie between 0 and 1, {_is(value, written)}")
     return value
 
 
@@ -100,24 +105,27 @@ class Quantity(GroupedMetadata):
     """Marks a float as a number in ``unit``, given in SI or as a string with a unit, and kept in SI: Annotated[float, ...]."""
 
     unit: str
-    check: Callable[[float], float] | None = None
+    check: Callable[..., float] | None = None
+
+    def read(self, value: Any) -> float:
+        """The SI value, checked; a message has it as it was written. Raises ValueError."""
+        number = units.read(value, self.unit)
+        return number if self.check is None else self.check(number, value)
 
     def __iter__(self) -> Iterator[object]:
         schema: dict[str, Any] = {"type": "number", "x-unit": self.unit}
         if self.unit != "1":
             schema = {"anyOf": [{"type": "number"}, {"type": "string"}], "x-unit": self.unit}
-        yield BeforeValidator(partial(units.read, unit=self.unit))
-        if self.check is not None:
-            yield AfterValidator(self.check)
+        yield BeforeValidator(self.read)
         yield WithJsonSchema(schema)
 
 
 def within(low: float, high: float, reason: str, unit: str = "1") -> Quantity:
     """A number between two bounds; the message gives the reason for the bounds: Annotated[float, within(...)]."""
 
-    def check(value: float) -> float:
+    def check(value: float, written: object = None) -> float:
         if not low <= value <= high:
-            raise ValueError(f"must lie between {low:g} and {high:g}, is {value:g}: {reason}")
+            raise ValueError(f"must lie between {low:g} and {high:g}, {_is(value, written)}: {reason}")
         return value
 
     return Quantity(unit, check)
@@ -141,7 +149,7 @@ NotNegative = Annotated[float, Quantity("1", _not_negative)]
 
 
 #: checks of numbers by the sign of a declared key
-_SIGNS: dict[str, Callable[[float], float] | None] = {ANY: None, POSITIVE: _positive, NON_NEGATIVE: _not_negative}
+_SIGNS: dict[str, Callable[..., float] | None] = {ANY: None, POSITIVE: _positive, NON_NEGATIVE: _not_negative}
 
 
 def type_of(declared: Parameter) -> Any:

@@ -6,6 +6,7 @@ everything that it logs through `one_line`.
 
 from __future__ import annotations
 
+import inspect
 import re
 import shutil
 import sys
@@ -72,6 +73,19 @@ def _wrapped(line: str) -> str:
     begin, first = max((gap.end() for gap in re.finditer(r"\s{2,}", line)), default=0), len(line) - len(line.lstrip())
     indent = begin if begin < MOST_INDENT * width() else first + FURTHER
     return textwrap.fill(line, width(), subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False)
+
+
+def flowing(text: str) -> str:
+    """A docstring whose paragraphs are one line each, so that help wraps them to the width of the terminal."""
+    lines: list[str] = []
+    for line in inspect.cleandoc(text).split("\n"):
+        before, words = lines[-1] if lines else "", line.lstrip()
+        names = line == words and "Parameters" in lines  # the name of a parameter stands alone
+        if before and words and not names and before.startswith(" ") == line.startswith(" ") and words != "Parameters":
+            lines[-1] = f"{before} {words}"
+        else:
+            lines.append(line)
+    return "\n".join(lines)
 
 
 def say(text: object, file: TextIO | None = None, flush: bool = False) -> None:

@@ -9,9 +9,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-Overrides = Annotated[list[str] | None, Parameter(name="--set", negative="")]
-
-Trust = Annotated[bool, Parameter(negative="")]
+Overrides = Annotated[list[str] | None, Parameter(name="--set")]
 
 #: the option that names the output of a command, a file or a folder
 Out = Annotated[Path, Parameter(name=["--out", "-o"])]
@@ -76,7 +74,7 @@ def refuse_environment() -> None:
 
 def import_matplotlib() -> None:
     """Imports matplotlib without the `matplotlibrc` of the current directory, which may name programs to run as ffmpeg."""
-    here = os.open(".", os.O_RDONLY)
+    here = os.open(".", os.O_RDONLY) if hasattr(os, "fchdir") else os.getcwd()  # a directory may have been removed
     os.chdir(Path(__file__).parent)
     try:
         import_module("matplotlib")
@@ -84,6 +82,7 @@ def import_matplotlib() -> None:
         backend = os.environ.get("MPLBACKEND")
         raise UsageError(f'MPLBACKEND = "{backend}" is not a backend of matplotlib: unset it') from error
     finally:
-        os.fchdir(here)
-        os.close(here)
+        os.chdir(here)
+        if isinstance(here, int):
+            os.close(here)
 

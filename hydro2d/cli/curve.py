@@ -17,8 +17,8 @@ STRAINS, RATES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5), ("1e3 /s", "1e4 /s"
 def curve(
     materials: list[str],
     *,
-    rate: Annotated[list[str] | None, Parameter(negative="", allow_leading_hyphen=True)] = None,
-    strain: Annotated[list[float] | None, Parameter(negative="")] = None,
+    rate: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
+    strain: list[float] | None = None,
     temperature: str | None = None,
     isothermal: bool = False,
     csv: Path | None = None,

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-from cyclopts import Parameter
 
 from hydro2d.base.terminal import say
 from hydro2d.cli.base import Out, UsageError, import_matplotlib
@@ -16,7 +13,7 @@ def diverge(
     second: Path,
     *,
     size: float = 0.01,
-    field: Annotated[list[str] | None, Parameter(negative="")] = None,
+    field: list[str] | None = None,
     out: Out | None = None,
     csv: Path | None = None,
 ) -> int:

@@ -6,8 +6,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from hydro2d.base.terminal import say
 from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
@@ -18,7 +16,7 @@ MOST_MESHES = 20
 Repeats = Annotated[int, whole(2, MOST_MEMBERS)]
 Member = Annotated[int, whole(0, MOST_MEMBERS - 1)]
 Seed = Annotated[int, whole(0, 2**32)]
-By = Annotated[list[str] | None, Parameter(negative="")]
+By = list[str] | None
 
 
 @dataclass(frozen=True)
@@ -92,7 +90,7 @@ def converge(
     repeats: Repeats = 4,
     by: By = None,
     seed: Seed | None = None,
-    y: Annotated[list[str] | None, Parameter(negative="")] = None,
+    y: list[str] | None = None,
     out: Out | None = None,
     set_: Overrides = None,
     workers: Workers = DEFAULT,

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-from cyclopts import Parameter
 
 from hydro2d.base.terminal import say
 from hydro2d.cli.base import UsageError, import_matplotlib, quantity
@@ -16,9 +13,9 @@ def fit_strength(
     *,
     model: str,
     material: str,
-    fix: Annotated[list[str] | None, Parameter(negative="")] = None,
-    share: Annotated[list[str] | None, Parameter(negative="")] = None,
-    group: Annotated[list[float] | None, Parameter(negative="")] = None,
+    fix: list[str] | None = None,
+    share: list[str] | None = None,
+    group: list[float] | None = None,
     columns: str | None = None,
     stress_unit: str = "Pa",
     temperature: str | None = None,

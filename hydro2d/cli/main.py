@@ -13,9 +13,9 @@ from cyclopts import App, Parameter
 
 from hydro2d.base.errors import Error
 from hydro2d.base.interrupt import STATUS, Interrupt, ended_by, lose_output, open_closed_streams, raise_between_imports, signals
-from hydro2d.base.terminal import flush, say, wrapped
+from hydro2d.base.terminal import flowing, flush, say, wrapped
 from hydro2d.base.version import __version__
-from hydro2d.cli.base import Count, Out, Overrides, Trust, UsageError, import_matplotlib, refuse_environment, refuse_old_names
+from hydro2d.cli.base import Count, Out, Overrides, UsageError, import_matplotlib, refuse_environment, refuse_old_names
 from hydro2d.cli.check_model import check_model
 from hydro2d.cli.compile import compile_kernels
 from hydro2d.cli.curve import curve
@@ -43,7 +43,8 @@ app = App(
     version=__version__,
     help="A two-dimensional axisymmetric Eulerian hydrocode for impact: rods, balls and plates.",
     help_format="plaintext",
-    default_parameter=Parameter(json_list=False, json_dict=False),  # "[1]" is the name of a directory
+    # "[1]" is the name of a directory; an option is negated only where that does something, as --no-open
+    default_parameter=Parameter(json_list=False, json_dict=False, negative_bool="", negative_iterable=""),
     suppress_keyboard_interrupt=False,  # `call` knows by which signal a command ends
     help_epilogue="Exit status: 0 success; 2 wrong deck or arguments; 3 unphysical state or failed cases; 4 refused by the "
     "machine (disk, memory, permissions); 129, 130, 141, 143 ended by SIGHUP, SIGINT, a closed pipe, SIGTERM.",
@@ -220,8 +221,8 @@ def export(
     run: Path,
     *,
     out: Out | None = None,
-    fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
-    trust: Trust = False,
+    fields: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    trust: bool = False,
 ) -> int:
     """Writes a VTK series that ParaView opens with one click, and the history as CSV.
 
@@ -288,6 +289,18 @@ def schema() -> int:
 
     say(json.dumps(decks.schema(), indent=2))
     return 0
+
+
+def _let_flow(commands: App) -> None:
+    """Makes each paragraph of the help of commands, and of commands below them, one line."""
+    for name in commands:
+        if not name.startswith("-"):
+            function = commands[name].default_command
+            function.__doc__ = flowing(function.__doc__ or "")
+            _let_flow(commands[name])
+
+
+_let_flow(app)
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -30,7 +30,7 @@ def evaluate(
     csv: Path | None = None,
     figure: Path | None = None,
     json: bool = False,
-    help_: Annotated[bool, Parameter(name=["--help", "-h"], negative="")] = False,
+    help_: Annotated[bool, Parameter(name=["--help", "-h"])] = False,
 ) -> int:
     """Lists, explains or evaluates the analytic penetration models.
 
@@ -156,7 +156,7 @@ def transition(
     rod: str | None = None,
     target: str | None = None,
     nose: str | None = None,
-    runs: Annotated[list[Path] | None, Parameter(negative="", consume_multiple=True)] = None,
+    runs: Annotated[list[Path] | None, Parameter(consume_multiple=True)] = None,
     set_: Overrides = None,
     deck: Path | None = None,
     strain: float = 0.0,

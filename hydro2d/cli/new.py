@@ -13,7 +13,7 @@ from hydro2d.cli.base import Out, UsageError
 
 
 def new(kind: str | None = None, *, out: Out | None = None,
-        list_: Annotated[bool, Parameter(name="--list", negative="")] = False) -> int:
+        list_: Annotated[bool, Parameter(name="--list")] = False) -> int:
     """Writes a short commented deck for a kind of shot, which runs as it is and is meant to be changed.
 
     Example: hydro2d new whipple

@@ -22,13 +22,13 @@ def plot(
     kind: Literal["section", "history", "line", "xt", "crater", "debris", "cutaway"] = "section",
     field: str = "pressure",
     mirror: str | None = None,
-    time: Annotated[list[str] | None, Parameter(negative="")] = None,
+    time: list[str] | None = None,
     window: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
-    quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
+    quantity: list[str] | None = None,
     line: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     colours: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     clip: float = 0.0,
-    log: Annotated[bool, Parameter(negative="")] = False,
+    log: bool = False,
     map_: Annotated[str | None, Parameter(name="--map")] = None,
 ) -> int:
     """Draws runs as sections, histories, values along a line, holes in their targets, debris, or a cut-away.

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
-from cyclopts import Parameter
-
-from hydro2d.cli.base import Out, Trust, import_matplotlib
+from hydro2d.cli.base import Out, import_matplotlib
 
 
 def report(
-    directories: Annotated[list[Path], Parameter(negative="")],
+    directories: list[Path],
     *,
     out: Out | None = None,
     x: str | None = None,
-    y: Annotated[list[str] | None, Parameter(negative="")] = None,
-    by: Annotated[list[str] | None, Parameter(negative="")] = None,
+    y: list[str] | None = None,
+    by: list[str] | None = None,
     movie: str | None = None,
-    view: Annotated[bool, Parameter(negative="")] = False,
-    trust: Trust = False,
+    view: bool = False,
+    trust: bool = False,
 ) -> int:
     """Writes a report of a study or of runs: one HTML page with figures that zoom, a table as CSV and pictures as PNG.
 

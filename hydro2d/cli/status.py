@@ -20,9 +20,9 @@ SECONDS = 2.0
 def status(
     run: Path,
     *,
-    quantity: Annotated[list[str] | None, Parameter(negative="")] = None,
-    plot: bool | None = None,
-    watch: bool | None = None,
+    quantity: list[str] | None = None,
+    plot: Annotated[bool | None, Parameter(negative="--no-plot")] = None,
+    watch: Annotated[bool | None, Parameter(negative="--no-watch")] = None,
 ) -> int:
     """Shows how far a run has got, when and why it will stop, depth and dumps. For a study: `hydro2d sweep STUDY --status`.
 

@@ -8,8 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import Parameter
-
 from hydro2d.base.terminal import say, wrapped
 from hydro2d.cli.base import FINEST, MOST_MEMBERS, Out, Overrides, UsageError, whole
 from hydro2d.cli.workers import DEFAULT, Workers
@@ -32,7 +30,7 @@ def sweep(
     cells: float | None = None,
     check: bool = False,
     status: bool = False,
-    background: Annotated[bool, Parameter(negative="")] = False,
+    background: bool = False,
     quiet: bool = False,
 ) -> int:
     """Runs all cases of a study, on this machine or on many.
@@ -51,8 +49,8 @@ def sweep(
     set_
         Overrides a value of the deck in all cases, as key=value; can be repeated.
     only
-        Runs the cases whose names match this pattern, such as "*ogive*", or these parts; can be repeated. The others wait for a
-        later --resume.
+        Runs the cases whose names match this pattern, such as "*ogive*", or these parts; can be repeated. The others stay
+        pending; --resume runs them later.
     members
         Number of members of each case, instead of that of the study file; 1 runs each case once.
     cells

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -16,12 +17,12 @@ DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 
 
 def view(
-    runs: Annotated[list[Path], Parameter(negative="")],
+    runs: list[Path],
     *,
     out: Out | None = None,
-    fields: Annotated[list[str] | None, Parameter(negative="", consume_multiple=True)] = None,
+    fields: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
     bits: Literal[8, 10, 12, 14, 16] = 14,
-    open_: Annotated[bool, Parameter(name="--open")] = True,
+    open_: Annotated[bool, Parameter(name="--open", negative="--no-open")] = True,
 ) -> int:
     """Shows a run, or two side by side, in the browser: one HTML page with all dumps, which needs no server and no network.
 
@@ -61,4 +62,5 @@ def _open(file: Path) -> bool:
     """Opens a page in a browser with windows; False if there is none. A browser in the terminal could not show it."""
     import webbrowser
 
-    return any(os.environ.get(name) for name in DISPLAYS) and webbrowser.open(file.absolute().as_uri())
+    shows = sys.platform in ("win32", "darwin") or any(os.environ.get(name) for name in DISPLAYS)
+    return shows and webbrowser.open(file.absolute().as_uri())

@@ -24,7 +24,7 @@ from hydro2d.deck.generated_mesh import as_segments, with_segments
 from hydro2d.deck.layout import body_groups, edges, extent, layout, slots
 from hydro2d.deck.mesh import MeshError, body, body_radius, cells_between
 from hydro2d.deck.warnings import warnings
-from hydro2d.files import toml
+from hydro2d.files import shipped, toml
 from hydro2d.files.key_lines import Sources, spelled
 from hydro2d.files.whole import plain
 from hydro2d.materials import from_files, library
@@ -167,12 +167,11 @@ def find(path: str | Path) -> Path:
     path = Path(path)
     if path.is_file():
         return path
-    shipped = library.problems_folder()
-    parts = path.parts[1:] if path.parts[:1] == ("problems",) else path.parts
-    if not path.is_absolute() and shipped.joinpath(*parts).is_file():
-        return shipped.joinpath(*parts)
-    folder = path.parent if path.parent.is_dir() else shipped
-    decks = [str(file.relative_to(folder)) for file in folder.glob("*.toml" if folder != shipped else "*/*.toml")]
+    if (file := shipped.shipped_file(path)) is not None:
+        return file
+    problems = shipped.problems_folder()
+    folder = path.parent if path.parent.is_dir() else problems
+    decks = [str(file.relative_to(folder)) for file in folder.glob("*.toml" if folder != problems else "*/*.toml")]
     raise DeckError(f"{path}: there is no such file; {unknown('deck', path.name, decks)}")
 
 
@@ -436,7 +435,7 @@ def schema() -> dict:
     result["properties"]["materials"]["additionalProperties"] = {"$ref": "#/$defs/Material"}
     result["properties"]["include"] = {
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
-        "description": "decks on which this one is based, relative to this file; values of this deck replace theirs",
-        "examples": ["hemi_5083_1086.toml"],
+        "description": "decks on which this one is based, next to this file or shipped; values of this deck replace theirs",
+        "examples": ["hemi_5083_1086.toml", "problems/perforation/sphere.toml"],
     }
     return result

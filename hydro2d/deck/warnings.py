@@ -39,8 +39,8 @@ def _coarse_rods(deck: Deck) -> Iterator[str]:
             cells = entry.own_radius / float(np.diff(r)[r[:-1] < entry.own_radius].max())
             if cells < CELLS_ACROSS_RADIUS - 1e-9:
                 yield (
-                    f'body "{entry.name}": {cells:.1f} cells across the radius; below {CELLS_ACROSS_RADIUS} a rod is '
-                    "neither rigid nor round"
+                    f'body "{entry.name}": {cells:.1f} cells across the radius; with fewer than {CELLS_ACROSS_RADIUS} a rod '
+                    "is poorly resolved"
                 )
 
 

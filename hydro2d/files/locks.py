@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import socket
 import time
@@ -13,6 +12,11 @@ from typing import NamedTuple, TextIO
 
 from hydro2d.base.errors import Error
 from hydro2d.files.strange import opened
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
 
 #: number of characters read from a lock file
 MOST_SAID = 1000
@@ -53,12 +57,25 @@ def holder(path: Path) -> Holder | None:
 
 
 def _take_lock(file: TextIO) -> bool:
-    """Takes the lock of an open file, for as long as it is open, unless a process on this machine has it."""
+    """Takes the lock of an open file, for as long as it is open, unless a process on this machine has it.
+
+    Where the system has no such locks, the process that the file names has it, as long as it exists.
+    """
+    if fcntl is None:
+        file.seek(0)
+        by = _said(file.read(MOST_SAID))
+        return by is None or not by.is_here or not _exists(by.process)
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
     return True
+
+
+def _exists(process: int) -> bool:
+    import psutil
+
+    return psutil.pid_exists(process)
 
 
 @contextmanager
@@ -68,8 +85,9 @@ def locked(path: Path, patience: float = 0.1) -> Iterator[None]:
     patience : how long to wait for another process, s; the default is enough for one that only looks whether the lock is held
 
     On one machine, the lock belongs to the operating system (flock). It ends with the process, however that ends, and a reused
-    process number cannot imitate it. Between machines, the contents of the file count; it is removed at the end. While the lock
-    is held, `replacing` and `remove` work in its directory, or below it, only as long as this same file is still there.
+    process number cannot imitate it. Without flock, on Windows, the process that the file names has it, and two that begin in
+    the same instant may both have it. Between machines, the contents of the file count; it is removed at the end. While the
+    lock is held, `replacing` and `remove` work in its directory, or below it, only as long as this same file is still there.
 
     Raises LockError if another process holds the lock.
     """
@@ -95,7 +113,9 @@ def locked(path: Path, patience: float = 0.1) -> Iterator[None]:
             finally:
                 _own_locks[place].remove((file, path))
                 if _is_at(file, path):
-                    path.unlink(missing_ok=True)
+                    with suppress(PermissionError):  # Windows removes no open file; an empty one names nobody
+                        os.ftruncate(file.fileno(), 0)
+                        path.unlink(missing_ok=True)
             return
 
 
@@ -157,7 +177,7 @@ def turn(file: Path) -> Iterator[None]:
         file.parent.mkdir(parents=True, exist_ok=True)
         handle = os.open(file, os.O_CREAT | os.O_RDWR)
     try:
-        if handle is not None:
+        if handle is not None and fcntl is not None:
             fcntl.flock(handle, fcntl.LOCK_EX)
         yield
     finally:

@@ -12,3 +12,10 @@ def problems_folder() -> Path:
         if (folder / "materials").is_dir():
             return folder
     raise FileNotFoundError("the folder problems/materials is missing from this installation")
+
+
+def shipped_file(path: Path) -> Path | None:
+    """The shipped file with a path below `problems`, with or without this folder in front; None if there is none."""
+    parts = path.parts[1:] if path.parts[:1] == ("problems",) else path.parts
+    file = problems_folder().joinpath(*parts)
+    return file if not path.is_absolute() and file.is_file() else None

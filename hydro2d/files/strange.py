@@ -9,6 +9,9 @@ from typing import TextIO
 
 from hydro2d.base.errors import Error
 
+#: flags of `os.open`; Windows has neither, nor pipes among files
+NONBLOCK, NOFOLLOW = getattr(os, "O_NONBLOCK", 0), getattr(os, "O_NOFOLLOW", 0)
+
 
 class StrangeFile(Error):
     """A pipe or a device in place of a file, or a symbolic link inside a run or a study; the message is for the user."""
@@ -56,6 +59,6 @@ def opened(path: Path, mode: str = "r", *, encoding: str = "utf-8", errors: str 
     """
 
     def opener(name: str, flags: int) -> int:
-        return os.open(name, flags | os.O_NONBLOCK | (0 if links else os.O_NOFOLLOW), 0o666)
+        return os.open(name, flags | NONBLOCK | (0 if links else NOFOLLOW), 0o666)
 
     return open(own(Path(path), links=links), mode, encoding=encoding, errors=errors, opener=opener)

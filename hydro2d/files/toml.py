@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import filecmp
 import json
 import os
 import re
@@ -19,7 +20,7 @@ from hydro2d.base.errors import DeckError
 from hydro2d.base.formats import in_toml
 from hydro2d.files import checksums
 from hydro2d.files.key_lines import Sources, entry_index
-from hydro2d.files.shipped import problems_folder
+from hydro2d.files.shipped import shipped_file
 from hydro2d.files.whole import read_text
 
 #: value of `numbers` in a deck whose numbers without a unit are in SI
@@ -103,7 +104,8 @@ def assemble(text: str, name: str, folder: Path, sources: Sources, chain: tuple[
 def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path, ...] = ()) -> dict:
     """The tables of a deck merged with its includes, which are looked up in a folder and among the shipped decks.
 
-    Numbers of a file that does not say numbers = "SI" are marked as bare.
+    A shipped deck has the name that the command line takes, such as "problems/perforation/sphere.toml". Numbers
+    of a file that does not say numbers = "SI" are marked as bare.
     """
     included = data.get("include", [])
     included = [included] if isinstance(included, str) else included
@@ -111,10 +113,15 @@ def with_included(data: dict, folder: Path, sources: Sources, chain: tuple[Path,
         raise DeckError(f"{sources.where(('include',), data)}: include must be a file name or a list of file names")
     base: dict = {}
     for entry in included:
-        target = next((place / entry for place in (folder, problems_folder()) if (place / entry).is_file()), None)
-        if target is None:
-            raise DeckError(f"{sources.where(('include',), data)}: include: there is no file {folder / entry}")
-        base = merge(base, read(target, sources, chain))
+        beside, shipped = folder / entry, shipped_file(Path(entry))
+        wrong = ""
+        if not beside.is_file() and shipped is None:
+            wrong = f"there is no file {beside}, and no shipped deck of this name"
+        elif beside.is_file() and shipped is not None and not filecmp.cmp(beside, shipped, shallow=False):
+            wrong = f"{beside} and the shipped deck {shipped} differ: give the full path of the one that you mean"
+        if wrong:
+            raise DeckError(f"{sources.where(('include',), data)}: include: {wrong}")
+        base = merge(base, read(beside if beside.is_file() else shipped, sources, chain))
     own = {key: value for key, value in placed(data, folder).items() if key != "include"}
     return merge(base, own if own.get("numbers") == SI else units.bare(own))
 

@@ -17,8 +17,11 @@ from hydro2d.files.strange import StrangeFile, opened
 
 
 def sync(path: Path) -> None:
-    """Flushes a closed file, or the names in a folder, to disk."""
-    handle = os.open(path, os.O_RDONLY)
+    """Flushes a closed file, or the names in a folder, to disk; Windows opens no folder."""
+    folder = path.is_dir()
+    if folder and os.name == "nt":
+        return
+    handle = os.open(path, os.O_RDONLY if folder else os.O_RDWR)
     try:
         os.fsync(handle)
     finally:

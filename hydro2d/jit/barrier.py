@@ -16,6 +16,8 @@ from numba.extending import intrinsic
 WORDS, ARRIVED, OPENED = 32, 0, 16
 #: after this many looks a thread lets others run before it looks again
 PATIENCE = 20000
+#: the function of the system that lets other threads run
+LET_OTHERS = "SwitchToThread" if platform.system() == "Windows" else "sched_yield"
 #: whether the processor has an instruction for waiting loops
 PAUSES = platform.machine() in ("x86_64", "AMD64")
 
@@ -59,7 +61,7 @@ def meet(context, gate, number, rounds):
                 turns = builder.add(builder.load(yielded), one)
                 builder.store(turns, yielded)
                 let_others = ir.FunctionType(ir.IntType(32), [])
-                builder.call(cgutils.get_or_insert_function(builder.module, let_others, "sched_yield"), [])
+                builder.call(cgutils.get_or_insert_function(builder.module, let_others, LET_OTHERS), [])
                 stop = builder.and_(builder.icmp_signed(">", arguments[2], ir.Constant(word, 0)),
                                     builder.icmp_signed(">", turns, arguments[2]))
                 give_up = builder.append_basic_block("give_up")

@@ -56,8 +56,13 @@ def root() -> str:
     if not home.is_absolute():
         home = Path.home() / ".cache"
     if not os.access(home if home.exists() else home.parent, os.W_OK):
-        return _private(os.path.join(tempfile.gettempdir(), f"hydro2d-{os.getuid()}"))
+        return _private(os.path.join(tempfile.gettempdir(), f"hydro2d-{_user()}"))
     return str(home / "hydro2d")
+
+
+def _user() -> int:
+    """The number of the user; 0 where users have none, and every file belongs to 0."""
+    return os.getuid() if hasattr(os, "getuid") else 0
 
 
 def _private(folder: str) -> str:
@@ -65,7 +70,7 @@ def _private(folder: str) -> str:
     with suppress(FileExistsError):
         os.mkdir(folder, 0o700)
     status = os.lstat(folder)
-    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid() and not status.st_mode & 0o077:
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == _user() and not status.st_mode & 0o077:
         return folder
     fresh = tempfile.mkdtemp(prefix="hydro2d-")
     atexit.register(shutil.rmtree, fresh, ignore_errors=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hydro2d.measure.regime import LEFT
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
 DONE = "done"
 #: stop reasons of runs that were cut short, and the share of the impact velocity above which a projectile still moves
 CUT, MOVING = ("end time", "number of cycles"), 0.01
+#: speeds from here on are told as whole numbers, m/s
+WHOLE_SPEED = 10.0
 #: beginnings of the stop reasons of projectiles at rest
 RESTED = ("speed of", "rebound of")
 #: what a depth, or its error, is
@@ -48,6 +51,18 @@ class Outcome(Result):
 def ratio(value: float | None, reference: float | None) -> float | None:
     """A value over its reference; None if either is missing, or the reference is zero."""
     return None if value is None or not reference else value / reference
+
+
+def cut(stop_reason: str | None, speed: float | None) -> str:
+    """'end time, still moving at 763 m/s': how a run ended that was cut short; speed : of the core of the projectile, m/s"""
+    speed = abs(speed or 0.0)
+    return f"{stop_reason}, still moving at {f'{speed:.0f}' if speed >= WHOLE_SPEED else f'{speed:.3g}'} m/s"
+
+
+def beyond(targets: Iterable[str], nose: str) -> str:
+    """'plate; nose 1.47 cm beyond its front face', of perforated targets."""
+    first, *more = targets
+    return f"{', '.join((first, *more))}; nose {nose} beyond {f'the front face of {first}' if more else 'its front face'}"
 
 
 def rested(stop_reason: str | None) -> bool:

@@ -220,6 +220,19 @@ class Dump:
         prefix = quantities.BY_KEY["volume_fraction"].title.format(body="")
         return [name.removeprefix(prefix) for name in self.fields if name.startswith(prefix)]
 
+    def values(self, key: str, body: str | None = None) -> np.ndarray | None:
+        """The values of a quantity by its key, (nz, nr[, 3]); None if the file has none.
+
+        A total stress that was not written is made of the deviator and the pressure.
+        """
+        name = quantities.BY_KEY[key].name(body)
+        if name in self.fields or key not in quantities.DEVIATORS:
+            return self.fields.get(name)
+        deviator, pressure = self.values(quantities.DEVIATORS[key]), self.values("pressure")
+        if key == "stress_rz" or deviator is None or pressure is None:
+            return deviator if key == "stress_rz" else None
+        return deviator - pressure
+
     @property
     def shape(self) -> tuple[int, int]:
         """Number of cells along z and r, (nz, nr)."""

@@ -32,12 +32,13 @@ def draw(dump_file: Path, path: Path, field: str = "pressure", window=None, size
     FigureError if none of them works.
     """
     task = json.dumps({"dump": str(dump_file), "path": str(path), "field": field, "window": window, "size": size})
-    windows = [None] if os.environ.get("DISPLAY") else ["vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"]
+    shows = os.environ.get("DISPLAY") or sys.platform in ("win32", "darwin")
+    windows = [None] if shows else ["vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"]
     said = ""
     for window in windows:
         environment = os.environ | ({"VTK_DEFAULT_OPENGL_WINDOW": window} if window else {})
         try:
-            done = subprocess.run(children.python("hydro2d.results.cutaway"), input=task, text=True, errors="replace",
+            done = subprocess.run(children.python("hydro2d.results.cutaway"), input=task, encoding="utf-8", errors="replace",
                                   env=environment, capture_output=True, timeout=RENDER_SECONDS, check=False)
         except subprocess.TimeoutExpired:
             said = f"no picture after {RENDER_SECONDS} s"

@@ -65,10 +65,10 @@ def chosen(dump: Dump, field: str) -> Shown:
         raise FigureError(f'field "{key}" belongs to each body: write {key}:NAME; {unknown("body", part, dump.bodies)}')
     if not quantity.per_body and part and (key not in VECTORS or part not in COMPONENTS):
         raise FigureError(f'field "{field}": only {", ".join(VECTORS)} have components, such as velocity:r and velocity:z')
-    name = quantity.name(part)
-    if name not in dump.fields:
-        raise FigureError(f'the file has no "{name}"; {quantities.not_written(key)}')
-    values = dump.fields[name].astype(float)
+    stored = dump.values(key, part)
+    if stored is None:
+        raise FigureError(f'the file has no "{quantity.name(part)}"; {quantities.not_written(key)}')
+    values = stored.astype(float)
     if values.ndim == 3:
         values = values[..., COMPONENTS[part]] if part else np.linalg.norm(values, axis=-1)
     unit, scale = reader_unit(quantity.unit)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from hydro2d.base.terminal import duration, moment, number
+from hydro2d.measure import outcome
 from hydro2d.measure.regime import REGIMES
 from hydro2d.measure.summary import Summary
 from hydro2d.output import ending
 from hydro2d.output.directory import HISTORY
+from hydro2d.running.progress import ended_by
 
 
 def lines(run, status: str, message: str, progress: dict) -> list[str]:
@@ -23,7 +25,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
     now = _last(columns) | {name: value for name, value in dict(summary or progress).items() if value is not None}
     said = {"run": run.tables.get("title") or run.label, "state": status + (f": {message}" if message else "")}
     if summary:
-        said["state"] = f"{status}: {summary.stop_reason or message}"
+        said["state"] = f"{status}: {ended_by(summary) or message}"
     if now.get("time_s") is not None:
         said["time"] = f"{moment(now['time_s'])}, cycle {int(now.get('cycles', 0))}"
         if now.get("wall_s") is not None:
@@ -32,8 +34,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
         said["end"] = _end(run.stop, columns, now, progress, run.projectile)
     if summary.outcome and summary.outcome.perforated:
         nose = number(now.get("nose_depth_m", now["penetration_depth_m"]), 1e3, ".2f", "mm")
-        through = ", ".join(summary.targets)
-        said["through"] = f"{through}; nose {nose} behind the first face"
+        said["through"] = outcome.beyond(summary.targets, nose)
     elif now.get("penetration_depth_m") is not None:
         said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
         if run.measured_depth is not None:

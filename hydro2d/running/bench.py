@@ -9,7 +9,6 @@ as much as in the middle of a shot. `--shot` measures a deck as it is instead, w
 from __future__ import annotations
 
 import functools
-import resource
 import sys
 import tempfile
 import time
@@ -18,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import psutil
 
 from hydro2d import jit
 from hydro2d.base import moving
@@ -276,7 +276,11 @@ def shares(deck: decks.Deck, stages: list[snapshot.Snapshot]) -> dict[str, float
 
 
 def _peak_memory() -> int:
-    """Largest resident memory of the process so far, bytes."""
+    """Largest resident memory of the process so far, bytes; on Windows that of its working set."""
+    try:
+        import resource
+    except ImportError:
+        return getattr(psutil.Process().memory_info(), "peak_wset", 0)
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
@@ -320,7 +324,8 @@ def header(about: dict) -> list[str]:
     commit = (about["git_commit"] or "no repository")[:10] + (", modified" if about["git_dirty"] else "")
     return [
         f"hydro2d {about['version']} ({commit}), {about['written']}",
-        f"{about['cpu']}, {about['cpu_count']} cores, {about['threads']} threads at most, {about['system']}, {about['host']}",
+        f"{about['cpu']}, {several(about['cpu_count'], 'core')}, {several(about['threads'], 'thread')} at most, "
+        f"{about['system']}, {about['host']}",
         ", ".join(f"{name} {packages[name]}" for name in ("python", "numpy", "numba", "llvmlite")),
     ]
 

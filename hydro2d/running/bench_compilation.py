@@ -90,7 +90,7 @@ def in_an_empty_cache() -> dict[str, dict[str, float]]:
     """`measured` for the README's first shot, in a process with an empty cache. Raises Error if that fails."""
     deck = decks.load(problems_folder() / DECK)
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(children.python(__name__), input=deck.to_toml(), text=True, stdout=subprocess.PIPE,
+        done = subprocess.run(children.python(__name__), input=deck.to_toml(), encoding="utf-8", stdout=subprocess.PIPE,
                               env={**os.environ, "HYDRO2D_CACHE_DIR": folder}, check=False)
     if done.returncode:
         raise Error(f"the process that compiles ended with status {done.returncode}")

@@ -17,8 +17,9 @@ from typing import Any, NamedTuple, TypeVar
 from hydro2d.base.formats import in_shell, one_line
 from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
-from hydro2d.base.terminal import duration, moment, number, say
-from hydro2d.measure.outcome import EXACT, Outcome
+from hydro2d.base.terminal import duration, moment, number, say, several
+from hydro2d.measure import outcome
+from hydro2d.measure.outcome import DONE, EXACT, Outcome
 from hydro2d.measure.result import unit
 from hydro2d.measure.summary import Conservation, Summary, Target
 from hydro2d.measure.wall_damage import NO_DAMAGE
@@ -41,8 +42,8 @@ SETTLED = 1e-3
 OTHER_COSTS, LEAST_COST = {"compilation": "compilation_s", "set-up": "set_up_s", "outputs": "outputs_s"}, 0.05
 #: lines with commands and paths, which the terminal itself wraps, so that they can be copied; others break at words
 WHOLE = re.compile(r"\bhydro2d [a-z]|results in |\S/\S+/")
-#: seconds over which the pace is measured
-PACE_SECONDS = 60.0
+#: seconds over which the pace is measured, at most and at least
+PACE_SECONDS, FIRST_SECONDS = 60.0, 2.0
 
 
 def worst_mass(conservation: Conservation | dict) -> float:
@@ -76,7 +77,7 @@ class Clock:
 
     The end is that of `status`, see `ending.ends`; until the history has enough rows, the end time or the number of cycles of
     the deck. The pace is that of the last minute, so compilation and the small time steps after an impact affect it only for so
-    long.
+    long. Where the steps have grown since, the present one counts. In the first seconds no time is predicted.
 
     Parameters
     ----------
@@ -118,7 +119,10 @@ class Clock:
         while len(self._marks) > 2 and now - self._marks[1][0] >= PACE_SECONDS:
             self._marks.popleft()
         then, time, cycle = self._marks[0]
-        return ((sim.time - time) / (now - then), (sim.cycle - cycle) / (now - then)) if now > then else (0.0, 0.0)
+        if now - then < FIRST_SECONDS or sim.cycle == cycle:
+            return 0.0, 0.0
+        by_cycle = (sim.cycle - cycle) / (now - then)
+        return by_cycle * max((sim.time - time) / (sim.cycle - cycle), sim.dt), by_cycle
 
 
 def how_far(sim, outlook: Outlook) -> str:
@@ -210,7 +214,7 @@ class Report:
             commit = f" ({origin['git_commit'][:10]}{', modified' if origin['git_dirty'] else ''})"
         self.line(f"hydro2d {origin['version']}{commit}: {run.deck.title or run.deck.name}")
         self.line(f"{origin['command']}")
-        self.line(f"{origin['cpu']}, {origin['threads']} threads; results in {run.directory}")
+        self.line(f"{origin['cpu']}, {several(origin['threads'], 'thread')}; results in {run.directory}")
         self.line(
             f"{grid.nr} x {grid.nz} cells ({grid.geometry}; r is x and the axis is r = 0, z is y), "
             f"interface order: {', '.join(run.sim.table.names)}"
@@ -335,11 +339,17 @@ def result(summary: Summary, theory: Sequence[str] = ()) -> list[str]:
     ]
 
 
+def ended_by(summary: Summary) -> str:
+    """The stop reason; with the speed of a projectile that still moved."""
+    moves = summary.status == DONE and summary.outcome and summary.outcome.final is False
+    return outcome.cut(summary.stop_reason, summary.rod_core_velocity_m_s) if moves else summary.stop_reason
+
+
 def _how_it_ended(summary: Summary) -> str:
     """'done: end time', or 'interrupted at 26.800 us (SIGINT); continue with: hydro2d run shot.toml --restart'."""
     why = re.fullmatch(r"interrupted \((.*)\)", summary.stop_reason)
     if summary.status != "interrupted" or why is None:
-        return f"{summary.status}: {summary.stop_reason}"
+        return f"{summary.status}: {ended_by(summary)}"
     return (f"interrupted at {moment(summary.time_s)} ({why[1]}); "
             f"continue with: {continuing(summary.provenance.command)}")
 
@@ -440,30 +450,31 @@ def _of_targets(targets: dict[str, Target]) -> Iterator[str]:
             yield f"{f'damage of {name}':<21} {target.damage_class}{width}"
 
 
-def _error(outcome: Outcome) -> str:
+def _error(of: Outcome) -> str:
     """The error of a depth, with the word for one that is a bound; empty without one."""
-    if outcome.depth_error_m is None:
+    if of.depth_error_m is None:
         return ""
-    bound = "" if outcome.depth_error_is == EXACT else f"{outcome.depth_error_is} "
-    return f" (error {bound}{outcome.depth_error_m * 1e2:+.2f} cm, {outcome.depth_error_percent:+.1f} %)"
+    bound = "" if of.depth_error_is == EXACT else f"{of.depth_error_is} "
+    return f" (error {bound}{of.depth_error_m * 1e2:+.2f} cm, {of.depth_error_percent:+.1f} %)"
 
 
 def _rod(summary: Summary, theory: Sequence[str]) -> list[str]:
     from hydro2d.measure.regime import LEFT
 
-    experiment, shape, outcome = summary.experiment, summary.projectile, summary.outcome
+    experiment, shape, came_to = summary.experiment, summary.projectile, summary.outcome
     body = shape.body
     bound = "at least " if summary.regime == LEFT else ""
     largest, at_end = (number(summary[name], 1e2, ".2f", "cm") for name in ("penetration_depth_m", "nose_depth_m"))
-    if outcome.perforated:
-        lines = [f"perforated            {', '.join(summary.targets)}; nose {at_end} behind the first face"]
+    if came_to.perforated:
+        lines = [f"perforated            {outcome.beyond(summary.targets, at_end)}"]
     else:
         back = "" if at_end == largest else f"; {at_end} at the end"
-        lines = [f"penetration depth     {bound}{largest}{_over_length(summary)}{back}"]
+        depth = "depth so far" if came_to.final is False else "penetration depth"
+        lines = [f"{depth:<21} {bound}{largest}{_over_length(summary)}{back}"]
     if experiment and experiment.penetration_m:
         measured = experiment.penetration_m
         qualifier = "" if experiment.qualifier == "measured" else f"{experiment.qualifier} "
-        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(outcome)}  {experiment.source}")
+        lines.append(f"  experiment          {qualifier}{measured * 1e2:.2f} cm{_error(came_to)}  {experiment.source}")
     lines += theory
     if shape.residual_mass_kg is not None:
         velocity, mass = shape.residual_velocity_m_s, shape.residual_mass_kg

@@ -24,7 +24,7 @@ def _git(*arguments: str) -> str | None:
     try:
         done = subprocess.run(
             ["git", "-C", str(Path(__file__).resolve().parent), *arguments],
-            capture_output=True, text=True, errors="replace", timeout=10, check=False,
+            capture_output=True, encoding="utf-8", errors="replace", timeout=10, check=False,
         )
     except (OSError, subprocess.TimeoutExpired):
         return None
@@ -42,7 +42,7 @@ def git_commit() -> tuple[str, bool] | None:
 def processor() -> str:
     """Model name of the CPU."""
     try:
-        for line in Path("/proc/cpuinfo").read_text(errors="replace").splitlines():
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
             if line.startswith("model name"):
                 return line.split(":", 1)[1].strip()
     except OSError:

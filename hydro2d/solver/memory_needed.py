@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import psutil
 
 from hydro2d.base.errors import DeckError
 from hydro2d.deck import deck as decks
@@ -27,7 +27,7 @@ def refuse_too_large(deck) -> None:
     """Raises DeckError if the machine does not have the memory to start the deck."""
     nr, nz = (len(edges) - 1 for edges in decks.edges(deck))
     whole = needed(deck) + 8 * FILLING * nr * nz * len(deck.body)
-    there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    there = psutil.virtual_memory().total
     if whole > there:
         raise DeckError(f"mesh: {nr} x {nz} cells need about {whole / 2**30:.3g} GiB of memory; this machine has "
                         f"{there / 2**30:.3g} GiB")

@@ -1,7 +1,10 @@
 """The command line: one message and status 2 for a user's mistake; no traceback."""
 
+import functools
 import json
+import operator
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -254,6 +257,24 @@ def test_the_output_option_has_one_name(command, capsys):
     assert "-o" in said.replace("--out", "")
     assert call([command, "somewhere", "--output", "x.png"]) == 2
     assert capsys.readouterr().err == "hydro2d: --output is now --out in every command, or -o for short\n"
+
+
+def commands():
+    return [*(name for name in app if not name.startswith("-")), "model transition"]
+
+
+@pytest.mark.parametrize("command", commands())
+def test_help_breaks_lines_at_the_width_of_the_terminal_and_negates_no_option_in_vain(command, capsys, monkeypatch):
+    """A paragraph, and what explains an option, is one line of the text that is wrapped."""
+    first, _, options = functools.reduce(operator.getitem, command.split(), app).help.partition("\nParameters\n")
+    assert not re.search(r"\S\n\S", first)
+    assert not re.search(r"^ .*\n ", options, re.M)
+    for width in (80, 120):
+        monkeypatch.setenv("COLUMNS", str(width))
+        assert call([*command.split(), "--help"]) == 0
+        shown = capsys.readouterr().out
+        assert max(map(len, shown.splitlines())) <= width
+        assert set(re.findall(r"--(?:no|empty)-\w+", shown)) <= {"--no-open", "--no-plot", "--no-watch"}
 
 
 def test_help_is_light():

@@ -37,6 +37,41 @@ def test_a_template_is_written_checked_and_runs(kind, tmp_path, monkeypatch, cap
     assert simulation.faults() == []
 
 
+def alternatives():
+    """What the comments of the templates offer: kind of shot, number of the line, the lines in its place, and overrides.
+
+    A quoted word is another value of the key, with the key in brackets after it; so is a number of cells. A whole assignment
+    is a further line, or a value in the table that it names.
+    """
+    for kind in templates.kinds():
+        for number, line in enumerate(templates.text(kind).splitlines()):
+            setting, _, comment = line.partition("#")
+            key = setting.partition("=")[0].strip()
+            values = re.findall(r'(?<!= )("[\w-]+")(?: \(with ([^)]*)\))?', comment)
+            values += [(count, "") for count in re.findall(r"\d+(?:\.\d+)?", comment) if key == "cells_across"]
+            others = re.findall(r'(\w+) = ("[^"]*") in \[(.*?)\]', comment)
+            elsewhere = [f"{table}.{name}={value}" for name, value, table in others]
+            yield from ((kind, number, [f"{key} = {value}", more], elsewhere) for value, more in values)
+            if not key and (whole := re.search(r'\w+ = "[^"]*"$', comment)):
+                yield kind, number, [whole[0]], []
+
+
+def test_comments_offer_alternatives():
+    offered = {(kind, *lines) for kind, _, lines, _ in alternatives()}
+    assert offered >= {("rod", 'nose = "ogival"', "crh = 3"), ("rod", 'nose = "flat"', ""), ("rod", 'fine = "7 radii"'),
+                       ("ceramic", 'material = "float_glass"', ""), ("cylinder-test", 'material = "octol"', ""),
+                       ("rod", "cells_across = 8.5", ""), ("crater", 'damage = "material"', ""),
+                       ("perforation", 'r_max = "wall"', ""), ("perforation", "cells_across = 40", "")}
+    assert ["materials.aluminium.variant=\"johnson-cook\""] in [overrides for *_, overrides in alternatives()]
+
+
+@pytest.mark.parametrize(("kind", "number", "instead", "overrides"), list(alternatives()))
+def test_what_the_comment_of_a_template_offers_is_accepted(kind, number, instead, overrides):
+    lines = templates.text(kind).splitlines()
+    lines[number : number + 1] = instead
+    assert decks.loads("\n".join(lines), overrides).title
+
+
 def test_the_list_has_a_line_for_each_kind(capsys):
     assert call(["new", "--list"]) == 0
     lines = capsys.readouterr().out.splitlines()

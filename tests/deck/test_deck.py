@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 import subprocess
 import sys
 import textwrap
@@ -94,7 +95,8 @@ def test_a_deck_does_not_change():
         ('velocity = "1086 m/s"', "velocity = [1, 2, 3]", 17, ["expected two numbers or strings in m/s"]),
         ('radius = "4 mm"', 'radius = "4"', 14, ['"4" has no unit; expected a length']),
         ('radius = "4 mm"', "radius = true", 14, ["True is not a quantity"]),
-        ('thickness = "30 mm"', 'thickness = "-30 mm"', 23, ["body[1].thickness: must be positive, is -0.03"]),
+        ('thickness = "30 mm"', 'thickness = "-30 mm"', 23, ["body[1].thickness: must be positive, is -30 mm"]),
+        ('thickness = "30 mm"', 'thickness = "-2 inch"', 23, ["body[1].thickness: must be positive, is -2 inch"]),
         ('length = "16 mm"', 'length = "3 mm"', 9, ["must not be less than the length of the nose (0.004 m)"]),
         ('length = "16 mm"\n', "", 9, ["body[0].length: is missing"]),
         ('radius = "4 mm"\n', "", 9, ["a rod needs its radius or its diameter"]),
@@ -290,9 +292,24 @@ def test_include_cycles_are_found(tmp_path):
         deck.load(tmp_path / "a.toml")
 
 
+def test_a_shipped_deck_is_included_from_any_folder(tmp_path):
+    """The deck that the README shows. A base of the same name next to it may be equal; one with other contents is refused."""
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    write(tmp_path, own=re.search(r"```toml\n(.*?)```", readme, re.S)[1])
+    base = deck.load("problems/perforation/sphere.toml")
+    assert deck.load(tmp_path / "own.toml").body_named("ball").shape == base.body_named("ball").shape
+    beside = tmp_path / "problems" / "perforation" / "sphere.toml"
+    beside.parent.mkdir(parents=True)
+    beside.write_bytes(deck.find("problems/perforation/sphere.toml").read_bytes())
+    assert deck.load(tmp_path / "own.toml").body_named("plate").thickness == 0.008
+    beside.write_text(beside.read_text() + "# changed\n")
+    with pytest.raises(deck.DeckError, match=r"own\.toml:1: include: .* differ: give the full path of the one that you mean"):
+        deck.load(tmp_path / "own.toml")
+
+
 def test_missing_files(tmp_path):
     write(tmp_path, a='title = "x"\ninclude = "nothing.toml"\n')
-    with pytest.raises(deck.DeckError, match=r"a\.toml:2: include: there is no file .*nothing\.toml"):
+    with pytest.raises(deck.DeckError, match=r"a\.toml:2: include: there is no file .*nothing\.toml, and no shipped deck of"):
         deck.load(tmp_path / "a.toml")
     with pytest.raises(deck.DeckError, match=r"aa\.toml: there is no such file; .* did you mean \"a\.toml\"\?"):
         deck.load(tmp_path / "aa.toml")
@@ -382,7 +399,7 @@ def test_the_study_has_the_printed_mesh_and_factor():
 def test_coarse_rods_are_warned_of():
     coarse = deck.loads(changed("cells_across = 8", "cells_across = 4"))
     assert deck.warnings(coarse) == [
-        'body "rod": 4.0 cells across the radius; below 5 a rod is neither rigid nor round'
+        'body "rod": 4.0 cells across the radius; with fewer than 5 a rod is poorly resolved'
     ]
     assert deck.warnings(deck.loads(changed("cells_across = 8", "cells_across = 5"))) == []
     jump = deck.loads(changed("{ cells = 5, ratio = 1.05 }", '{ cells = 5, size = "1 mm" }'))

@@ -122,3 +122,24 @@ def test_a_killed_holder_holds_nothing(tmp_path):
     assert holder(lock) is None
     with locked(lock):
         pass
+
+
+def test_without_locks_of_the_system_the_process_that_the_file_names_has_it(tmp_path, monkeypatch):
+    """As on Windows: another live process keeps it, a dead one does not, and it goes at the end."""
+    monkeypatch.setattr(locks, "fcntl", None)
+    lock = tmp_path / "a.lock"
+    with locked(lock):
+        assert holder(lock) == (socket.gethostname(), os.getpid())
+        with pytest.raises(LockError, match=f"in use by process {os.getpid()} on "), locked(lock):
+            pass
+    assert not lock.exists()
+    lock.write_text(f"{socket.gethostname()} {os.getppid()}")
+    with pytest.raises(LockError, match=f"in use by process {os.getppid()} on "), locked(lock):
+        pass
+    ended = multiprocessing.get_context("spawn").Process(target=time.sleep, args=(0,))
+    ended.start()
+    ended.join()
+    lock.write_text(f"{socket.gethostname()} {ended.pid}")
+    assert holder(lock) is None
+    with locked(lock), locks.turn(tmp_path / "turn"):
+        assert holder(lock) is not None

@@ -66,8 +66,18 @@ def test_the_word_at_the_experiments_line_is_not_below_the_legend(dump):
 
 
 @pytest.mark.parametrize("part", ["rr", "zz", "tt", "rz"])
-def test_the_old_name_of_a_deviator_is_reported_where_the_whole_stress_was_not_written(dump, part):
+def test_a_total_stress_that_was_not_written_is_made_of_deviator_and_pressure(dump, part):
+    written = figures.chosen(dump, f"stress_{part}")
     del dump.fields[f"Stress {part} [Pa]"]
+    made = figures.chosen(dump, f"stress_{part}")
+    np.testing.assert_allclose(made.values, written.values, rtol=1e-6, atol=1e-3)
+    assert made.label == written.label
+
+
+@pytest.mark.parametrize("part", ["rr", "zz", "tt"])
+def test_the_old_name_of_a_deviator_is_reported_where_the_total_stress_cannot_be_made(dump, part):
+    del dump.fields[f"Stress {part} [Pa]"]
+    del dump.fields["Pressure [Pa]"]
     with pytest.raises(FigureError, match=f"up to version 0.3, stress_{part} was the name of deviator_{part}"):
         figures.chosen(dump, f"stress_{part}")
     assert figures.chosen(dump, f"deviator_{part}").label.startswith(f"Deviatoric Stress {part} ")

@@ -59,10 +59,10 @@ def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
                "exit_time_s": 60e-6}
     write_json(under_way / "summary.json", summary | {"targets": {"plate": {"exit_time_s": 60e-6}}})
     shown = said(under_way, capsys)
-    assert shown["through"] == "plate; nose 50.00 mm behind the first face"
+    assert shown["through"] == "plate; nose 50.00 mm beyond its front face"
     assert "depth" not in shown
     write_json(under_way / "summary.json", summary | {"nose_depth_m": 0.03, "targets": {"plate": {"exit_time_s": 60e-6}}})
-    assert said(under_way, capsys)["through"] == "plate; nose 30.00 mm behind the first face"
+    assert said(under_way, capsys)["through"] == "plate; nose 30.00 mm beyond its front face"
     write_json(under_way / "summary.json", summary | {"exit_time_s": None, "targets": {"plate": {"exit_time_s": None}}})
     assert said(under_way, capsys)["depth"].startswith("50.00 mm")
 

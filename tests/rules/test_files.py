@@ -1,11 +1,15 @@
 """Rules that every file of the repository obeys, and the required contents of a wheel."""
 
+import os
 import re
+import shutil
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 
 from tests.rules import source
 
@@ -103,11 +107,64 @@ def test_messages_and_pages_name_extras_that_there_are():
 
 
 def test_versions_agree():
+    """CITATION names the newest release of the change log, and the version is the next one in the making, or that release."""
     from hydro2d.base.version import __version__
 
-    assert project()["project"]["version"] == __version__
-    assert f"\nversion: {__version__}\n" in (source.ROOT / "CITATION.cff").read_text()
-    assert f"## [{__version__}]" in (source.ROOT / "CHANGELOG.md").read_text()
+    log = (source.ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    headings = re.findall(r"^## \[(.*?)\](?: - (\S+))?$", log, re.M)
+    newest, day = next(heading for heading in headings if heading[1])
+    citation = (source.ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {newest}\ndate-released: {day}\n" in citation
+    if headings[0][0] == "Unreleased":
+        numbers = [[int(part) for part in version.removesuffix(".dev0").split(".")] for version in (newest, __version__)]
+        assert __version__.endswith(".dev0")
+        assert numbers[0] < numbers[1]
+    else:
+        assert __version__ == newest
+
+
+def test_a_release_is_made_from_the_name_of_its_tag(tmp_path):
+    """The tagged commit has the version everywhere, the next one opens the next version; nothing else changes."""
+    for name in ("hydro2d/base/version.py", "CHANGELOG.md", "CITATION.cff", "pyproject.toml"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source.ROOT / name, tmp_path / name)
+    with open(tmp_path / "pyproject.toml", "a", encoding="utf-8") as file:
+        file.write('\n[project.urls]\nRepository = "https://example.org/hydro2d"\n')
+
+    def git(*words):
+        return subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", *words], cwd=tmp_path, check=True,
+                              capture_output=True, encoding="utf-8").stdout
+
+    def release(tag):
+        names = {f"GIT_{who}_{what}": "a" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
+        return subprocess.run([sys.executable, source.ROOT / ".ci" / "release", tag], cwd=tmp_path, env=os.environ | names,
+                              capture_output=True, encoding="utf-8")
+
+    git("init", "-q")
+    assert "v0.4.0" in release("0.4.0").stderr
+    assert "the checkout has changes" in release("v9.8.7").stderr
+    git("add", ".")
+    git("commit", "-q", "-m", "before")
+    assert release("v9.8.7").returncode == 0
+    assert '"9.8.7"' in git("show", "v9.8.7:hydro2d/base/version.py")
+    day = re.search(r"^## \[9\.8\.7\] - (\d{4}-\d\d-\d\d)$", git("show", "v9.8.7:CHANGELOG.md"), re.M)[1]
+    assert "Unreleased" not in git("show", "v9.8.7:CHANGELOG.md")
+    cited = git("show", "v9.8.7:CITATION.cff")
+    address = re.escape('repository-code: "https://example.org/hydro2d"')
+    assert re.search(rf"^version: 9\.8\.7\ndate-released: {day}\nlicense: .*\n{address}$", cited, re.M)
+    assert '"9.9.0.dev0"' in (tmp_path / "hydro2d/base/version.py").read_text()
+    assert "## [Unreleased]\n\n## [9.8.7]" in (tmp_path / "CHANGELOG.md").read_text()
+    assert "exists" in release("v9.8.7").stderr
+
+
+def test_workflows_run_what_there_is():
+    """Each program of the repository that a step runs, and each deck; schemas of the forms are checked in .ci/run."""
+    steps = [step["run"] for file in sorted((source.ROOT / ".github" / "workflows").glob("*.yml"))
+             for job in yaml.safe_load(file.read_text(encoding="utf-8"))["jobs"].values()
+             for step in job["steps"] if "run" in step]
+    named = {word for step in steps for word in step.split() if word.startswith((".ci/", "problems/"))}
+    assert named >= {".ci/run", "problems/verification/sod_z.toml"}
+    assert [name for name in named if not (source.ROOT / name).is_file()] == []
 
 
 def test_the_readme_is_one_screen_and_a_page():

@@ -18,14 +18,14 @@ from hydro2d.measure.summary import Summary
 from hydro2d.output import ending
 from hydro2d.output.history import Columns
 from hydro2d.running import progress
-from hydro2d.running.progress import PACE_SECONDS, Clock, result
+from hydro2d.running.progress import FIRST_SECONDS, PACE_SECONDS, Clock, result
 
 
 class Pace:
     """A run of `cycles` cycles that take the given times; the first compiles for ten minutes."""
 
     def __init__(self, cycles=10_000):
-        self.now, self.sim = 0.0, SimpleNamespace(time=0.0, cycle=0)
+        self.now, self.sim = 0.0, SimpleNamespace(time=0.0, cycle=0, dt=0.0)
         self.clock = Clock(SimpleNamespace(time=None, cycles=cycles), clock=lambda: self.now)
         self.step(600.0)
         self.clock.begin(self.sim)
@@ -38,7 +38,19 @@ class Pace:
 
 def test_compilation_does_not_count():
     pace = Pace()
-    assert pace.step(0.01) == pytest.approx(0.01 * (10_000 - 2))
+    assert pace.step(FIRST_SECONDS) == pytest.approx(FIRST_SECONDS * (10_000 - 2))
+
+
+def test_the_short_steps_of_the_first_cycles_predict_no_long_run():
+    """A hundred cycles per second, whose steps grow from 0.01 ns to 10 ns within 150 cycles: 100 us take 100 s, not days."""
+    sim, now = SimpleNamespace(time=0.0, cycle=0, dt=1e-11), 0.0
+    clock = Clock(SimpleNamespace(time=1e-4, cycles=None), clock=lambda: now)
+    clock.begin(sim)
+    for _ in range(1000):
+        assert clock.look(sim).left is None or now >= FIRST_SECONDS
+        now, sim.time, sim.cycle, sim.dt = now + 0.01, sim.time + sim.dt, sim.cycle + 1, min(1.05 * sim.dt, 1e-8)
+        if now >= FIRST_SECONDS:
+            assert clock.look(sim).left == pytest.approx((1e-4 - sim.time) / 1e-8 * 0.01, rel=1e-6)
 
 
 def test_the_pace_is_that_of_the_last_minute():
@@ -65,7 +77,7 @@ def test_the_end_is_the_one_predicted_by_status():
     """A rod that slows by 2e6 m/s2 from 1000 m/s is below 10 m/s at 495 us, long before the end time."""
     stop = {"time": 1e-3, "cycles": None, "body": "rod", "speed_below": 10.0, "rebound": False}
     columns, now, clock = Columns(), 0.0, None
-    sim = SimpleNamespace(time=0.0, cycle=0)
+    sim = SimpleNamespace(time=0.0, cycle=0, dt=0.0)
     clock = Clock(SimpleNamespace(**stop), columns, lambda: now)
     clock.begin(sim)
     for number in range(41):
@@ -234,6 +246,8 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
             "targets": {"first": stopped}, "outcome": {"perforated": False}}
     assert "penetration depth     1.47 cm, P/D 1.473" in closing(**shot)
     assert "penetration depth     1.47 cm, P/D 1.473; 0.81 cm at the end" in closing(**shot | {"nose_depth_m": 8.1e-3})
+    short = shot | {"status": "done", "stop_reason": "end time", "rod_core_velocity_m_s": 763.2, "outcome": {"final": False}}
+    assert {"done: end time, still moving at 763 m/s", "depth so far          1.47 cm, P/D 1.473"} <= set(closing(**short))
     theory = "analytic, at rest     Tate 1.83 cm"
     said = closing([theory], **shot)
     assert said[said.index(theory) - 1].startswith("penetration depth")
@@ -244,7 +258,7 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     assert any(line.startswith("penetration depth") for line in one)
     both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through},
                              "outcome": {"perforated": True}})
-    assert "perforated            first, second; nose 1.46 cm behind the first face" in both
+    assert "perforated            first, second; nose 1.46 cm beyond the front face of first" in both
     assert not any(line.startswith("penetration depth") for line in both)
     assert "ejecta                2 g, 0.42 N s; momentum multiplication 1.210" in said
     assert not any(line.startswith("damage") for line in said)

@@ -1,8 +1,9 @@
 """A mesh that does not fit in memory is refused before any is allocated."""
 
-import os
+from types import SimpleNamespace
 
 import numpy as np
+import psutil
 import pytest
 
 from hydro2d.base.errors import DeckError
@@ -39,10 +40,10 @@ def test_a_mesh_beyond_the_machine(begin):
 
 def test_a_mesh_that_fills_most_of_the_memory_is_none_of_its_business(monkeypatch):
     small = deck.loads(TEXT)
-    pages = memory_needed.needed(small) // os.sysconf("SC_PAGE_SIZE")
-    monkeypatch.setattr(os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 2 * pages}[name])
+    there = SimpleNamespace(total=2 * memory_needed.needed(small))
+    monkeypatch.setattr(psutil, "virtual_memory", lambda: there)
     memory_needed.refuse_too_large(small)
-    monkeypatch.setattr(os, "sysconf", lambda name: {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": pages}[name])
+    there.total //= 2
     with pytest.raises(DeckError):
         memory_needed.refuse_too_large(small)
 

@@ -32,8 +32,6 @@ from hydro2d.study.records.study_directory import DONE, Case
 DRAWN = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m")
 DRAWN_OF_BODY = ("velocity_m_s", "kinetic_energy_J", "z_max_m")
 POINTS = 300
-#: speed above which it is given in whole m/s
-WHOLE_SPEED = 10.0
 
 
 class Setup(NamedTuple):
@@ -164,9 +162,7 @@ class Record:
             return "no summary"
         if self.outcome.final is not False:
             return ""
-        moving = abs(self.case.summary.rod_core_velocity_m_s or 0.0)
-        speed = f"{moving:.0f}" if moving >= WHOLE_SPEED else f"{moving:.3g}"
-        return f"reached its {self.case.summary.stop_reason}, still moving at {speed} m/s"
+        return f"reached its {outcome.cut(self.case.summary.stop_reason, self.case.summary.rod_core_velocity_m_s)}"
 
     @property
     def cut(self) -> bool:

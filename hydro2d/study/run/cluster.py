@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import resource
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -107,7 +106,14 @@ def local(workers: int, threads: int) -> Iterator:
 
 
 def _allow_files(number: int) -> None:
-    """Lets this process have so many open files at a time. Raises OSError if the system does not allow it."""
+    """Lets this process have so many open files at a time. Raises OSError if the system does not allow it.
+
+    Windows has no such limit.
+    """
+    try:
+        import resource
+    except ImportError:
+        return
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     if soft != resource.RLIM_INFINITY and soft < number:
         if hard != resource.RLIM_INFINITY and hard < number:
