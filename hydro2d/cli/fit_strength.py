@@ -21,8 +21,8 @@ def fit_strength(
     temperature: str | None = None,
     rate: str | None = None,
     heated_from: str | None = None,
-    table: Annotated[bool, Parameter(negative="")] = False,
-    beside: Annotated[list[str] | None, Parameter(negative="")] = None,
+    table: bool = False,
+    beside: list[str] | None = None,
     csv: Path | None = None,
     figure: Path | None = None,
 ) -> int:

@@ -2,8 +2,8 @@
 
     python -m problems.validation.plate_impacts [STUDY_DIRECTORY] [--check]
 
-prints a row for every run of plate_impacts_5083.toml, as results/plate_impacts.csv keeps them. Without a directory, the table of
-README.md is filled from the kept rows; with --check, only compared. `draw` makes the picture of how-to/free-surface-velocity.
+prints a row for every run of plate_impacts_5083.toml, as results/plate_impacts.csv keeps them. Without a directory, the table
+of README.md is filled from the kept rows; with --check, only compared. `draw` makes the picture of how-to/free-surface-velocity.
 """
 
 from __future__ import annotations
@@ -139,7 +139,8 @@ def draw(directory: Path | str, file: Path | str) -> None:
                 mine, rear = of_run(hydro2d.open_run(case.directory))
                 place.plot(begun(mine, rear), rear, linewidth=1.0, label=case.values["law"])
         place.plot(time, velocity, color="black", linewidth=1.4, label="measured")
-        place.set(xlim=(-0.05, 2.1), title=shot, xlabel="time after the elastic front [us]", ylabel="velocity of the rear [m/s]")
+        place.set(xlim=(-0.05, 2.1), title=shot, xlabel="time after the elastic front [us]")
+    axes[0].set_ylabel("velocity of the rear [m/s]")
     axes[0].legend(fontsize=7)
     figure.savefig(file, dpi=110)
     plt.close(figure)

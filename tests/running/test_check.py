@@ -57,7 +57,7 @@ def about_rod(overrides, deck=QUICK):
 
 #: cells of one size along the rod
 EVEN = ["mesh.reach=none", "mesh.cells_across=none", "mesh.fine=none", "mesh.z_start=-104.423273 mm",
-        'mesh.z=[{ to = 0.0, cells = 170 }, { cells = 37, across = "rod", cells_across = 5.5 }, { to = "101.352 mm", ratio = 1.12 }]']
+        'mesh.z=[{to=0.0, cells=170}, {cells=37, across="rod", cells_across=5.5}, {to="101.352 mm", ratio=1.12}]']
 
 
 def test_a_mesh_graded_along_the_rod_is_proposed_and_has_the_cells_that_were_promised():

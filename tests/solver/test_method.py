@@ -9,7 +9,7 @@ from hydro2d.solver.simulation import Simulation
 QUICK = "problems/cth_nose_shape/hemi_5083_1086_quick.toml"
 #: the mesh that the deck had when these numbers were made: a change of decks is none of the method
 MESH = ["mesh.reach=none", "mesh.z_start=-104.423273 mm",
-        'mesh.z=[{ to = 0.0, cells = 170 }, { cells = 37, across = "rod", cells_across = 5.5 }, { to = "101.352 mm", ratio = 1.12 }]']
+        'mesh.z=[{to=0.0, cells=170}, {cells=37, across="rod", cells_across=5.5}, {to="101.352 mm", ratio=1.12}]']
 LAYER = ["sliding.method=slip-layer", "sliding.boundary_layer=2", "sliding.slip_layer=2", "sliding.yield_factor=radius"]
 CYCLES = 60
 #: round-off on other processors and libraries, after so few cycles

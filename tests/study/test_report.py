@@ -217,7 +217,7 @@ def test_a_rod_that_left_the_mesh_has_gone_at_least_so_deep(tmp_path):
 
 def test_an_experiment_at_an_unknown_velocity_is_compared_with_nothing(tmp_path):
     """Another rod than the catalogue's: its experiment was measured at one velocity, and two are run."""
-    short = ("body.rod.length=60 mm",)
+    short = ("body.rod.length=60 mm", "tracer=[]")
     for speed in (1000, 1200):
         deck = fake.write_run(tmp_path / "runs" / f"v{speed}", speed, overrides=short) / "deck.toml"
         deck.write_text(deck.read_text() + '\n[experiment]\npenetration = 0.448\nsource = "a laboratory"\n')
