@@ -10,6 +10,7 @@ from hydro2d.measure.result import Number, Result, result
 
 if TYPE_CHECKING:
     from hydro2d.measure.penetrator import Projectile
+    from hydro2d.measure.summary import Summary
 
 DONE = "done"
 #: stop reasons of runs that were cut short, and the share of the impact velocity above which a projectile still moves
@@ -57,6 +58,17 @@ def cut(stop_reason: str | None, speed: float | None) -> str:
     """'end time, still moving at 763 m/s': how a run ended that was cut short; speed : of the core of the projectile, m/s"""
     speed = abs(speed or 0.0)
     return f"{stop_reason}, still moving at {f'{speed:.0f}' if speed >= WHOLE_SPEED else f'{speed:.3g}'} m/s"
+
+
+def so_far(summary: Summary) -> bool:
+    """Whether the projectile could have gone deeper when the run ended."""
+    return summary.outcome is not None and summary.outcome.final is False
+
+
+def ended_by(summary: Summary) -> str | None:
+    """The stop reason of a run; with the speed of a projectile that still moved at its end."""
+    moves = summary.status == DONE and so_far(summary)
+    return cut(summary.stop_reason, summary.rod_core_velocity_m_s) if moves else summary.stop_reason
 
 
 def beyond(targets: Iterable[str], nose: str) -> str:

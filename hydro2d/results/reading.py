@@ -17,6 +17,7 @@ from hydro2d.base.formats import in_html
 from hydro2d.deck import key_messages
 from hydro2d.files import checksums, toml
 from hydro2d.files.strange import within
+from hydro2d.measure import outcome
 from hydro2d.mesh.edges.registry import halved
 from hydro2d.output import history, snapshot, vtk
 from hydro2d.output.directory import DECK, HISTORY, STUDY, check_own
@@ -307,14 +308,14 @@ class Results:
         facts["run"] = "has not ended"
         if summary:
             time = summary.time_s
-            facts["run"] = (summary.stop_reason or "ended") + ("" if time is None else f" at {time * 1e6:.2f} µs")
+            facts["run"] = (outcome.ended_by(summary) or "ended") + ("" if time is None else f" at {time * 1e6:.2f} µs")
             if summary.trustworthy is False:
                 facts["not trustworthy"] = "; ".join(summary.faults)
         if summary.outcome and summary.outcome.perforated:
             left = summary.outcome.residual_velocity_m_s
             facts["through"] = ", ".join(summary.targets) + ("" if left is None else f", {left:.1f} m/s left")
         elif summary.penetration_depth_m is not None:
-            facts["depth"] = _millimetres(summary.penetration_depth_m)
+            facts["depth"] = _millimetres(summary.penetration_depth_m) + " so far" * outcome.so_far(summary)
         if summary.penetration_depth_m is not None:
             facts[self.projectile] = f"{_millimetres(summary.rod_length_m)} long, {summary.regime}"
         if self.measured_depth is not None:

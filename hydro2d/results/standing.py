@@ -10,7 +10,6 @@ from hydro2d.measure.regime import REGIMES
 from hydro2d.measure.summary import Summary
 from hydro2d.output import ending
 from hydro2d.output.directory import HISTORY
-from hydro2d.running.progress import ended_by
 
 
 def lines(run, status: str, message: str, progress: dict) -> list[str]:
@@ -25,7 +24,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
     now = _last(columns) | {name: value for name, value in dict(summary or progress).items() if value is not None}
     said = {"run": run.tables.get("title") or run.label, "state": status + (f": {message}" if message else "")}
     if summary:
-        said["state"] = f"{status}: {ended_by(summary) or message}"
+        said["state"] = f"{status}: {outcome.ended_by(summary) or message}"
     if now.get("time_s") is not None:
         said["time"] = f"{moment(now['time_s'])}, cycle {int(now.get('cycles', 0))}"
         if now.get("wall_s") is not None:
@@ -36,7 +35,7 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
         nose = number(now.get("nose_depth_m", now["penetration_depth_m"]), 1e3, ".2f", "mm")
         said["through"] = outcome.beyond(summary.targets, nose)
     elif now.get("penetration_depth_m") is not None:
-        said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm")
+        said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm") + " so far" * outcome.so_far(summary)
         if run.measured_depth is not None:
             said["depth"] += f", in the experiment {number(run.measured_depth, 1e3, '.2f', 'mm')}"
     if now.get("regime"):

@@ -19,7 +19,7 @@ from hydro2d.base.interrupt import lose_output
 from hydro2d.base.moving import LINE_SECONDS
 from hydro2d.base.terminal import duration, moment, number, say, several
 from hydro2d.measure import outcome
-from hydro2d.measure.outcome import DONE, EXACT, Outcome
+from hydro2d.measure.outcome import EXACT, Outcome
 from hydro2d.measure.result import unit
 from hydro2d.measure.summary import Conservation, Summary, Target
 from hydro2d.measure.wall_damage import NO_DAMAGE
@@ -339,17 +339,11 @@ def result(summary: Summary, theory: Sequence[str] = ()) -> list[str]:
     ]
 
 
-def ended_by(summary: Summary) -> str:
-    """The stop reason; with the speed of a projectile that still moved."""
-    moves = summary.status == DONE and summary.outcome and summary.outcome.final is False
-    return outcome.cut(summary.stop_reason, summary.rod_core_velocity_m_s) if moves else summary.stop_reason
-
-
 def _how_it_ended(summary: Summary) -> str:
     """'done: end time', or 'interrupted at 26.800 us (SIGINT); continue with: hydro2d run shot.toml --restart'."""
     why = re.fullmatch(r"interrupted \((.*)\)", summary.stop_reason)
     if summary.status != "interrupted" or why is None:
-        return f"{summary.status}: {ended_by(summary)}"
+        return f"{summary.status}: {outcome.ended_by(summary)}"
     return (f"interrupted at {moment(summary.time_s)} ({why[1]}); "
             f"continue with: {continuing(summary.provenance.command)}")
 
@@ -469,7 +463,7 @@ def _rod(summary: Summary, theory: Sequence[str]) -> list[str]:
         lines = [f"perforated            {outcome.beyond(summary.targets, at_end)}"]
     else:
         back = "" if at_end == largest else f"; {at_end} at the end"
-        depth = "depth so far" if came_to.final is False else "penetration depth"
+        depth = "depth so far" if outcome.so_far(summary) else "penetration depth"
         lines = [f"{depth:<21} {bound}{largest}{_over_length(summary)}{back}"]
     if experiment and experiment.penetration_m:
         measured = experiment.penetration_m

@@ -12,6 +12,7 @@ from hydro2d.files.locks import locked
 from hydro2d.files.whole import write_json
 from hydro2d.output import ending
 from hydro2d.results import standing, terminal_charts
+from hydro2d.results.reading import Results
 from tests.results import made_run
 
 
@@ -65,6 +66,19 @@ def test_a_projectile_that_has_gone_through_has_no_depth(under_way, capsys):
     assert said(under_way, capsys)["through"] == "plate; nose 30.00 mm beyond its front face"
     write_json(under_way / "summary.json", summary | {"exit_time_s": None, "targets": {"plate": {"exit_time_s": None}}})
     assert said(under_way, capsys)["depth"].startswith("50.00 mm")
+
+
+def test_a_run_that_was_cut_short_has_a_depth_so_far(under_way, capsys):
+    (under_way / "progress.json").unlink()
+    summary = {"time_s": 70e-6, "status": "done", "stop_reason": "end time", "penetration_depth_m": 0.05,
+               "rod_core_velocity_m_s": 763.2, "outcome": {"final": False}}
+    write_json(under_way / "summary.json", summary)
+    shown = said(under_way, capsys)
+    assert (shown["state"], shown["depth"][:15]) == ("done: end time, still moving at 763 m/s", "50.00 mm so far")
+    assert "end time, still moving at 763 m/s at 70.00 µs, depth 50.0 mm so far" in repr(Results(under_way))
+    write_json(under_way / "summary.json", summary | {"outcome": {"final": True}})
+    shown = said(under_way, capsys)
+    assert (shown["state"], shown["depth"][:10]) == ("done: end time", "50.00 mm, ")
 
 
 def test_a_run_that_was_left(under_way, capsys):

@@ -9,6 +9,7 @@ import numpy as np
 
 from hydro2d.base.formats import shown
 from hydro2d.base.units import reader_unit
+from hydro2d.measure import outcome
 from hydro2d.measure.regime import REGIMES
 from hydro2d.output import history, station_arrays
 from hydro2d.output.directory import HISTORY
@@ -45,7 +46,7 @@ def contents(run, words: Iterable[str], bits: int) -> tuple[dict, str]:
     table = {
         "label": shown(run.label),
         "title": shown(run.tables.get("title", "")),
-        "ended": shown(run.summary.stop_reason or "") if run.summary else None,
+        "ended": shown(outcome.ended_by(run.summary) or "") if run.summary else None,
         "mirrored": state.mirrored,
         "bodies": [shown(body) for body in state.bodies],
         "measured": {"z": run.measured_position, "depth": run.measured_depth},
