@@ -179,7 +179,7 @@ def users(library: str) -> set[str]:
                    "hydro2d.measure.wall_damage", "hydro2d.measure.reach", "hydro2d.output.outlines",
                    "hydro2d.deck.mesh", "hydro2d.study.ensemble.chance", "hydro2d.study.ensemble.extrapolation",
                    "hydro2d.study.plan.distributions", "hydro2d.study.plan.sampling", "hydro2d.study.samples",
-                   "hydro2d.study.search.logit")),
+                   "hydro2d.study.search.ballistic", "hydro2d.study.search.logit")),
         ("plotly", ("hydro2d.study.report.charts", "hydro2d.study.report.page")),
         ("jinja2", ("hydro2d.study.report.page",)),
         ("pandas", ("hydro2d.study.records.runs", "hydro2d.study.records.sample_table", "hydro2d.study.records.table",

@@ -112,7 +112,7 @@ def _panel(axes, result: Transitions) -> None:
         label = f"MIL-STD-662F {each.military[0]:.1f} m/s"
         axes.axvline(each.military[0], color="C3", linestyle="--", linewidth=1.0, label=label)
     axes.set_ylim(-0.22, 1.22)
-    axes.set_yticks([0.0, 0.5, 1.0], [f"{slow}  0", "0.5", f"{fast}  1"], fontsize=7)
+    axes.set_yticks([0.0, 0.5, 1.0], [verbatim(f"{slow}  0"), "0.5", verbatim(f"{fast}  1")], fontsize=7)
     _finish(axes, f"{result.title}: {v50.V50 if each.limit else each.name}", "center right")
 
 
