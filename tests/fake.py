@@ -39,7 +39,7 @@ class FakeDeck:
         r, z = Segment(to=12e-3, cells=12), Segment(to=30e-3, cells=55)
         self.mesh, self.body, self.materials = Mesh(r=(r,), z_start=-25e-3, z=(z,)), (), {}
         self.sliding, self.failure, self.boundaries = Sliding(), Failure(), Boundaries(r_min="axis")
-        self.source, self.result = (), {}
+        self.source, self.result, self.penetration = (), {}, None
 
     def to_toml(self) -> str:
         return f"""\

@@ -42,8 +42,10 @@ EXPLOSIVES = ("TNT", "comp_B", "PBX9404")
 #: parts of an analytic model's inputs that describe materials, and inputs among them that do not
 OF_MATERIALS = ("rod", "target", "cavity", "poncelet")
 NOT_OF_MATERIALS = ("rod.length", "rod.diameter", "rod.mass", "target.thickness", "cavity.velocity")
-#: beginning of a line, and its end where there is no row
-HEAD, NONE = "experience", "none for this kind of shot"
+#: beginning of a line, its end where there is no row, and what it begins with where the shots were slower or faster
+HEAD, NONE, OUTSIDE = "experience", "none for this kind of shot", "outside its range of velocities; "
+#: share of a velocity by which a shot may be slower or faster than those of a row and still be of its range
+MARGIN = 0.05
 
 
 @dataclass(frozen=True)
@@ -130,6 +132,13 @@ class Experience:
         scatter = "" if self.scatter is None else f", scatter {100.0 * self.scatter:.0f} %"
         within = "" if self.numerical is None else f", {100.0 * self.numerical:.0f} % between runs of one shot"
         return f"computed/measured {self.bias:.2f}{interval}{scatter}{within}, {many}{missed} {about_it}"
+
+    def words_at(self, velocities: Iterable[float]) -> str:
+        """The row in a line, for shots at these impact velocities, m/s: it says so if one is outside the range of the row."""
+        if self.slowest is None or self.fastest is None:
+            return self.words
+        low, high = self.slowest * (1.0 - MARGIN), self.fastest * (1.0 + MARGIN)
+        return OUTSIDE * any(not low <= abs(velocity) <= high for velocity in velocities) + self.words
 
 
 def _range(low: float | None, high: float | None, unit: str) -> list[str]:
@@ -227,16 +236,17 @@ def _flies_at_wall(deck: decks.Deck) -> bool:
     return radial == 0.0 and axial != 0.0 and deck.body[0].flow is None and ahead == WALL
 
 
-def of_run(impact: Impact | None, regime: str | None, perforated: bool) -> list[str]:
+def of_run(impact: Impact | None, regime: str | None, perforated: bool, velocity: float | None = None) -> list[str]:
     """Lines of the experience with a kind of run: computed over measured values, or that there are none.
 
     regime : that of the rod at the end, None without a rod;  perforated : whether it left the target behind
+    velocity : of the impact, m/s; None if it is not known
     """
-    ended = regime if regime in GROWING and not perforated else ""
-    return [f"{HEAD}: {each}" for each in _of_run(impact, ended, perforated, regime == LEFT)]
+    ended, at = regime if regime in GROWING and not perforated else "", [] if velocity is None else [velocity]
+    return [f"{HEAD}: {each}" for each in _of_run(impact, ended, perforated, regime == LEFT, at)]
 
 
-def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool) -> Iterator[str]:
+def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool, velocities: list[float]) -> Iterator[str]:
     if impact is None:
         yield NONE
         return
@@ -244,7 +254,7 @@ def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool) -> 
     rows = [row for row in rows if perforated or row.quantity != RESIDUAL]
     predicted = {row.quantity for row in rows if not row.chosen}
     shown = [row for row in rows if not row.chosen or row.quantity not in predicted]
-    yield from (row.words for row in shown)
+    yield from (row.words_at(velocities) for row in shown)
     main = RESIDUAL if perforated else DEPTH
     struck = ended or perforated or left
     if struck and main not in {row.quantity for row in shown}:
@@ -253,13 +263,15 @@ def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool) -> 
         yield NONE
 
 
-def of_model(model: Model, rod: Material | None, target: Material | None, settings: Iterable[str] = ()) -> list[str]:
+def of_model(model: Model, rod: Material | None, target: Material | None, settings: Iterable[str] = (),
+             velocities: Iterable[float] = ()) -> list[str]:
     """Lines of the experience with an analytic model for a rod of one material and a target of another, or that there is none.
 
     It is that of the formula, with inputs from decks and the library, and not that of runs.
 
     rod, target : None for those of the model's example, of which there is none, since other inputs may replace their properties
     settings : names of the inputs that the user gives, such as "rod.length"; there is none with properties of materials
+    velocities : of the impacts, m/s
     """
     rows = [row for row in table() if row.of == model.name]
     if not rows:
@@ -269,7 +281,8 @@ def of_model(model: Model, rod: Material | None, target: Material | None, settin
     if own := ", ".join(sorted(filter(_of_materials, settings))):
         return [f"{HEAD} with this model: none with properties of materials that are given ({own})"]
     here = Impact(f"{substance(rod)} rod", substance(target))
-    shown = [row.words for row in rows if row.impact == here] or [f"{NONE} ({kind(DEPTH, here, '')})"]
+    at = list(velocities)
+    shown = [row.words_at(at) for row in rows if row.impact == here] or [f"{NONE} ({kind(DEPTH, here, '')})"]
     return [f"{HEAD} with this model: {words}" for words in shown]
 
 

@@ -16,7 +16,7 @@ _SEGMENTS = (
 
 
 _UNEVEN = "neighbouring cells that differ by more cannot transmit a wave"
-CellsAcross = Annotated[float, within(0.01, 1e6, "fewer resolve nothing, more do not fit on any machine")]
+CellsAcross = Annotated[float, within(1.0, 1e6, "fewer resolve nothing, more do not fit on any machine")]
 
 
 def radii(reach: float | str) -> float | None:

@@ -10,6 +10,7 @@ import numpy as np
 from hydro2d.deck.checks import AHEAD, AT_EDGE, mesh_edges, room, share_filled
 from hydro2d.deck.layout import axis_edges, extent, layout
 from hydro2d.deck.mesh import body, misfits
+from hydro2d.deck.mistakes import mistakes
 from hydro2d.deck.sections import Deck
 from hydro2d.deck.shapes.outlines import shared_volume
 from hydro2d.deck.thin import thin_things
@@ -29,7 +30,7 @@ def warnings(deck: Deck) -> list[str]:
     """Allowed but unwise choices, one sentence each, as `hydro2d check` and the start of a run show it."""
     return [*misfits(deck), *_coarse_rods(deck), *thin_things(deck), *_leaving(deck), *_stuck(deck),
             *_half_pressed(deck), *_jumps(deck), *_short_mesh(deck),
-            *_overlaps(deck), *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck)]
+            *_overlaps(deck), *_yielding_rods(deck), *_no_failure(deck), *_gases(deck), *_duds(deck), *mistakes(deck)]
 
 
 def _coarse_rods(deck: Deck) -> Iterator[str]:

@@ -35,6 +35,12 @@ _TOO_DEEP = f"tables or lists are nested more than {DEEPEST} deep"
 _TOO_LONG = "an integer has more than 18 digits; give a number with a decimal point"
 #: a key with too many parts, which tomllib would take long to read
 _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){40}""")
+#: what tomllib says where a quotation mark is missing
+ABOUT_QUOTES = ("invalid value", "expected newline", "illegal character")
+#: curly quotation marks, words of TOML that are no texts, and the longest value that a hint repeats
+CURLY, TOML_WORDS, LONGEST_HINT = "\u201c\u201d\u201e\u2018\u2019", ("true", "false", "inf", "nan"), 80
+#: a key, and the beginning of a text, or of a number with a unit, without quotation marks
+_KEY, _BARE = re.compile(r"[\w.-]+"), re.compile(rf"\[?\s*(?:[^\W\d]|[{CURLY}]|[+-]?[\d.]+\s*[^\W\d])")
 
 
 def is_study(data: dict) -> bool:
@@ -56,9 +62,26 @@ def parse(text: str, name: str) -> dict:
         message = str(problem)
         position = re.search(r"\(at line (\d+), column (\d+)\)", message)
         line = position.group(1) if position else str(text.count("\n") + 1)
-        raise DeckError(f"{name}:{line}: not valid TOML: {message.split(' (at ')[0].lower()}") from None
+        what = message.split(" (at ")[0].lower()
+        hint = _hint(text.split("\n")[int(line) - 1]) if what.startswith(ABOUT_QUOTES) else ""
+        raise DeckError(f"{name}:{line}: not valid TOML: {hint or what}") from None
     except ValueError:
         raise DeckError(f"{name}: {_TOO_LONG}") from None
+
+
+def _hint(line: str) -> str:
+    """What is wrong with the quotation marks of a line that is not valid; empty if that is not its mistake."""
+    key, _, rest = line.partition("=")
+    key, value = key.strip(), rest.partition("#")[0].strip()
+    if value[:1] in ("\"", "'") and value.count(value[0]) == 1:
+        return f"{key}: the text has no closing quotation mark"
+    inner = value.strip(CURLY)
+    if not _KEY.fullmatch(key) or not _BARE.match(value) or inner in TOML_WORDS:
+        return ""
+    if len(inner) > LONGEST_HINT or '"' in inner or (inner[0] == "[" and "," in inner):
+        return ""
+    opened = "[" * inner.startswith("[")
+    return f'a text needs quotation marks: {key} = {opened}"{inner.strip("[] ")}"{"]" * bool(opened)}'
 
 
 def within_limits(data, name: str):

@@ -7,7 +7,7 @@ the library has its source and a confidence. Doubtful printed values are kept as
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from hydro2d.base.errors import DeckError, unknown
 from hydro2d.files.key_lines import Sources
@@ -29,6 +29,12 @@ __all__ = [
     "names",
     "resolve",
 ]
+
+#: how the names of the materials of a metal begin that is no material itself; those of others begin with its name and "_"
+FAMILIES = {
+    "aluminium": "Al", "aluminum": "Al", "al": "Al", "copper": ("copper_", "Cu_"), "cu": ("copper_", "Cu_"),
+    "iron": ("iron_", "Fe_"), "fe": ("iron_", "Fe_"), "titanium": "Ti_",
+}
 
 
 @functools.cache
@@ -75,6 +81,16 @@ def names() -> list[str]:
     return sorted(_library()[0])
 
 
+def _no_material(name: str, allowed: Iterable[str]) -> str:
+    """The message for an unknown material: the materials of its family, if it is the name of one, else the nearest names."""
+    begins = FAMILIES.get(name.lower())
+    family = sorted(each for each in allowed
+                    if (each.startswith(begins) if begins else each.lower().startswith(f"{name.lower()}_")))
+    if family:
+        return f'unknown material "{name}"; of this kind are {", ".join(family)}'
+    return unknown("material", name, allowed)
+
+
 def parted(text: str) -> tuple[str, list[str]]:
     """Name and variants of NAME:VARIANT, or of NAME:VARIANT:VARIANT; without a colon there are none."""
     name, *variants = text.split(":")
@@ -90,7 +106,7 @@ def load(text: str, variant: str | None = None) -> Material:
         return DeckError(f"{sources.where((name, *path), tables)}: material {name}: {message}")
 
     if name not in tables:
-        raise DeckError(unknown("material", name, tables))
+        raise DeckError(_no_material(name, tables))
     return build(text, _varied(tables[name], named or variant, fail), fail, True)
 
 
@@ -100,7 +116,7 @@ def problem(text: str, own: Mapping[str, object]) -> str | None:
     if text in own or name in own:
         return None  # a deck's own tables are checked separately
     if name not in names():
-        return unknown("material", name, {*own, *names()})
+        return _no_material(name, {*own, *names()})
     known = _library()[0][name].get("variants", {})
     return next((f"{name}: {unknown('variant', variant, known)}" for variant in variants if variant not in known), None)
 
@@ -146,7 +162,7 @@ def _based(name: str, tables: Mapping[str, dict], fail: Fail, chain: tuple[str, 
         raw = _varied(_library()[0][of_library], variants, lambda path, text: fail((name, "based_on"), text))
         raw = _overlaid(raw, own)
     else:
-        raise fail((name, "based_on"), unknown("material", str(base), {*names(), *tables} - {name}))
+        raise fail((name, "based_on"), _no_material(str(base), {*names(), *tables} - {name}))
     return _varied(raw, own.get("variant"), lambda path, text: fail((name, *path), text), own)
 
 

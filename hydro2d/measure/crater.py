@@ -24,7 +24,8 @@ class Hole(Result):
         "in the first row below the surface from which the wall is steeper than 45 degrees; null if there is no hole, if its "
         "entrance has closed, or if no wall of it is left")
     exit_diameter_m: Number = result(
-        "in the last such row, also beyond the rear face; null while the hole is not open at its end")
+        "in the last such row, also beyond the rear face; null while metal of the target closes the hole at its end, such as a "
+        "cap on the nose of the projectile that is still connected to the target")
     hole_diameter_m: Number = result(
         "in the narrowest such row of a hole that is open right through, whether the projectile went through or not; null "
         "while it is closed")

@@ -59,7 +59,8 @@ class Projectile(Result):
     rod_residual_mass_kg: Number = result("mass that has this velocity")
     rod_residual_length_m: Number = result("length of a projectile that has perforated the target")
     exit_time_s: Number = result("time at which its leading end was its radius beyond the rear of the last target; null before")
-    regime: str | None = result("rigid, deforming, eroding or left the mesh")
+    regime: str | None = result(
+        "rigid, deforming, eroding or left the mesh: what became of the projectile itself, whether it went through or not")
 
 
 class Passage(Result):

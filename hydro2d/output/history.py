@@ -3,8 +3,9 @@
 Every dataset has the attribute `units` and `time` as its dimension scale, so that xarray can open the file directly. Datasets
 of tracers and gauges have the station as a second dimension, see station_arrays.py. The group `crater` is the hole in the first
 target, its radius over its axial positions; those of further targets are `crater_NAME`. The group `debris_NAME` is the debris
-behind a target: the mass of each body by axial speed and by angle, and a list of fragments. The whole file is written under a
-temporary name and renamed each time, so a run that is killed leaves the last complete file.
+behind a target: the mass of each body by axial speed and by angle, and a list of fragments. The attributes of the root are the
+title of the run, the version of hydro2d and the text of the deck, so that a file alone says what it is of. The whole file is
+written under a temporary name and renamed each time, so a run that is killed leaves the last complete file.
 """
 
 from __future__ import annotations
@@ -39,6 +40,9 @@ if TYPE_CHECKING:
 DEBRIS = "debris"
 #: group of the hole in the first target, also the prefix of the groups of others, and its datasets
 CRATER, CRATER_COLUMNS = "crater", ("z_m", "radius_m")
+#: bytes that an attribute of HDF5 can have; a longer deck is left out
+LARGEST_ATTRIBUTE = 60_000
+
 
 class HistoryError(Error):
     """A history file that cannot be read."""
@@ -111,6 +115,7 @@ class History(Columns):
     ----------
     craters : axial positions and radii of the hole in each target, m, by its name, written as well; empty before the end of
         a run
+    about : attributes of the root of the file, texts by name
     debris : debris behind each target, by its name, likewise
     """
 
@@ -119,6 +124,7 @@ class History(Columns):
         self.path = Path(path)
         self.craters: dict[str, tuple[np.ndarray, np.ndarray]] = {}
         self.debris: dict[str, Debris] = {}
+        self.about: dict[str, str] = {}
         if rows:
             for name, values in read(self.path).items():
                 self._columns[name] = array("d", values[:rows].astype(float).tobytes())
@@ -141,6 +147,8 @@ class History(Columns):
 
     def _write(self) -> None:
         with replacing(self.path) as temporary, hdf5(temporary) as file:
+            texts = {name: text.replace("\0", " ") for name, text in self.about.items()}
+            file.attrs.update({name: text for name, text in texts.items() if len(text.encode()) <= LARGEST_ATTRIBUTE})
             time = _dataset(file, "time", self._columns.get("time", []))
             time.make_scale("time")
             kept = {kind: stations(self._columns, kind) for kind in KINDS}

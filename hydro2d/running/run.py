@@ -149,6 +149,7 @@ class Run:
         #: number of doubts that have been reported
         self._said = len(self.sim.doubts())
         self.history = self._history(rows, unwritten)
+        self.history.about = {"title": deck.title, "version": f"hydro2d {__version__}", "deck": self.deck_text}
         self.series = Series(self.directory, deck.output.fields, dumps)
         if self.series.repaired:
             report.line(f"warning: {self.series.repaired}")

@@ -37,6 +37,22 @@ def test_a_line(table):
         "900 to 1200 m/s, 6 to 12 cells)"]
 
 
+@pytest.mark.parametrize(("velocity", "outside"), [(870.0, False), (1250.0, False), (-1000.0, False), (None, False),
+                                                   (500.0, True), (1300.0, True)])
+def test_a_velocity_outside_the_range_of_a_row_is_named(table, velocity, outside):
+    table(RIGID)
+    (line,) = experience.of_run(RODS, "rigid", False, velocity)
+    assert line.startswith("experience: outside its range of velocities; computed") == outside
+    assert line.endswith("900 to 1200 m/s, 6 to 12 cells)")
+
+
+def test_a_model_outside_the_range_of_its_row_says_so(capsys):
+    for velocity, outside in (("1200", False), ("3000", True)):
+        command = ["model", "tate", "--rod", "W_alloy", "--target", "Al5083", "--velocity", f"{velocity} m/s"]
+        assert call(command) == 0
+        assert ("outside its range of velocities" in " ".join(capsys.readouterr().out.split())) == outside
+
+
 @pytest.mark.parametrize(("changes", "words"), [
     ({"numerical": 0.05}, "scatter 13 %, 5 % between runs of one shot, 21 shots ("),
     ({"missed": 2}, "21 shots, and 2 that perforated where the measured one stopped ("),

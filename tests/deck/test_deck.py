@@ -689,6 +689,6 @@ def test_an_experiment_goes_with_its_velocity_and_target(override, depth):
 ])
 def test_an_experiment_goes_with_its_velocity_in_any_frame(rod, plate, depth):
     text = deck.find("cth_nose_shape/hemi_5083_1086.toml").read_text().replace('follow = "rod"\n', "")
-    moving = ["mesh.fine=none", f"body.rod.velocity={rod} m/s", f"body.plate.velocity={plate} m/s"]
+    moving = ["mesh.fine=none", "mesh.across=rod", f"body.rod.velocity={rod} m/s", f"body.plate.velocity={plate} m/s"]
     shot = deck.loads(text, moving).experiment
     assert (shot and shot.penetration) == depth

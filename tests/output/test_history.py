@@ -16,6 +16,15 @@ def filled(path, rows=5):
     return history
 
 
+def test_its_root_says_what_it_is_of(tmp_path):
+    history = filled(tmp_path / "history.h5")
+    history.about = {"title": "a \0 title, µ", "version": "hydro2d 1", "deck": "x" * 70_000}
+    history.write()
+    with h5py.File(tmp_path / "history.h5") as file:
+        assert dict(file.attrs) == {"title": "a   title, µ", "version": "hydro2d 1"}
+    assert len(read(tmp_path / "history.h5")["time"]) == 5
+
+
 def test_xarray_opens_it(tmp_path):
     xarray = pytest.importorskip("xarray")
     pytest.importorskip("h5netcdf")

@@ -259,6 +259,8 @@ def test_the_last_lines_tell_a_ball_from_a_rod_and_a_depth_from_a_hole():
     both = closing(**shot | {"nose_depth_m": 14.6e-3, "targets": {"first": through, "second": through},
                              "outcome": {"perforated": True}})
     assert "perforated            first, second; nose 1.46 cm beyond the front face of first" in both
+    assert "regime                deforming (shape of the ball, which went through)" in both
+    assert "regime                deforming" in said
     assert not any(line.startswith("penetration depth") for line in both)
     assert "ejecta                2 g, 0.42 N s; momentum multiplication 1.210" in said
     assert not any(line.startswith("damage") for line in said)

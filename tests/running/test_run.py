@@ -7,6 +7,7 @@ import time
 from contextlib import nullcontext
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import pytest
 
@@ -41,6 +42,11 @@ def test_run_directory(simulation, tmp_path):
     names = {path.name for path in (tmp_path / "a").iterdir()}
     assert {"deck.toml", "summary.json", "history.h5", "restart.h5", "log.txt", "series.pvd", "vtk"} <= names
     assert not [name for name in names if "tmp" in name]
+    with h5py.File(tmp_path / "a" / "history.h5") as file:
+        assert (tmp_path / "a" / "deck.toml").read_text().endswith(file.attrs["deck"])
+        assert "[penetration]" in file.attrs["deck"]
+        assert file.attrs["version"].startswith("hydro2d ")
+        assert file.attrs["title"] == fake.FakeDeck().title
     stored = json.loads((tmp_path / "a" / "summary.json").read_text())
     for key in ("deck", "version", "stop_reason", "time_s", "cycles", "wall_s", "ns_per_cell_cycle", "cells",
                 "penetration_depth_m", "nose_depth_m", "rod_length_m", "rod_mass_kg", "rod_max_plastic_strain",

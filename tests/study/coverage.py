@@ -2,6 +2,9 @@
 
 Every outcome is made up: it is logistic in velocity, with known v50 and width. The searches begin on several intervals, with
 seeds that no test uses. A search ends as `hydro2d transition` ends it: with its budget, or after two rounds of one outcome.
+
+`python -m tests.study.coverage plates [SEARCHES] [RUNS]` does the same for ballistic limits. Behind a made-up plate a shot has
+the residual velocity of Lambert and Jonas for a limit of its own, and a scatter on top of it.
 """
 
 from __future__ import annotations
@@ -12,9 +15,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+import pandas
 
+from hydro2d.penetration import lambert_jonas
 from hydro2d.study.ensemble import chance
-from hydro2d.study.search import logit, sequence
+from hydro2d.study.search import ballistic, logit, sequence
 
 #: the first seed; tests use those from 0 on
 FIRST = 500_000
@@ -60,6 +65,64 @@ def searched(true: Transition, seed: int, runs: int = 40) -> tuple[list[float], 
     return speeds, outcomes
 
 
+class Plate(NamedTuple):
+    """A made-up plate and the interval in which its limit is searched, m/s.
+
+    scatter, noise : standard deviations of the limits of single shots, and of the residual velocity about the curve;
+    a, p : of Lambert and Jonas
+    """
+
+    limit: float
+    scatter: float
+    noise: float
+    a: float
+    p: float
+    ends: tuple[float, float]
+
+
+#: limits that hardly scatter and that do; residual velocities that scatter; thin and thick plates; a limit near an end
+PLATES = (
+    Plate(331.0, 3.0, 0.0, 0.9, 2.3, (300.0, 700.0)),
+    Plate(331.0, 3.0, 5.0, 0.9, 2.3, (300.0, 700.0)),
+    Plate(331.0, 0.5, 0.0, 0.7, 2.0, (200.0, 500.0)),
+    Plate(331.0, 15.0, 3.0, 0.8, 2.5, (200.0, 700.0)),
+    Plate(900.0, 5.0, 10.0, 1.0, 3.0, (600.0, 1500.0)),
+    Plate(331.0, 3.0, 3.0, 0.95, 1.8, (320.0, 420.0)),
+)
+
+
+def perforated(true: Plate, seed: int, runs: int = 12) -> tuple[list[float], list[float]]:
+    """A search for the limit of a made-up plate: impact and residual velocities of its shots in m/s."""
+    rng = np.random.default_rng(seed)
+    speeds, left = [], []
+    while len(speeds) < runs and not (len(speeds) % ROUND == 0 and sequence.alike([each > 0.0 for each in left], ROUND)):
+        outcomes = [each > 0.0 for each in left]
+        speeds.append(sequence.next_speed(speeds, outcomes, true.ends, ROUND, seed, left))
+        own = true.limit + true.scatter * rng.normal()
+        behind = lambert_jonas.residual_velocity(speeds[-1], limit_velocity=own, a=true.a, p=true.p)
+        noisy = min(max(behind + true.noise * rng.normal(), 0.1), 0.999 * speeds[-1])
+        left.append(noisy if behind > 0.0 else 0.0)
+    return speeds, left
+
+
+def measure_limits(searches: int, runs: int) -> tuple[int, int]:
+    """Makes so many searches for the limit of each plate, prints how often intervals hold; counts of estimates and of these."""
+    print(" limit scatter noise    a    p  interval     told  held  median size of the interval, root mean square error, m/s")
+    told = held = 0
+    for number, true in enumerate(PLATES):
+        first = FIRST + number * searches
+        shots = [pandas.DataFrame(zip(*perforated(true, seed, runs), strict=True)) for seed in range(first, first + searches)]
+        found = [limit for each in shots if (limit := ballistic.of_shots(each[0], each[1])[0])]
+        hits = sum(within(true.limit, each.low, each.high) for each in found)
+        told, held = told + len(found), held + hits
+        size, error = _median([each.high - each.low for each in found]), [each.limit_velocity - true.limit for each in found]
+        columns = zip((true.limit, true.scatter, true.noise, true.a, true.p), (6, 7, 5, 4, 4), strict=True)
+        print(*(f"{value:{width}g}" for value, width in columns), f" {true.ends[0]:4g} to {true.ends[1]:4g} {len(found):5} "
+              f"{hits:5}  {size:.2f}, {math.sqrt(np.mean(np.square(error))):.2f}", flush=True)
+    print(f"{runs} runs: the 90 % interval holds the limit in {chance.wilson(held, told).words}")
+    return told, held
+
+
 def within(value: float, low: float | None, high: float | None) -> bool:
     """Whether an interval contains a value; an end that is None is open."""
     return (low is None or low <= value) and (high is None or value <= high)
@@ -96,4 +159,7 @@ def _median(values: Sequence[float]) -> float:
 
 
 if __name__ == "__main__":
-    measure(*map(int, sys.argv[1:] or (200, 40)))
+    if sys.argv[1:2] == ["plates"]:
+        measure_limits(*map(int, sys.argv[2:] or (100, 12)))
+    else:
+        measure(*map(int, sys.argv[1:] or (200, 40)))

@@ -200,7 +200,8 @@ def test_a_combination_whose_deck_is_wrong_does_not_sink_the_rest(tmp_path):
 def plate(velocity, deck):
     if not erodes(velocity, deck, 4.0):
         return {"regime": "rigid", "depth": 0.3}
-    return {"regime": "eroding", "depth": 0.54, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": 100.0,
+    left = 0.9 * max(velocity**2 - 1180.0**2, 400.0) ** 0.5
+    return {"regime": "eroding", "depth": 0.54, "exit_time_s": 4e-4, "rod_residual_velocity_m_s": left,
             "stop_reason": "perforation of plate"}
 
 

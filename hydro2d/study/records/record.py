@@ -216,7 +216,7 @@ class Record:
     @property
     def experience(self) -> list[str]:
         """How far results of such runs were from measurements, or that nobody knows; empty for a run that has not ended."""
-        return [] if self.unfinished else experience.of_run(self.impact, self.value("regime"), self.perforated)
+        return [] if self.unfinished else experience.of_run(self.impact, self.value("regime"), self.perforated, self.velocity)
 
     def value(self, name: str):
         """A result from the summary or, without a summary, from the last row of the history; None if there is neither."""

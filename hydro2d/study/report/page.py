@@ -95,19 +95,26 @@ def _transitions(contents: Contents) -> dict:
 
     Notes on an estimate from a budget that a picture already states are left out.
     """
-    combinations, chance = contents.transitions, contents.study.search.budget is not None
+    combinations = contents.transitions
     names = list(dict.fromkeys(bracket.name for each in combinations for bracket in each.brackets))
     with_notes = [(each, each.estimate.notes if is_drawn(each) else ()) for each in combinations]
     return {
-        "caption": ("90 % intervals of the impact velocity at which half of the shots end either way" if chance else
-                    "Impact velocities between which the regime changes"),
-        "heads": ["Combination", *(f"{name}: v50" if chance else name for name in names), "Known", "Models", "Runs"],
+        "caption": _caption(contents),
+        "heads": ["Combination", *names, "Known", "Models", "Runs"],
         "rows": [_of_combination(each, names) for each in combinations],
         "notes": [f"{each.title}: {note}" for each, known in with_notes for note in each.notes if note not in known],
         "criteria": regimes.criteria(contents.study),
         "of_rods": BY_NAME[contents.study.search.of].of_rod,
         "file": regimes.FILE,
     }
+
+
+def _caption(contents: Contents) -> str:
+    """What the brackets of a search are."""
+    if contents.study.search.budget is None:
+        return "Impact velocities between which the regime changes"
+    limit = "the ballistic limit and of " if any(each.estimate.limit for each in contents.transitions) else ""
+    return f"90 % intervals of {limit}v50, the impact velocity at which half of the shots end either way"
 
 
 def _ensembles(contents: Contents, choice: Choice) -> dict:

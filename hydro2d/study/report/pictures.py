@@ -99,6 +99,9 @@ def fitted(contents: Contents, folder: Path) -> Iterator[Picture]:
         figures.save_figure(chance_figure.draw([each]), file)
         estimate, fast = each.estimate, each.estimate.outcomes[1]
         drawn = "Dots: shots"
+        if estimate.limit:
+            drawn += ("; left: residual velocities, the fitted curve and the 90 % interval of the ballistic limit; "
+                      "right: outcomes")
         if estimate.fit:
             drawn += f"; line: fitted probability of \"{fast}\" with its 90 % band; bar at one half: 90 % interval of v50"
         said = "; ".join(estimate.notes)

@@ -12,6 +12,7 @@ import numpy as np
 from hydro2d.analytic.catalogue import InputError, lambert_jonas, recht_ipson
 from hydro2d.study.records.record import Record
 from hydro2d.study.records.responses import RESIDUAL, raw
+from hydro2d.study.search import ballistic
 
 if TYPE_CHECKING:
     import pandas
@@ -43,20 +44,21 @@ def shots(records: Sequence[Record]) -> pandas.DataFrame:
 def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Curve], list[str]]:
     """The models of a series between two impact velocities in m/s, and notes with their constants, or why one is missing."""
     ended, velocity = shots(records), np.linspace(low, high, POINTS)
-    drawn, notes, fit = [], [], None
+    drawn, notes = [], []
     stopped, through = (ended["velocity"][side] for side in (ended["residual"] == 0.0, ended["residual"] > 0.0))
-    two = through.nunique() == 2
-    try:  # three constants, or two with p = 2 if there are two perforations
-        fit = lambert_jonas.fit(ended["velocity"].tolist(), ended["residual"].tolist(), p=2.0 if two else None)
-    except InputError as error:
-        notes.append(f"Lambert-Jonas is not drawn: {error}")
+    if by_chance := _differ_by_chance(records):
+        fit, why = ballistic.of_shots(ended["velocity"], ended["residual"])
+        said = fit and f"ballistic limit {fit.in_words}, {fit.origin}"
+    else:
+        fit, why = _least_squares(ended["velocity"].tolist(), ended["residual"].tolist(), through.nunique() == 2)
+        said = why
+    if fit is None:
+        notes.append(f"Lambert-Jonas is not drawn: {why}")
     else:
         left = [lambert_jonas.residual_velocity(v, limit_velocity=fit.limit_velocity, a=fit.a, p=fit.p) for v in velocity]
         drawn.append(Curve("Lambert-Jonas", velocity, np.array(left)))
-        fixed = " (p = 2 taken, there are two perforations)" if two else ""
-        notes.append(f"Lambert-Jonas, fitted to these runs: a = {fit.a:.3f}, p = {fit.p:.3g}{fixed}, ballistic limit "
-                     f"{fit.limit_velocity:.0f} m/s, standard error {fit.standard_error:.1f} m/s")
-    if stopped.max() < through.min():
+        notes.append(f"Lambert-Jonas, fitted to these runs: {said}")
+    if stopped.max() < through.min() and not (by_chance and fit):
         limit = 0.5 * (stopped.max() + through.min())
         origin = f"midway between {stopped.max():.0f} m/s, stopped, and {through.min():.0f} m/s, through"
     elif fit:
@@ -70,6 +72,22 @@ def curves(records: Sequence[Record], low: float, high: float) -> tuple[list[Cur
             left = [recht_ipson.residual_velocity(v, limit_velocity=limit, plug_mass_ratio=mass_ratio) for v in velocity]
             drawn.append(Curve(name, velocity, np.array(left)))
     return drawn, [*notes, f"Recht-Ipson with a ballistic limit of {limit:.0f} m/s, {origin}; {why}"]
+
+
+def _differ_by_chance(records: Sequence[Record]) -> bool:
+    """Whether runs are shots of a search with a budget or members of an ensemble: their first time steps differ."""
+    return len({(record.deck.get("numerics") or {}).get("initial_dt_factor") for record in records}) > 1
+
+
+def _least_squares(velocities: Sequence[float], residuals: Sequence[float], two: bool) -> tuple[lambert_jonas.Fit | None, str]:
+    """The fit and its constants in words, or None and the reason; with two perforations p is 2."""
+    try:
+        fit = lambert_jonas.fit(velocities, residuals, p=2.0 if two else None)
+    except InputError as error:
+        return None, str(error)
+    fixed = " (p = 2 taken, there are two perforations)" if two else ""
+    return fit, (f"a = {fit.a:.3f}, p = {fit.p:.3g}{fixed}, ballistic limit {fit.limit_velocity:.0f} m/s, "
+                 f"standard error {fit.standard_error:.1f} m/s")
 
 
 def _plug(record: Record) -> tuple[float | None, str]:

@@ -1,4 +1,4 @@
-"""The files of a search with a budget: its shots as CSV, and a picture of the shots with the fitted curve and its band."""
+"""The files of a search with a budget: its shots as CSV, and a picture of them with the fitted curves."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydro2d.results.figures import verbatim
 from hydro2d.study.plan import draws
 from hydro2d.study.records import table
 from hydro2d.study.records.study_directory import Study
-from hydro2d.study.search import v50
+from hydro2d.study.search import ballistic, v50
 from hydro2d.study.search.regimes import Transitions
 
 CSV, PICTURE = "transition.csv", "transition.png"
@@ -47,19 +47,53 @@ def _table(study: Study, result: Transitions):
     for column, (section, name) in ((column, key.split(".")) for column, key in draws.KEYS.items()):
         shots[column] = [deck.get(section, {}).get(name) for deck in decks]
     speeds = shots["velocity_m_s"].to_numpy(float)
+    if estimate.ballistic:
+        shots["residual_velocity_m_s"] = estimate.shots["residual_velocity_m_s"]
+        shots["fitted_residual_velocity_m_s"] = estimate.limit.residual(speeds) if estimate.limit else None
     return shots.assign(fitted_probability=estimate.fit.probability(speeds) if estimate.fit else None)
 
 
 def draw(results: Sequence[Transitions]):
-    """A figure with a panel for each combination: shots as dots, probability of the outcome of fast shots, its 90 % band."""
-    columns = min(len(results), COLUMNS)
-    rows = -(-len(results) // columns)
+    """A figure with a panel for each combination: shots as dots, probability of the outcome of fast shots, its 90 % band.
+
+    A ballistic limit that is known has a panel of its own before it, with the residual velocities.
+    """
+    panels = [(part, each) for each in results for part in ([_residuals] if each.estimate.limit else []) + [_panel]]
+    columns = min(len(panels), COLUMNS)
+    rows = -(-len(panels) // columns)
     figure, axes = figures.new_figure(SIZE[0] * columns, SIZE[1] * rows, rows, columns)
-    for place, each in zip(axes.flat, results, strict=False):
-        _panel(place, each)
-    for place in axes.flat[len(results) :]:
+    for place, (part, each) in zip(axes.flat, panels, strict=False):
+        part(place, each)
+    for place in axes.flat[len(panels) :]:
         place.set_visible(False)
     return figure
+
+
+def _residuals(axes, result: Transitions) -> None:
+    """Residual velocities of the shots, the fitted curve, and the ballistic limit with its interval."""
+    each, limit = result.estimate, result.estimate.limit
+    left = ballistic.residuals(each.known)
+    speeds = each.known.loc[left.index, "velocity_m_s"].to_numpy(float)
+    for colour, of in (("C1", left == 0.0), ("C2", left > 0.0)):
+        axes.plot(speeds[of], left[of], "o", markersize=3.5, color=colour, alpha=0.8)
+    low, high = axes.get_xlim()
+    curve = np.union1d(np.linspace(low, high, POINTS), limit.limit_velocity)
+    axes.plot(curve, limit.residual(curve), color="C0", linewidth=1.4, label="Lambert-Jonas")
+    axes.axvspan(limit.low, limit.high, color="C0", alpha=0.2, linewidth=0, label="90 % interval")
+    axes.axvline(limit.limit_velocity, color="C0", linestyle="--", linewidth=1.0, label=f"limit {limit.limit_velocity:.1f} m/s")
+    axes.set_xlim(low, high)
+    axes.set_ylabel("residual velocity [m/s]", fontsize=8)
+    _finish(axes, f"{result.title}: {each.name}", "upper left")
+
+
+def _finish(axes, title: str, place: str) -> None:
+    """Title, abscissa, grid and legend of a panel."""
+    axes.set_xlabel("impact velocity [m/s]", fontsize=8)
+    axes.set_title(verbatim(title), fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.grid(alpha=0.3)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=7, loc=place)
 
 
 def _panel(axes, result: Transitions) -> None:
@@ -78,13 +112,8 @@ def _panel(axes, result: Transitions) -> None:
         label = f"MIL-STD-662F {each.military[0]:.1f} m/s"
         axes.axvline(each.military[0], color="C3", linestyle="--", linewidth=1.0, label=label)
     axes.set_ylim(-0.22, 1.22)
-    axes.set_yticks([0.0, 0.5, 1.0], [f"{slow}  0", "0.5", f"{fast}  1"], fontsize=7)
-    axes.set_xlabel("impact velocity [m/s]", fontsize=8)
-    axes.set_title(verbatim(f"{result.title}: {each.name}"), fontsize=8)
-    axes.tick_params(labelsize=7)
-    axes.grid(alpha=0.3)
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(fontsize=7, loc="center right")
+    axes.set_yticks([0.0, 0.5, 1.0], [verbatim(f"{slow}  0"), "0.5", verbatim(f"{fast}  1")], fontsize=7)
+    _finish(axes, f"{result.title}: {v50.V50 if each.limit else each.name}", "center right")
 
 
 def _dots(axes, each: v50.Estimate) -> None:

@@ -122,7 +122,8 @@ def fit_transition(speeds: Sequence[float], outcomes: Sequence[bool]) -> Fit | N
     if y.all() or not y.any() or v.min() == v.max() or np.mean(v[y]) <= np.mean(v[~y]):
         return None
     span = v.max() - v.min()
-    limits = (v.min() - BEYOND * span, v.max() + BEYOND * span), tuple(math.log(share * span) for share in SCALES)
+    slowest = max(v.min() - BEYOND * span, min(0.0, v.min()))  # no negative impact velocity
+    limits = (slowest, v.max() + BEYOND * span), tuple(math.log(share * span) for share in SCALES)
     best, top = _highest(limits, v, y)
     wider, below = _region(_box(best, limits, top, v, y), top, v, y)
     region = np.vstack([best, wider[below <= CHI2]])

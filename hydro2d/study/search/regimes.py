@@ -39,7 +39,9 @@ def criteria(study: Study) -> Mapping[str, str]:
     if study.search.budget is None:
         return kind.terms
     terms = {name: words for name, words in kind.terms.items() if name not in (FALL, LIMIT, perforation.LIMIT)}
-    return terms | v50.CRITERIA | (v50.MILITARY_CRITERION if kind.is_ballistic else {})
+    if kind.is_ballistic:
+        return v50.BALLISTIC_CRITERIA | terms | v50.CRITERIA | v50.MILITARY_CRITERION
+    return terms | v50.CRITERIA
 
 
 HEADS = ("velocity", "regime", "depth", "length", "radius", "core mass", "end")
@@ -101,7 +103,7 @@ class Transitions:
     runs : by velocity, as `judged` has them
     notes : open questions with reasons, regimes out of order, runs that did not end at rest
     comparison : models, experiments, the CTH study and, last, these runs; None if there is nothing to compare, as a note says
-    estimate : of a search with a budget, whose bracket is the interval of v50
+    estimate : of a search with a budget, whose brackets are intervals of the ballistic limit and of v50
     """
 
     title: str
@@ -184,7 +186,8 @@ def _transitions(study: Study, title: str, members: Sequence[Record]) -> Transit
         estimate = None
     else:
         estimate = v50.estimate(study.search, kind, in_turn)
-        brackets, settled, notes = [estimate.bracket], {estimate.name: estimate.spent}, estimate.notes
+        brackets, notes = estimate.brackets, estimate.notes
+        settled = {each.name: estimate.spent for each in brackets}
     comparison, problem = _compared(found, brackets[0]) if kind.of_rod else (None, "")
     notes += [*moving, *([problem] if problem else [])]
     return Transitions(title, values, brackets, settled, runs, notes, comparison, estimate)
@@ -202,6 +205,9 @@ def _by_bisection(search: Interval, runs: pandas.DataFrame, known: pandas.DataFr
         settled[name], why = _settled(bracket, search, runs)
         notes += [f"{name}: {why}"] if why else []
     notes += _disordered(outcomes, kind.order)
+    limit = v50.limit_of(known)[0] if kind.is_ballistic and len(known) else None
+    if limit is not None:
+        notes.insert(0, f"{perforation.LIMIT} = {limit.in_words}, {limit.origin}")
     if kind.of_rod:
         limit, disordered = _limit(known, found)
         brackets += [*_fall(known), *limit]

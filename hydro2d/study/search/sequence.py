@@ -10,6 +10,10 @@ width that is too small by chance would persist. Without a change of outcomes, a
 Shots at the best velocity would nearly all be repeats of two velocities. Each is therefore moved a little from it, at random:
 if the outcome depends on the velocity irregularly, shots then sample that irregularity, which repeats would not.
 
+If the outcome is perforation, and one shot was stopped and another one went through, the residual velocities say more than the
+outcomes (`ballistic`). From then on the shots of a round go to quantiles of the limits of single shots, most of them a little
+above the ballistic limit, where a residual velocity measures it best; no velocity is used twice.
+
 The shots of a round are chosen one after another without waiting for outcomes, so that they can run at the same time. Which
 velocities are chosen depends on the outcomes of earlier rounds alone, not on which run of a round ends first.
 
@@ -25,7 +29,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from hydro2d.study.search import logit
+from hydro2d.study.search import ballistic, logit
 
 #: share of its width by which a gap is widened at both ends, so that shots can show an overlap
 WIDER = 0.5
@@ -33,6 +37,10 @@ WIDER = 0.5
 SCATTER = 0.3
 #: number of candidate velocities in the interval
 CANDIDATES = 1001
+#: quantiles of the limits of single shots for the first and for the last shot of a round
+QUANTILES = (0.4, 0.97)
+#: velocities that differ by less, relative to the interval, are the same
+SAME = 1e-5
 
 
 def begin_of_round(number: int, size: int) -> int:
@@ -41,16 +49,41 @@ def begin_of_round(number: int, size: int) -> int:
 
 
 def next_speed(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: tuple[float, float], size: int,
-               seed: int = 0) -> float:
+               seed: int = 0, residuals: Sequence[float | None] | None = None) -> float:
     """The velocity of the next shot, m/s.
 
     speeds, outcomes : of all shots so far, None for those without a known outcome; outcomes of the round under way are not used
     ends : slowest and fastest velocity;  size : shots of a round;  seed : of the random part of the choice
+    residuals : of a search for a ballistic limit, residual velocities in m/s, 0 for a stopped shot, None if not known
     """
     begin = begin_of_round(len(speeds), size)
     place = len(speeds) - begin
     if begin == 0:
         return float(np.linspace(*ends, size)[place])
+    if residuals is None:
+        return _by_outcomes(speeds, outcomes, ends, begin, size, seed)
+    known = [(speed, left) for speed, left in zip(speeds[:begin], residuals, strict=False) if left is not None]
+    limit = ballistic.fit(*zip(*known, strict=True)) if any(left == 0.0 for _, left in known) else None
+    if limit is None:
+        return _unused(_by_outcomes(speeds, outcomes, ends, begin, size, seed), speeds, ends)
+    return _unused(float(np.quantile(limit.limits, np.linspace(*QUANTILES, size)[place])), speeds, ends)
+
+
+def _unused(speed: float, speeds: Sequence[float], ends: tuple[float, float]) -> float:
+    """The velocity in the interval nearest to one; if there was a shot at it, another one that is at least a step away."""
+    speed, span, before = float(np.clip(speed, *ends)), ends[1] - ends[0], np.array(speeds)
+    if np.abs(before - speed).min() > SAME * span:
+        return speed
+    step = span / max(CANDIDATES, 4 * len(before))
+    others = np.clip(np.concatenate([before - step, before + step]), *ends)
+    free = others[np.abs(others[:, None] - before).min(axis=1) > 0.5 * step]
+    return float(free[np.argmin(np.abs(free - speed))])
+
+
+def _by_outcomes(speeds: Sequence[float], outcomes: Sequence[bool | None], ends: tuple[float, float], begin: int, size: int,
+                 seed: int) -> float:
+    """The velocity of the next shot by the outcomes of the shots before `begin`, arguments as for `next_speed`."""
+    place = len(speeds) - begin
     before = [(speed, outcome) for speed, outcome in zip(speeds[:begin], outcomes, strict=False) if outcome is not None]
     fitted = logit.fit_transition(*zip(*before, strict=True)) if before else None
     if fitted is not None and fitted.overlap:

@@ -6,6 +6,7 @@ numbered from 1 in the order in which they are chosen, and keep number, velocity
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -21,7 +22,7 @@ from hydro2d.study.plan.planned import Plan, Planned, short
 from hydro2d.study.records import study_directory
 from hydro2d.study.records.keeping import MEMBER, OF_METHOD
 from hydro2d.study.records.study_directory import ENDED, WAITING, Case
-from hydro2d.study.search import regimes, sequence, v50
+from hydro2d.study.search import ballistic, regimes, sequence, v50
 from hydro2d.study.search.bisection import MOST_FAILED
 from hydro2d.study.search.searching import Searching
 
@@ -173,7 +174,17 @@ class Shots(Searching):
         if sequence.alike(outcomes, size):
             return None
         speeds = [velocities.speed(shot.values[velocities.AXIS]) for shot in group.shots]
-        return self._add(group, sequence.next_speed(speeds, outcomes, self.interval, size, self.search.budget.seed)).name
+        seed, left = self.search.budget.seed, self._residuals(before, cases)
+        return self._add(group, sequence.next_speed(speeds, outcomes, self.interval, size, seed, left)).name
+
+    def _residuals(self, shots: Sequence[Planned], cases: dict[str, Case]) -> list[float | None] | None:
+        """The residual velocity behind each shot's target, m/s, as `sequence.next_speed` takes it; None for other outcomes."""
+        if not BY_NAME[self.search.of].is_ballistic:
+            return None
+        if not shots:
+            return []
+        judged = regimes.judged([self.record(cases[shot.name]) for shot in shots], self.search)
+        return ballistic.residuals(judged).reindex(range(len(shots))).replace(math.nan, None).tolist()
 
     def _ended(self, shot: Planned, cases: dict[str, Case], under_way: Collection[str]) -> bool:
         """Whether a shot has ended in any way."""

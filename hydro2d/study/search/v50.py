@@ -1,4 +1,4 @@
-"""The result of a search with a budget: v50 and width of a transition whose outcome is partly chance, and uncertainties."""
+"""The result of a search with a budget: ballistic limit, v50 and width of an outcome that is partly chance, uncertainties."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ import numpy as np
 from hydro2d.analytic.model_transition import Bracket
 from hydro2d.files.whole import plain
 from hydro2d.study.outcomes.base import Outcome
+from hydro2d.study.outcomes.perforation import LIMIT
 from hydro2d.study.plan.velocities import Velocities
 from hydro2d.study.records.study_directory import DONE, Interval
-from hydro2d.study.search import logit, sequence
+from hydro2d.study.search import ballistic, logit, sequence
 
 if TYPE_CHECKING:
     import pandas
@@ -26,10 +27,24 @@ CRITERIA = {
     "width": "from the velocity with 10 % of the outcome of fast shots to that with 90 %",
     "90 % interval": "by the profile of the penalised likelihood; it is of chance on this mesh, not of the mesh or the models",
 }
+#: of a search for a ballistic limit, beside CRITERIA
+BALLISTIC_CRITERIA = {
+    LIMIT: "from impact and residual velocities by Lambert-Jonas, every shot with a limit of its own; the 90 % interval is "
+    "that of the posterior distribution, of chance on this mesh alone",
+}
 MILITARY_CRITERION = {
     "V50 of MIL-STD-662F": "mean velocity of the fastest stopped shots and as many of the slowest perforating ones: "
     + ", or ".join(f"{count} of each within {spread:g} m/s" for count, spread in MILITARY)
     + "; the spreads are not checked against the text of the standard"
+}
+
+
+#: name of the bracket of v50 beside that of a ballistic limit
+V50 = "v50"
+#: entries of transition.json about a ballistic limit
+OF_LIMIT = {
+    "ballistic_limit_m_s": "limit_velocity", "ballistic_limit_low_m_s": "low", "ballistic_limit_high_m_s": "high",
+    "limit_scatter_m_s": "scatter", "lambert_jonas_a": "a", "lambert_jonas_p": "p", "residual_velocities": "perforated",
 }
 
 
@@ -41,6 +56,7 @@ class Estimate:
         `regimes.judged` has them
     budget : number of runs allowed;  spent : whether no further run is to be made
     fit : None if the shots do not determine it
+    limit, no_limit : ballistic limit from residual velocities, or None and the reason; None and "" for other outcomes
     military : V50 of MIL-STD-662F in m/s, with the number of shots; None if no shots qualify; for a ballistic limit only
     """
 
@@ -51,15 +67,20 @@ class Estimate:
     spent: bool
     fit: logit.Fit | None
     ballistic: bool
+    limit: ballistic.Limit | None
+    no_limit: str
     military: tuple[float, int] | None
 
     @property
-    def bracket(self) -> Bracket:
-        """The interval of v50, as a bracket."""
+    def brackets(self) -> list[Bracket]:
+        """The intervals of the ballistic limit, if it is known, and of v50."""
         low, high = (self.fit.v50_low, self.fit.v50_high) if self.fit else (None, None)
         rounded = (None if end is None else round(end, 1) for end in (low, high))
         words = f"90 % interval of v50 = {self.fit.v50:.1f} m/s" if self.fit else "v50 is not known"
-        return Bracket(self.name, *rounded, words)
+        if self.limit is None:
+            return [Bracket(self.name, *rounded, words)]
+        ends, said = (round(self.limit.low, 1), round(self.limit.high, 1)), f"{self.limit.limit_velocity:.1f} m/s"
+        return [Bracket(self.name, *ends, f"90 % interval of {said}, from residual velocities"), Bracket(V50, *rounded, words)]
 
     @property
     def known(self) -> pandas.DataFrame:
@@ -85,10 +106,17 @@ class Estimate:
 
     @property
     def in_short(self) -> str:
-        """v50 and its interval, or why they are not known."""
+        """The ballistic limit or v50 and its interval, or why they are not known."""
         return self._in_words()[0]
 
     def _in_words(self) -> list[str]:
+        if self.limit is not None:
+            return [f"{self.name} = {self.limit.in_words}", self.limit.origin, *self._of_outcomes()]
+        no_limit = [f"no {self.name} from residual velocities: {self.no_limit}"] if self.no_limit else []
+        return [*self._of_outcomes(), *no_limit]
+
+    def _of_outcomes(self) -> list[str]:
+        """v50 and the width in words, or why they are not known."""
         if self.fit is None:
             return [self._unknown()]
         fit = self.fit
@@ -110,7 +138,9 @@ class Estimate:
         """For programs, SI."""
         names = ("v50", "v50_low", "v50_high", "width", "width_low", "width_high")
         numbers = {f"{name}_m_s": getattr(self.fit, name) if self.fit else None for name in names}
+        limit = {name: self.limit and getattr(self.limit, attribute) for name, attribute in OF_LIMIT.items()}
         return plain({
+            **(limit if self.ballistic else {}),
             "outcome": self.outcomes[1], "level": logit.LEVEL, **numbers, "overlap": self.fit and self.fit.overlap,
             "runs": self.done, "budget": self.budget,
             "mil_std_662f_m_s": self.military and self.military[0], "mil_std_662f_shots": self.military and self.military[1],
@@ -130,13 +160,20 @@ def estimate(search: Interval | Velocities, kind: type[Outcome], shots: pandas.D
     (slow, fast), known = kind.order, shots[shots["regime"].notna()]
     outcomes = [None if each is None else each == fast for each in shots["regime"]]
     speeds, successes = known["velocity_m_s"], known["regime"] == fast
+    limit, no_limit = limit_of(known) if kind.is_ballistic and len(known) else (None, "")
     return Estimate(
         name=kind.transitions[fast], outcomes=(slow, fast), shots=shots, budget=search.budget.runs,
         spent=bool((shots["status"] == DONE).all())
         and (len(shots) >= search.budget.runs or sequence.alike(outcomes, search.budget.round)),
         fit=logit.fit_transition(speeds, successes) if len(known) else None, ballistic=kind.is_ballistic,
-        military=military(speeds, successes) if kind.is_ballistic else None,
+        limit=limit, no_limit=no_limit, military=military(speeds, successes) if kind.is_ballistic else None,
     )
+
+
+def limit_of(shots: pandas.DataFrame) -> tuple[ballistic.Limit | None, str]:
+    """The ballistic limit from the residual velocities of shots with an outcome, or None and the reason."""
+    left = ballistic.residuals(shots)
+    return ballistic.of_shots(shots.loc[left.index, "velocity_m_s"].astype(float), left)
 
 
 def military(speeds: Sequence[float], perforated: Sequence[bool]) -> tuple[float, int] | None:
