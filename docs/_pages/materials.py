@@ -41,7 +41,7 @@ def _link(material, part: str) -> str:
     return f"[`{name}`](models.md#{name}{'-1' if double else ''})"
 
 
-def _rows(material) -> Iterator[tuple[str, str, object]]:
+def rows_of(material) -> Iterator[tuple[str, str, object]]:
     """Model, parameter and number of every number of a material."""
     for part in PARTS:
         model = getattr(material, part)
@@ -63,15 +63,15 @@ def _material(material) -> str:
     from hydro2d.materials import library
 
     heads = ("model", "parameter", "value", "unit", "confidence", "source")
-    rows = [(f"`{model}`", f"`{name}`", *_cells(number)) for model, name, number in _rows(material)]
+    rows = [(f"`{model}`", f"`{name}`", *_cells(number)) for model, name, number in rows_of(material)]
     parts = [f"## `{material.name}`", f"{prose(material.title)}."]
     if material.note:
         parts.append(f"{prose(material.note)}.")
     parts.append(table(heads, rows))
     for key, title in material.variants.items():
         parts.append(f"**Variant** `{key}`: {prose(title)}." if title else f"**Variant** `{key}`.")
-        base = {(model, name): number for model, name, number in _rows(material)}
-        varied = _rows(library.load(material.name, key))
+        base = {(model, name): number for model, name, number in rows_of(material)}
+        varied = rows_of(library.load(material.name, key))
         changed = [(model, name, number) for model, name, number in varied if base.get((model, name)) != number]
         parts.append(table(heads, ((f"`{model}`", f"`{name}`", *_cells(number)) for model, name, number in changed)))
     return "\n\n".join(parts)

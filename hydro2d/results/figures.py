@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 BODY_COLOURS = ("#5b6770", "#c9a66b", "#7aa6c2", "#a3b18a", "#b57ba6", "#d08c60", "#8d99ae", "#c05a5a")
+#: colour of void within the mesh, which no colour map of a field has; the viewer has the same on white
+VOID = "#d9dde3"
 HISTORIES = ("penetration_depth_m", "rod_tail_velocity_m_s", "rod_length_m", "rod_max_plastic_strain")
 COMPONENTS = {"r": 0, "z": 1}
 VECTORS = ("velocity", "velocity_hard", "velocity_soft")
@@ -147,6 +149,15 @@ def _fill(axes, path, colour: str) -> None:
     axes.add_patch(PathPatch(path, facecolor=colour, linewidth=0.0))
 
 
+def _draw_void(axes, dump: Dump) -> None:
+    """Fills the mesh with the colour of void, below all else."""
+    from matplotlib.patches import Rectangle
+
+    z, r = (1e3 * edges for edges in (dump.z_edges, dump.r_edges))
+    low = -r[-1] if dump.mirrored else r[0]
+    axes.add_patch(Rectangle((z[0], low), z[-1] - z[0], r[-1] - low, facecolor=VOID, linewidth=0.0, zorder=0))
+
+
 def _draw_outlines(axes, dump: Dump) -> None:
     from matplotlib.collections import LineCollection
 
@@ -184,6 +195,7 @@ def section(axes, dump: Dump, field: str = "pressure", mirror: str | None = None
     if mirror is not None and not dump.mirrored:
         raise FigureError(f'mirror = "{mirror}": a planar mesh without a plane of symmetry at r = 0 has no second half to show')
     limits, drawn, seen = limits or {}, [], cropped(dump, window)
+    _draw_void(axes, dump)
     for word, sign in ((field, 1), (mirror or field, -1)) if dump.mirrored else ((field, 1),):
         if word != "material" and word not in limits:
             limits = {**limits, word: scale.limits([chosen(seen, word).values])}

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
@@ -78,21 +79,39 @@ def within_aim(members: list[Result], shot: Shot) -> bool:
     return not through and abs(median(result.reach for result in members) / (1e2 * measured.depth) - 1.0) <= most
 
 
+@dataclass(frozen=True)
+class Score:
+    """What the runs of one column have right.
+
+    shots : those that were run;  members, right : their members, and how many of these end as the experiment did
+    sure : shots of which nine in ten members do;  aimed : shots whose depth is within the aim
+    """
+
+    shots: tuple[Shot, ...]
+    members: int
+    right: int
+    sure: tuple[Shot, ...]
+    aimed: tuple[Shot, ...]
+
+
+def score(cases: dict[Shot, list[Result]]) -> Score | None:
+    """The score of a column by its members of every shot; None if none of the shots was measured."""
+    sides = rigid()
+    known = {shot: members for shot, members in cases.items() if shot in sides}
+    rights = {shot: right(members, sides[shot]) for shot, members in known.items()}
+    sure = tuple(shot for shot, members in known.items() if 10 * rights[shot] >= 9 * len(members))
+    aimed = tuple(shot for shot, members in known.items() if within_aim(members, shot))
+    return Score(tuple(known), sum(map(len, known.values())), sum(rights.values()), sure, aimed) if known else None
+
+
 def scores(found: dict[str, dict[Shot, list[Result]]], head: str = "law") -> list[str]:
     """Lines of Markdown: what every column has right; ``head`` says what the columns are."""
-    sides = rigid()
     lines = [f"| {head} | shots | members on the right side | shots with nine in ten on it | depths within the aim |",
              "|---|---|---|---|---|"]
     for column, cases in found.items():
-        known = {shot: members for shot, members in cases.items() if shot in sides}
-        if not known:
-            continue
-        rights = {shot: right(members, sides[shot]) for shot, members in known.items()}
-        sure = sum(10 * rights[shot] >= 9 * len(members) for shot, members in known.items())
-        aims = sum(within_aim(members, shot) for shot, members in known.items())
-        members = sum(map(len, known.values()))
-        share = hydro2d.wilson(sum(rights.values()), members)
-        lines.append(f"| {column} | {len(known)} | {share.words} | {sure} | {aims} |")
+        if told := score(cases):
+            share = hydro2d.wilson(told.right, told.members)
+            lines.append(f"| {column} | {len(told.shots)} | {share.words} | {len(told.sure)} | {len(told.aimed)} |")
     return lines
 
 

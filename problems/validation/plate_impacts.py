@@ -3,7 +3,7 @@
     python -m problems.validation.plate_impacts [STUDY_DIRECTORY] [--check]
 
 prints a row for every run of plate_impacts_5083.toml, as results/plate_impacts.csv keeps them. Without a directory, the table
-of README.md is filled from the kept rows; with --check, only compared. `draw` makes the picture of how-to/free-surface-velocity.
+of README.md is filled from the kept rows; with --check, only compared. `draw` makes the picture of how-to/free-surface-velocity
 """
 
 from __future__ import annotations

@@ -215,7 +215,8 @@ def test_a_run_does_not_end_while_the_tail_feeds_the_head():
 def ball(*options):
     text = (shipped.problems_folder() / "perforation" / "sphere.toml").read_text()
     text = text.replace("cells = 25", "cells = 9").replace("cells_across = 12.5", "cells_across = 4.5")
-    stands = ['mesh.follow="none"', 'mesh.z_start="-12 mm"', 'mesh.z=[{ cells = 44, size = "1.1 mm" }]']
+    stands = ['mesh.follow="none"', 'mesh.z_start="-12 mm"', 'mesh.z=[{ cells = 44, size = "1.1 mm" }]',
+              'stop.perforation="tail"', 'stop.time="60 us"']
     return Simulation(deck.loads(text.replace("1500 m/s", "5.8 km/s"), [*stands, *options]))
 
 

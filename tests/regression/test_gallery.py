@@ -108,7 +108,7 @@ def test_the_pictures_of_a_page_are_small_and_made_by_its_commands(file, docs):
         assert place.stat().st_size <= MOST
         with Image.open(place) as image:
             assert image.width <= docs["figures"].WIDTH
-        if file.name not in ("index.md", "gallery.md"):  # they show pictures of other pages, or of kinds and studies
+        if file.name != "gallery.md":  # it shows pictures of kinds and studies
             of_report = picture.startswith(f"{file.stem}_") and "hydro2d report " in steps
             assert picture in OTHERWISE or of_report or re.search(rf"(?<![\w-]){re.escape(picture)}", steps), picture
 

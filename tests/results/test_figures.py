@@ -38,6 +38,27 @@ def test_a_section_is_mirrored_and_in_readers_units(dump):
     assert np.isnan(shown[~filled]).all()
 
 
+def pixel(axes, z_mm, r_mm):
+    """The colour that a drawn figure has at a place, as a matplotlib colour."""
+    axes.figure.canvas.draw()
+    picture = np.asarray(axes.figure.canvas.buffer_rgba())
+    column, row = axes.transData.transform((z_mm, r_mm)).astype(int)
+    return tuple(picture[len(picture) - 1 - row, column, :3] / 255.0)
+
+
+def test_void_has_a_colour_that_no_pressure_has(dump):
+    """Of the mesh alone: beyond it a panel stays white, as a pressure of zero is drawn."""
+    from matplotlib.colors import to_rgb
+
+    z0, r1 = dump.z_edges[0], dump.r_edges[-1]
+    axes = figures.draw_sections([[(dump, "", None)]], "pressure", window=(z0 - 5e-3, dump.z_edges[-1], r1 + 3e-3)).axes[0]
+    empty = np.argwhere(~dump.filling(None).shown)
+    j, i = empty[len(empty) // 2]
+    for sign in (1, -1):
+        assert pixel(axes, 1e3 * dump.z_centres[j], sign * 1e3 * dump.r_centres[i]) == pytest.approx(to_rgb(figures.VOID))
+    assert pixel(axes, 1e3 * z0 - 3.0, 5.0) == pytest.approx((1.0, 1.0, 1.0))
+
+
 def labels(dump, field, mirror):
     """Labels of the colour bars, and the title and place of the legend if there is one."""
     axes, *bars = figures.draw_sections([[(dump, "", None)]], field, mirror).axes
