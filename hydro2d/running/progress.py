@@ -486,5 +486,5 @@ def _rod(summary: Summary, theory: Sequence[str]) -> list[str]:
         *_of_targets(summary.targets),
         f"{f'{body} length':<21} {number(shape.length_m, 1e2, '.2f', 'cm')}",
         f"largest plastic strain of the {body} {shape.max_plastic_strain:.3g}",
-        f"regime                {summary.regime}" + f" (shape of the {body}, which went through)" * bool(outcome.perforated),
+        f"regime                {summary.regime}" + f" (shape of the {body}, which went through)" * bool(came_to.perforated),
     ]
