@@ -16,7 +16,7 @@ from pathlib import Path
 
 import hydro2d
 from problems import kept
-from problems.cth_nose_shape import findings, members, probability, rigid_rod, transitions
+from problems.cth_nose_shape import findings, members, plate_laws, probability, rigid_rod, transitions
 
 HERE = Path(__file__).parent
 PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape"))
@@ -98,6 +98,7 @@ def _uncertain_notes(cells: float = USUAL) -> list[str]:
 
 TABLES: dict[str, Callable[[], list[str]]] = {
     "shots": _shots, "scores": _scores, "meshes": _meshes, "holes": _holes, "transitions": _transitions,
+    "laws_5083": lambda: plate_laws.table("5083"), "laws_7039": lambda: plate_laws.table("7039"),
     "hemispherical": _depths(HEMISPHERICAL),
     "ogival": _depths(OGIVAL),
     "ways": _of_advection(findings.scores),
