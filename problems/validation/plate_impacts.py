@@ -128,7 +128,7 @@ def _told(each: Features) -> list[str]:
 
 
 def draw(directory: Path | str, file: Path | str) -> None:
-    """A figure of the records and of the runs of a study directory, by shot."""
+    """A figure of the records and of the runs of a study directory, by shot; runs that no front has left are not in it."""
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 3, figsize=(12.0, 3.8), layout="constrained")
@@ -137,7 +137,8 @@ def draw(directory: Path | str, file: Path | str) -> None:
         for case in cases:
             if case.values["shot"] == shot:
                 mine, rear = of_run(hydro2d.open_run(case.directory))
-                place.plot(begun(mine, rear), rear, linewidth=1.0, label=case.values["law"])
+                if rear.max() > START:
+                    place.plot(begun(mine, rear), rear, linewidth=1.0, label=case.values["law"])
         place.plot(time, velocity, color="black", linewidth=1.4, label="measured")
         place.set(xlim=(-0.05, 2.1), title=shot, xlabel="time after the elastic front [us]")
     axes[0].set_ylabel("velocity of the rear [m/s]")
