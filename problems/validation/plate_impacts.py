@@ -97,12 +97,16 @@ def of_run(run: hydro2d.Run) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rows_of(directory: Path) -> list[tuple]:
-    """A row for every finished case of a study directory, in the order of COLUMNS."""
+    """A row for every finished case of a study directory, in the order of COLUMNS; names cases that have not what it asks for."""
     found = []
     for case in hydro2d.open_study(directory).cases:
         if case.status == "done":
             run = hydro2d.open_run(case.directory)
-            numbers = (f"{value:.4g}" for value in astuple(features(*of_run(run))))
+            try:
+                numbers = [f"{value:.4g}" for value in astuple(features(*of_run(run)))]
+            except ValueError as problem:
+                print(f"{case.name}: {problem}", file=sys.stderr)
+                continue
             found.append((case.values["shot"], case.values["law"], *numbers, run.summary.method))
     return found
 

@@ -22,7 +22,7 @@ from hydro2d import jit
 from hydro2d.cli.main import app, call
 from hydro2d.deck import deck as decks
 from hydro2d.deck import templates
-from hydro2d.files import toml
+from hydro2d.files import shipped, toml
 from hydro2d.study import study_parts
 from hydro2d.study.plan import cases
 from hydro2d.study.plan.scaling import AS_IT_IS
@@ -227,7 +227,8 @@ def folder(short, tmp_path, monkeypatch):
     """Prepares a reader's folder for a page; the runs that it assumes have been made once."""
     monkeypatch.setattr(cluster, "local", in_this_process)
     shutil.copytree(short / "problems", tmp_path / "problems")  # no rows of one page reach the next one
-    monkeypatch.setattr(templates, "problems_folder", lambda: tmp_path / "problems")
+    for module in (templates, shipped):
+        monkeypatch.setattr(module, "problems_folder", lambda: tmp_path / "problems")
     monkeypatch.chdir(tmp_path)
     threads = jit.threads()
 
