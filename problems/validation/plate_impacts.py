@@ -97,7 +97,7 @@ def of_run(run: hydro2d.Run) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rows_of(directory: Path) -> list[tuple]:
-    """A row for every finished case of a study directory, in the order of COLUMNS; names cases that have not what it asks for."""
+    """A row for every finished case of a study directory, in the order of COLUMNS; cases without its numbers are named."""
     found = []
     for case in hydro2d.open_study(directory).cases:
         if case.status == "done":
