@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from _pages.markdown import NOTE, prose, table
@@ -27,9 +28,19 @@ def page() -> str:
             for m in materials
         ),
     )
-    confidence = table(("confidence", "meaning"), ((f"`{word}`", text) for word, text in library.CONFIDENCE.items()))
-    words = f"The column *confidence* says how far a number can be trusted:\n\n{confidence}"
+    many = counts()
+    confidence = table(("confidence", "numbers", "meaning"),
+                       ((f"`{word}`", many[word] or "", text) for word, text in library.CONFIDENCE.items()))
+    words = f"The column *confidence* says how far a number can be trusted; variants are not counted:\n\n{confidence}"
     return "\n\n".join(["# Materials", lead, index, words, *map(_material, materials)])
+
+
+def counts() -> Counter[str]:
+    """How many numbers of the library have each confidence, without variants and without defaults of models."""
+    from hydro2d.materials import library
+
+    return Counter(number.confidence for name in library.names() for _, _, number in _rows(library.load(name))
+                   if number.confidence != "default")
 
 
 def _link(material, part: str) -> str:

@@ -24,8 +24,10 @@ VALUES = {"depth_m": "depth [cm]", "depth_cm": "depth [cm]",
           "force_GPa": "force over the section [GPa]"}
 #: most labels of a chart
 TICKS = 16
+LIMITS = ("limits.png", "python -m problems.perforation.limits --figure limits.png")
 #: studies whose picture is another page's: (picture, the command that draws it)
 OTHERS = {
+    **dict.fromkeys(("holes_psaap", "limits_ap_core", "limits_cone", "limits_psaap"), LIMITS),
     "weldox_velocities": ("weldox.png", "python -m problems.perforation.residual runs/weldox_velocities --figure weldox.png"),
     "whipple_shots": ("whipple_shots.png", "python -m problems.whipple.read --figure whipple_shots.png"),
     "drag": ("contact_skin.png", "hydro2d plot runs/drag/cases/contact_8.5 -o contact_skin.png --field plastic_strain --mirror "

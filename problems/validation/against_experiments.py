@@ -25,7 +25,7 @@ from problems.cth_nose_shape import heads, members, rigid_rod
 from problems.explosives import read as of_explosives
 from problems.handbook import compare
 from problems.long_rods import depths
-from problems.perforation import residual
+from problems.perforation import limits, residual
 from problems.validation import copper_bars
 
 HERE = Path(__file__).parent
@@ -71,6 +71,7 @@ class Set:
 ODERMATT = 0.03
 #: sets of which other files speak
 WELDOX, BAR = "steel rods through Weldox 460 E", "Taylor bar"
+LIMITS, BALLS = "ballistic limits of aluminium plates", "440C balls in 304 steel"
 SETS = (
     Set("tungsten into aluminium", "Scheffler, CTH nose-shape study, Table 2",
         "nothing: Steinberg and Guinan's law for the study's alloy, its fracture pressures, no friction, 8.5 cells",
@@ -110,6 +111,12 @@ SETS = (
         studied=False),
     Set("striker bar", "elastic waves, exact", "nothing: contact, 5 cells, one run",
         "run problems/verification/striker_bar.toml", studied=False, error=0.0),
+    Set(LIMITS, "Forrestal and others 2014, in the REL database; Borvik and others 2004, recalled",
+        "nothing: 8.5 and 10.5 cells, one run for each velocity; the damage of the plate of 6082 is that of 6061",
+        "sweep problems/perforation/limits_ap_core.toml"),
+    Set(BALLS, "surrogate model of the Caltech PSAAP centre: a formula fitted to shots",
+        "nothing by looking at results: the law of the ball is borrowed, the fracture strain of the plate, 1.2, is that of a "
+        "recalled reduction of area; 10.5 cells", "sweep problems/perforation/limits_psaap.toml"),
     Set("handbooks", "fits to experiments and theories: problems/handbook/results/expected.csv, written before the first run",
         "nothing: one run each", "run problems/handbook/bumper.toml", studied=False),
     Set("handbooks, decks changed", SAME,
@@ -273,6 +280,23 @@ def weldox(name: str) -> list[Row]:
     return rows
 
 
+def ballistic(name: str, fit: bool) -> list[Row]:
+    """Ballistic limits that were measured, or those of a formula; the meshes of a shot are its runs."""
+    rows = []
+    for each in (one for one in limits.measured() if one.fit == fit):
+        meshes = limits.meshes(each.deck)
+        rows.append(Row(name, each.shot, each.limit, "m/s", (meshes[0].limit,), digits=0, quantity="ballistic limit",
+                        around=(tuple(mesh.limit for mesh in meshes), len(meshes)), method=meshes[0].method))
+    return rows
+
+
+def balls(name: str) -> list[Row]:
+    """The limit and the holes of balls in 304 steel."""
+    return ballistic(name, fit=True) + [
+        Row(name, f"hole in {hole.thickness:g} mm, {hole.velocity:g} km/s", hole.measured, "mm2", (hole.computed,), digits=2,
+            quantity="area of the hole", method=hole.method) for hole in limits.holes()]
+
+
 def bars(name: str) -> list[Row]:
     """Taylor bars of copper: the length that is left."""
     return [Row(name, f"{bar.name}, {bar.velocity:g} m/s", bar.measured, "mm", bar.computed, quantity="length", digits=2,
@@ -319,7 +343,8 @@ def rows() -> dict[str, list[Row]]:
     sets = (*map(twelve, names, LAWS), eroding(others[0]),
             steel(others[1], "rigid_steel_rods.csv", target="Steinberg-Guinan", rod="1.6 GPa"),
             steel(others[2], "steel_rods_fitted.csv", rod="fit, Rc 38"), armour(others[3]), weldox(WELDOX), bars(BAR),
-            explosives(others[6]), gurney(others[7]), *map(single, SINGLE), *map(handbooks, names[-2:], (False, True)))
+            explosives(others[6]), gurney(others[7]), *map(single, SINGLE), ballistic(LIMITS, fit=False),
+            balls(BALLS), *map(handbooks, names[-2:], (False, True)))
     return dict(zip(names, sets, strict=True))
 
 

@@ -29,6 +29,7 @@ from problems import kept
 from problems.cth_nose_shape import heads, rigid_rod
 from problems.explosives import read as of_explosives
 from problems.long_rods import depths
+from problems.perforation import limits
 from problems.validation import against_experiments as against
 from problems.validation import copper_bars
 from problems.whipple import read as whipple
@@ -40,6 +41,7 @@ PAGE = PROBLEMS.parent / "docs" / "explanation" / "experience.md"
 SHOTS = ("series", "deck", "rod", "velocity_m_s", "depth_mm", "width_mm", "ended")
 
 RUNS, DEPTH, HOLE, RESIDUAL, PERFORATION = "hydro2d", "depth", "hole diameter", "residual velocity", "perforation"
+LIMIT = "ballistic limit"
 STAYED_RIGID, ERODED = "stayed rigid", "eroded"
 #: sets that against_experiments does not have, and whether something was chosen by looking at results
 HARDNESS = "tungsten into 4340 steel of four hardnesses"
@@ -204,6 +206,19 @@ def weldox() -> list[Shot]:
     return compared
 
 
+def ballistic() -> list[Shot]:
+    """Ballistic limits, on every mesh, and holes of balls."""
+    compared = []
+    for each in limits.measured():
+        meshes = limits.meshes(each.deck)
+        compared.append(Shot(against.BALLS if each.fit else against.LIMITS, LIMIT, impact(f"perforation/{each.deck}.toml"), "",
+                             tuple(mesh.limit / each.limit for mesh in meshes), velocity=round(each.limit),
+                             cells=tuple(mesh.cells for mesh in meshes), fit=each.fit))
+    return compared + [Shot(against.BALLS, HOLE, impact("perforation/psaap.toml"), "",
+                            (math.sqrt(hole.computed / hole.measured),), velocity=1e3 * hole.velocity, cells=(hole.cells,),
+                            fit=True) for hole in limits.holes()]
+
+
 def driven() -> list[Shot]:
     """Velocities of metal driven by an explosive: walls of cylinder tests as measured, final ones by Gurney's formula.
 
@@ -236,7 +251,7 @@ def shields() -> list[Shot]:
 
 def of_runs() -> list[Shot]:
     """All shots with kept runs."""
-    return [*twelve(), *eroding(), *rigid(), *long_rods(), *weldox(), *driven(), *bars(), *shields()]
+    return [*twelve(), *eroding(), *rigid(), *long_rods(), *weldox(), *ballistic(), *driven(), *bars(), *shields()]
 
 
 @dataclass(frozen=True)
@@ -410,10 +425,11 @@ def _models(experiences: Sequence[hydro2d.Experience]) -> list[str]:
 def notes() -> list[str]:
     """Lines below the tables: runs with a fault in the audit, and of an older version of the method, of files that tell."""
     folders = ("cth_nose_shape/results/twelve_shots", "validation/results/eroded_heads", "validation/results/rigid_steel_rods",
-               "validation/results/steel_rods_fitted", "perforation/results/weldox")
+               "validation/results/steel_rods_fitted", "perforation/results/weldox",
+               *(f"perforation/results/limits_{each.deck}" for each in limits.measured()))
     told = hydro2d.runs(*(PROBLEMS / f"{name}.csv" for name in folders))
     doubtful = (~told["trustworthy"]).sum()
-    faults = f"{doubtful} of {len(told)} runs of rods had a fault in the audit, such as a cell that is too cold."
+    faults = f"{doubtful} of {len(told)} runs of rods and balls had a fault in the audit, such as a cell that is too cold."
     method = hydro2d.method_note(told["method"])
     return [line for each in (faults if doubtful else "", method) if each for line in ("", each)]
 

@@ -213,6 +213,19 @@ def test_the_page_of_commands_has_every_command_and_argument():
     assert "| `--kind` | `section`, `history`, `line`, `xt`, `crater`, `debris`, `cutaway` | `section` |" in page
 
 
+def test_the_page_of_materials_says_how_many_numbers_are_how_sure():
+    """All numbers of the library, each once; at most a quarter are from memory."""
+    generator()
+    many = importlib.import_module("_pages.materials").counts()
+    page = generated()["materials.md"]
+    words = set(library.CONFIDENCE) - {"default", "deck"}
+    assert all(f"| `{word}` | {number} |" in page for word, number in many.items())
+    listed = sum(len(re.findall(rf"^\| `[^|]*` \| `[^|]*` \| [^|]* \| [^|]* \| {word} \|", part, re.MULTILINE))
+                 for part in (each.split("**Variant**")[0] for each in page.split("\n## ")) for word in words)
+    assert sum(many.values()) == listed
+    assert many["recalled"] < 0.25 * many.total()
+
+
 def test_the_page_of_materials_has_every_source_in_full():
     page = generated()["materials.md"].replace("\\", "")
     lost = []
