@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from _pages import materials
-from hydro2d.materials import library
 from hydro2d.penetration import catalogue
 from problems.cth_nose_shape import members, pages, rigid_rod
 from problems.validation import against_experiments
@@ -132,17 +131,11 @@ def analytic_models() -> int:
     return len(catalogue.MODELS)
 
 
-@functools.cache
-def confidences() -> list[str]:
-    """The confidence of every number of the material library."""
-    return [number.confidence for name in library.names() for _, _, number in materials.rows_of(library.load(name))]
-
-
 def library_numbers() -> int:
     """Numbers of the material library, without its variants and defaults of models."""
-    return len(confidences()) - confidences().count("default")
+    return materials.counts().total()
 
 
 def recalled() -> int:
     """Those of them that were quoted from memory."""
-    return confidences().count("recalled")
+    return materials.counts()["recalled"]

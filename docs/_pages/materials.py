@@ -39,7 +39,7 @@ def counts() -> Counter[str]:
     """How many numbers of the library have each confidence, without variants and without defaults of models."""
     from hydro2d.materials import library
 
-    return Counter(number.confidence for name in library.names() for _, _, number in _rows(library.load(name))
+    return Counter(number.confidence for name in library.names() for _, _, number in rows_of(library.load(name))
                    if number.confidence != "default")
 
 

@@ -294,15 +294,15 @@ def test_a_model_is_drawn_where_it_can_be_had(tmp_path, shots, titles, said):
 
 
 def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
-    axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm",),
-                                                               "80 mm": ("body.rod.length=80 mm",)}}
+    axes = {"velocity": fake.velocities(900, 1000), "length": {"60 mm": ("body.rod.length=60 mm", "tracer=[]"),
+                                                               "80 mm": ("body.rod.length=80 mm", "tracer=[]")}}
     contents = study(tmp_path, axes)
     drawn = panels.panels(contents, chosen(contents))
     assert [[each.label for each in panel.series] for panel in drawn] == [["length 60 mm", "length 80 mm"]]
     assert drawn[0].setup is None
     assert "several geometries" in list(panels.draw(contents, chosen(contents)))[0].notes[0]
     shutil.rmtree(tmp_path / "study")
-    shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm"), "long": ("body.rod.velocity=1000 m/s",)}
+    shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm", "tracer=[]"), "long": ("body.rod.velocity=1000 m/s",)}
     for name, overrides in shots.items():
         fake.write_run(tmp_path / "runs" / name, 950.0, text=fake.deck_text(*overrides))
     contents = collect(study_directory.load(tmp_path / "runs"))
