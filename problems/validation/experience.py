@@ -215,8 +215,8 @@ def ballistic() -> list[Shot]:
                              tuple(mesh.limit / each.limit for mesh in meshes), velocity=round(each.limit),
                              cells=tuple(mesh.cells for mesh in meshes), fit=each.fit))
     return compared + [Shot(against.BALLS, HOLE, impact("perforation/psaap.toml"), "",
-                            (math.sqrt(hole.computed / hole.measured),), velocity=round(1e3 * hole.velocity), cells=(hole.cells,),
-                            fit=True) for hole in limits.holes()]
+                            (math.sqrt(hole.computed / hole.measured),), velocity=round(1e3 * hole.velocity),
+                            cells=(hole.cells,), fit=True) for hole in limits.holes()]
 
 
 def driven() -> list[Shot]:

@@ -92,7 +92,7 @@ def test_model_files_next_to_a_deck_are_found_from_elsewhere(planted, tmp_path):
     command = [str(Path(sys.executable).with_name("hydro2d")), "check", str(tmp_path / "shot" / "shot.toml")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, found(planted)) == (0, ""), done.stderr
-    assert "strength voce" in done.stdout
+    assert "strength own-voce" in done.stdout
 
 
 def test_settings_of_matplotlib_in_the_current_directory_name_no_program(tmp_path):

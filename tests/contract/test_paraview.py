@@ -37,7 +37,7 @@ TRACERS = [[0.0, -19e-3], [3e-3, -10e-3], [2e-3, 30e-3]]
 #: the quick shot with two velocities in contact, on a rod and a plate cut short
 SHOT = [
     "body.rod.length='20 mm'", "body.plate.thickness='40 mm'", "sliding.method='contact'", "sliding.yield_factor='off'",
-    "mesh.z_start='-24 mm'", "mesh.z=[{to=0.0, cells=42}, {cells=80, across='rod', cells_across=6}]",
+    "mesh.reach=none", "mesh.z_start='-24 mm'", "mesh.z=[{to=0.0, cells=42}, {cells=80, across='rod', cells_across=6}]",
     "mesh.r=[{cells=18, across='rod', cells_across=6}]", "stop.time='8 us'", "output.vtk_interval='2 us'",
     "tracer=[" + ", ".join(f"{{name='t{n}', r='{r} m', z='{z} m'}}" for n, (r, z) in enumerate(TRACERS)) + "]",
 ]

@@ -71,8 +71,8 @@ def test_deck_runs(file):
 
 def test_quick_deck_begins_to_penetrate():
     """The quick deck on a rod and a plate cut short: the nose is in the plate, the rod as fast as before, nothing lost."""
-    short = ["body.rod.length='20 mm'", "body.plate.thickness='40 mm'", "mesh.z_start='-24 mm'", "tracer=[]",
-             "mesh.z=[{to=0.0, cells=42}, {cells=100, across='rod', cells_across=6}]"]
+    short = ["body.rod.length='20 mm'", "body.plate.thickness='40 mm'", "mesh.reach=none", "mesh.z_start='-24 mm'",
+             "tracer=[]", "mesh.z=[{to=0.0, cells=42}, {cells=100, across='rod', cells_across=6}]"]
     simulation = Simulation(decks.load(QUICK, short))
     while simulation.time < 12e-6:
         simulation.step()

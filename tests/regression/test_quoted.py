@@ -8,12 +8,13 @@ import pandas
 import pytest
 
 from hydro2d.cli.main import call
+from hydro2d.materials import library
 from tests.rules import source
 
 DOCS = source.ROOT / "docs"
 sys.path.insert(0, str(DOCS))
 import quoted  # noqa: E402
-from _pages import claims  # noqa: E402
+from _pages import claims, materials  # noqa: E402
 
 sys.path.remove(str(DOCS))
 
@@ -175,7 +176,7 @@ def test_the_shots_that_end_otherwise_lie_next_to_the_transition():
 def test_every_number_of_the_library_has_a_source():
     assert re.fullmatch(r"\d{3,}", str(claims.library_numbers()))
     assert 0 < claims.recalled() < claims.library_numbers()
-    assert set(claims.confidences()) <= set(claims.library.CONFIDENCE)
+    assert set(materials.counts()) <= set(library.CONFIDENCE)
 
 
 def test_the_command_says_what_it_takes():

@@ -106,7 +106,8 @@ def test_an_axis_must_not_set_keys_that_the_ensemble_changes(key, by):
 
 
 def test_an_axis_of_whole_meshes_may_be_combined_with_an_offset():
-    mesh = {"z_start": "-110 mm", "z": [{"to": "150 mm", "size": "1 mm"}]}
+    mesh = {"z_start": "-110 mm", "z": [{"to": "150 mm", "size": "1 mm"}],
+            "reach": "none", "cells_across": "none", "fine": "none"}
     plan = planned(axes=[{"name": "mesh", "variants": {"coarse": {"mesh": mesh}}}], by=["mesh offset"])
     assert decks.loads(plan[1].text).mesh.z_start == pytest.approx(-0.11 + 1e-3 * plan[1].changed["mesh offset"])
 

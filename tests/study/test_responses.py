@@ -302,7 +302,8 @@ def test_setups_share_a_figure_where_their_series_distinguish_them(tmp_path):
     assert drawn[0].setup is None
     assert "several geometries" in list(panels.draw(contents, chosen(contents)))[0].notes[0]
     shutil.rmtree(tmp_path / "study")
-    shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm", "tracer=[]"), "long": ("body.rod.velocity=1000 m/s",)}
+    shots = {"short": ("body.rod.velocity=900 m/s", "body.rod.length=60 mm", "tracer=[]"),
+             "long": ("body.rod.velocity=1000 m/s",)}
     for name, overrides in shots.items():
         fake.write_run(tmp_path / "runs" / name, 950.0, text=fake.deck_text(*overrides))
     contents = collect(study_directory.load(tmp_path / "runs"))

@@ -31,7 +31,8 @@ def begin(name: str, *overrides: str) -> Simulation:
 @pytest.mark.parametrize("name", table.MEASURES)
 def test_a_shot_begins_with_all_defaults(name):
     text = decks.find(f"{FOLDER}/{name}.toml").read_text(encoding="utf-8")
-    assert {"include", "numerics", "sliding"}.isdisjoint(tomllib.loads(text))
+    assert {"include", "numerics"}.isdisjoint(tables := tomllib.loads(text))
+    assert tables.get("sliding", {"method": "none"}) == {"method": "none"}  # the default, said
     simulation = begin(name)
     simulation.refuse_nonsense()
     assert simulation.faults() + simulation.doubts() == []

@@ -242,7 +242,8 @@ def shape(simulation):
     g, radius = simulation.grid, 3.3784e-3
     f = g.interior(simulation.state.vof[0])
     r, dz = g.r[g.g : g.g + g.nr + 1], g.dz[g.inside[0]]
-    tip = np.flatnonzero(f[:, 0] > 0.5).max()
+    filled = np.flatnonzero(f[:, 0] > 0.5)
+    tail, tip = filled.min(), filled.max()
     first = tip - round(2.5 * 5.5)
     heights = np.sum(f[first:] * dz[first:, None], axis=0)
     columns = np.flatnonzero(r[1:] < 0.95 * radius)
@@ -251,7 +252,7 @@ def shape(simulation):
     departure = (heights + np.diff(cap) / rings)[columns]  # from the mean height of the sphere over a ring, and a constant
     departure -= np.average(departure, weights=rings[columns])
     radii = np.sqrt(f @ rings)
-    return np.abs(departure).max() / dz[tip], radii[first - 110 : first].max() / radius
+    return np.abs(departure).max() / dz[tip], radii[tail + 2 : first].max() / radius
 
 
 def checkerboards(simulation):
