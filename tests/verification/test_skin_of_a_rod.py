@@ -31,6 +31,7 @@ def meshed(cells: float, shift: float = 0.0) -> list[str]:
     size = RADIUS / cells
     behind, ahead = round((LENGTH + 6.6) / size), round(6.7 * cells)
     return [
+        "mesh.reach=none",
         f'mesh.r=[{{cells={round(2.5 * cells)}, across="rod", cells_across={cells}}}, {{to="80 mm", ratio=1.15}}]',
         f'mesh.z_start="{(shift - behind) * size} mm"',
         f'mesh.z=[{{to="{shift * size} mm", cells={behind}}}, {{cells={ahead}, across="rod", cells_across={cells}}}, '
