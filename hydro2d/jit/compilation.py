@@ -131,8 +131,8 @@ class Compilation(events.Listener):
     def closing_lines(self) -> list[str]:
         """Lines for the log after the first cycle, once the kernels of a run are compiled. Ends the second process."""
         lines = []
-        if self.happened and self.seconds > self._reported:
-            done, _ = self.state
+        done, _ = self.state
+        if self.happened and done and self.seconds > self._reported:  # a slow load of compiled code is no compilation
             lines.append(f"compiled {several(done, 'kernel')} in {duration(self.seconds, tenths=True)}")
             self._reported = self.seconds
         status = self._second.stop() if self._second else None

@@ -19,7 +19,8 @@ from tests.study import fake
 
 #: the studies whose rows `rigid_rod` reads
 KEPT = sorted(source.PROBLEMS / name for name in (
-    "cth_nose_shape/results/advection.csv", "cth_nose_shape/results/rigid_rod_failure.csv",
+    "cth_nose_shape/results/advection.csv", "cth_nose_shape/results/plate_laws.csv",
+    "cth_nose_shape/results/rigid_rod_failure.csv",
     "cth_nose_shape/results/twelve_shots.csv", "cth_nose_shape/results/yield_factor.csv", "validation/results/eroded_heads.csv",
     "validation/results/eroding_rods.csv", "validation/results/rigid_steel_rods.csv",
     "validation/results/steel_rods_fitted.csv"))
