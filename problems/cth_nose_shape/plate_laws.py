@@ -10,11 +10,12 @@ FILE = rigid_rod.EXPERIMENTS.with_name("results") / "plate_laws.csv"
 STIFF = "cannot yield"
 
 
-def found() -> dict[tuple[str, str], dict[Shot, Result]]:
-    """The kept runs by laws of plate and rod, and by shot."""
+def found(*alloys: str) -> dict[tuple[str, str], dict[Shot, Result]]:
+    """The kept runs into plates of these alloys, by laws of plate and rod, and by shot."""
     runs: dict[tuple[str, str], dict[Shot, Result]] = {}
     for run in rigid_rod.read(FILE):
-        runs.setdefault((run.labels["plate"], run.labels["rod"]), {})[run.shot] = run
+        if run.shot.alloy in alloys:
+            runs.setdefault((run.labels["plate"], run.labels["rod"]), {})[run.shot] = run
     return runs
 
 
@@ -25,7 +26,7 @@ def as_measured(run: Result) -> bool:
 
 def table(alloy: str) -> list[str]:
     """Lines of Markdown: depth and length lost in a plate of this alloy, by law of the plate and of the rod."""
-    runs = {laws: cases for laws, cases in found().items() if next(iter(cases)).alloy == alloy}
+    runs = found(alloy)
     shots = sorted(next(iter(runs.values())), key=lambda shot: shot.velocity)
     measured = [rigid_rod.experiments()[shot] for shot in shots]
     heads = [f"{shot.velocity:g} m/s: {1e2 * each.depth:.1f} cm, {'rigid' if each.rigid else 'eroded'}"
@@ -41,5 +42,5 @@ def table(alloy: str) -> list[str]:
 
 def pairs() -> tuple[int, int]:
     """How many pairs of laws in 5083 end all three shots as measured, and how many pairs there are."""
-    of_5083 = [cases for (_, rod), cases in found().items() if rod != STIFF and next(iter(cases)).alloy == "5083"]
-    return sum(all(map(as_measured, cases.values())) for cases in of_5083), len(of_5083)
+    of_pairs = [cases for (_, rod), cases in found("5083").items() if rod != STIFF]
+    return sum(all(map(as_measured, cases.values())) for cases in of_pairs), len(of_pairs)

@@ -1,9 +1,9 @@
 """Laws of the plate and of the rod: what the page says of the kept rows."""
 
 import hydro2d
-from problems.cth_nose_shape import plate_laws
+from problems.cth_nose_shape import plate_laws, rigid_rod
 
-FOUND = plate_laws.found()
+FOUND = plate_laws.found(*rigid_rod.ALLOYS)
 STRONG, WEAK = ("Steinberg-Guinan", "Johnson-Cook, sintered"), ("Johnson-Cook, 90W", "Johnson-Cook, Y925")
 
 
