@@ -31,11 +31,11 @@ def lines(run, status: str, message: str, progress: dict) -> list[str]:
             said["time"] += f", {duration(now['wall_s'])} of computing"
     if not summary:
         said["end"] = _end(run.stop, columns, now, progress, run.projectile)
-    if summary.outcome and summary.outcome.perforated:
-        nose = number(now.get("nose_depth_m", now["penetration_depth_m"]), 1e3, ".2f", "mm")
-        said["through"] = outcome.beyond(summary.targets, nose)
-    elif now.get("penetration_depth_m") is not None:
-        said["depth"] = number(now["penetration_depth_m"], 1e3, ".2f", "mm") + " so far" * outcome.so_far(summary)
+    depth = now.get("penetration_depth_m")
+    if depth is not None and summary.targets and summary.outcome and summary.outcome.perforated:
+        said["through"] = outcome.beyond(summary.targets, number(now.get("nose_depth_m", depth), 1e3, ".2f", "mm"))
+    elif depth is not None:
+        said["depth"] = number(depth, 1e3, ".2f", "mm") + " so far" * outcome.so_far(summary)
         if run.measured_depth is not None:
             said["depth"] += f", in the experiment {number(run.measured_depth, 1e3, '.2f', 'mm')}"
     if now.get("regime"):

@@ -85,7 +85,7 @@ PRESUMED = {
     "docs/how-to/paraview.md": {"runs/shot": DECK},
     "docs/how-to/perforate-a-plate.md": {"runs/shot": DECK},
     "docs/how-to/restart.md": {"runs/shot": DECK},
-    "docs/how-to/uncertain-inputs.md": {"uncertain.toml": 0, "with_salib.toml": 3},
+    "docs/how-to/uncertain-inputs.md": {"uncertain.toml": 0, "both_laws.toml": 2, "with_salib.toml": 4},
     "docs/how-to/use-a-model.md": {"runs/a": DECK, "runs/b": DECK},
     "docs/how-to/write-a-deck.md": {"my_deck.toml": 0},
     "docs/reference/files.md": {"runs/shot": DECK},

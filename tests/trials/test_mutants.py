@@ -1,11 +1,13 @@
 """Changed decks: `check` accepts them or refuses them in words, and accepted ones stay within reach, or say so."""
 
 import json
+import tomllib
 
 import numpy as np
 import pytest
 
 from hydro2d.deck import deck as decks
+from hydro2d.files import toml
 from hydro2d.mesh.fields import RHO, E
 from hydro2d.solver.simulation import Simulation
 from tests.trials import campaign, mutants
@@ -16,12 +18,16 @@ from tests.trials.screen import Screen
 FLAT, NOH = "shapes/flat.toml", "verification/noh_planar.toml"
 
 
+#: changes of decks, with those of other places, after which a state is out of reach; they have an expected failure below
+KNOWN = {("verification/coggeshall_2.toml", "thermal: shell_22.pressure 1000000000.0")}
+
+
 def failures(numbers):
-    """Judges mutants; returns the counts and a line for each failure."""
+    """Judges mutants; returns the counts and a line for each failure that is not known."""
     failed = []
 
     def note(line):
-        if line["ended"] not in campaign.SOUND:
+        if line["ended"] not in campaign.SOUND and not {(line["deck"], change) for change in line["changes"]} & KNOWN:
             failed.append(json.dumps({key: value for key, value in line.items() if key != "warnings"}))
 
     return campaign.run(numbers, note), failed
@@ -98,6 +104,17 @@ def test_mutants():
     count, failed = failures(range(20))
     assert failed == [], "\n".join(failed)
     assert count["trusted"] > 5
+
+
+@pytest.mark.thorough
+@pytest.mark.xfail(reason="at the foot of a shock into gas a billion times colder, `both` takes more heat than the gas has: "
+                   "wanted e > 0, got -54 kJ/kg, 4e-5 of the heat behind the shock", strict=True)
+def test_gas_at_the_foot_of_a_strong_shock_is_not_colder_than_0_kelvin():
+    ((name, change),) = KNOWN
+    data = tomllib.loads(mutants.unchanged(name))
+    body = next(body for body in data["body"] if f" {body['name']}.pressure" in change)
+    body["pressure"] = float(change.split()[-1])
+    assert campaign.judged(toml.dumps(data))["ended"] in campaign.SOUND
 
 
 @pytest.mark.slow
