@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from hydro2d.solver.callbacks import every
     from hydro2d.solver.simulation import Simulation
     from hydro2d.study.ensemble.chance import bias_and_scatter, wilson
+    from hydro2d.study.ensemble.extrapolation import grid_convergence
     from hydro2d.study.plan.definition import StudyError
     from hydro2d.study.records.keeping import method_note
     from hydro2d.study.records.runs import runs
@@ -73,6 +74,7 @@ _PLACES = {
     "fit_transition": "hydro2d.study.search.logit",
     "wilson": "hydro2d.study.ensemble.chance",
     "bias_and_scatter": "hydro2d.study.ensemble.chance",
+    "grid_convergence": "hydro2d.study.ensemble.extrapolation",
     "Experience": "hydro2d.analytic.experience",
     "Impact": "hydro2d.analytic.experience",
     "impact_of": "hydro2d.analytic.experience",
@@ -114,6 +116,7 @@ __all__ = [
     "every",
     "fit_residual_velocity",
     "fit_transition",
+    "grid_convergence",
     "impact_of",
     "kept_samples",
     "method_note",

@@ -6,6 +6,7 @@ import json
 import numpy as np
 import pytest
 
+import hydro2d
 from hydro2d.base.errors import DeckError
 from hydro2d.cli.main import call
 from hydro2d.deck import deck as decks
@@ -72,6 +73,29 @@ def test_a_mesh_is_refined_by_one_factor(file):
         assert np.diff(new)[-1] == pytest.approx(np.diff(old)[-1] / factor, rel=0.1)
 
 
+@pytest.mark.parametrize("order", [0.3, 1.0, 2.0, 7.0])
+def test_grid_convergence_of_three_meshes(order):
+    """Of the finest three, whatever the ratios of their cells; the index is Celik's with his factor of 1.25."""
+    values = {cells: 40.0 - 3.0 * cells**-order for cells in (17, 8.5, 12.5)}
+    found = hydro2d.grid_convergence(values | {2.0: 55.0})
+    assert (found.order, found.value, found.words) == (pytest.approx(order), pytest.approx(40.0), "")
+    assert found.index == pytest.approx(1.25 * 3.0 * 17.0**-order / values[17])
+    assert str(found) == f"{100 * found.index:.2g} %, order {order:.2g}"
+
+
+@pytest.mark.parametrize(("values", "index", "said"), [
+    ({1: 1.0, 2: 2.0, 4: 1.5}, None, "up and down from mesh to mesh"), ({1: 1.0, 2: 1.1, 4: 1.3}, None, "the change grows"),
+    ({1: 1.0, 2: 2.0, 4: 3.0}, None, "the change grows"), ({1: 1.0, 2: 1.0, 4: 1.0}, 0.0, "0 %, since the meshes"),
+    ({1: 1.0, 2: 1.1, 4: 1.1}, 0.0, "have the same value"), ({1: 0.0, 2: 1.0, 4: 1.0 + 1e-7}, 0.0, "falls faster than"),
+])
+def test_values_without_an_order_of_convergence(values, index, said):
+    found = hydro2d.grid_convergence(values)
+    assert (found.order, found.index) == (None, index)
+    assert said in str(found)
+    with pytest.raises(ValueError, match="three meshes or more"):
+        hydro2d.grid_convergence({1: values[1], 2: values[2]})
+
+
 def test_a_deck_without_a_radius_has_no_cells_across():
     with pytest.raises(DeckError, match="no body of the deck has a radius"):
         meshes.settings(decks.load("problems/classic/taylor_bar.toml"), 8)
@@ -98,12 +122,15 @@ def test_scatter_and_change_are_distinguished(tmp_path):
     convergence.write(place, [depth])
     written = json.loads((place / "convergence.json").read_text())["responses"][0]
     assert written["extrapolated"]["value"] == pytest.approx(0.30, abs=2e-3)
-    assert "extrapolated: 3" in "\n".join(depth.lines())
+    assert written["grid_convergence_index"] == pytest.approx(1.25 * (10.0 / 12.5) / (30.0 + 10.0 / 12.5))
+    said = "\n".join(depth.lines())
+    assert "extrapolated: 3" in said
+    assert "from their means: 3.2 %, order 1" in said
 
 
 def test_a_mean_of_several_ends_is_not_extrapolated(tmp_path):
     sequences = convergence.sequences(collect(study_directory.load(study(tmp_path, ("rigid", "rigid", "eroding")))))[0]
-    assert sequences.limit.value is None
+    assert sequences.limit.value is sequences.index is None
     assert "end in 2 ways (eroding, rigid)" in sequences.limit.words
 
 

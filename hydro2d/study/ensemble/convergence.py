@@ -15,7 +15,7 @@ from hydro2d.files.whole import write_json
 from hydro2d.study.ensemble import extrapolation
 from hydro2d.study.ensemble.contents import Contents
 from hydro2d.study.ensemble.ensembles import Ensemble
-from hydro2d.study.ensemble.extrapolation import Level, Limit
+from hydro2d.study.ensemble.extrapolation import GridConvergence, Level, Limit
 from hydro2d.study.plan import meshes
 from hydro2d.study.plan.cases import plan_of
 from hydro2d.study.plan.definition import Overrides, StudyError
@@ -33,12 +33,14 @@ class Meshes:
     """A response on several meshes, from the coarsest to the finest.
 
     regimes : on each mesh, in words;  limit : the value for cells of zero size, or why there is none
+    index : grid convergence index of the means; None with fewer than three meshes, or where a mean describes no run
     """
 
     response: Response
     levels: list[Level]
     regimes: list[str]
     limit: Limit
+    index: GridConvergence | None = None
 
     def lines(self) -> list[str]:
         """The table of the meshes, and the conclusions."""
@@ -55,6 +57,8 @@ class Meshes:
         within = math.sqrt(sum(each.scatter**2 for each in self.levels) / len(self.levels))
         between = max(each.mean for each in self.levels) - min(each.mean for each in self.levels)
         words = [f"scatter within a mesh {within:.2g}, change between the meshes {between:.2g} {self.response.unit}".rstrip()]
+        if self.index is not None:
+            words.append(f"grid convergence index of the three finest meshes, from their means: {self.index}")
         limit = self.limit
         if limit.value is None:
             return [*words, f"it does not extrapolate: {limit.words}"]
@@ -73,6 +77,7 @@ class Meshes:
             "extrapolated": None if self.limit.value is None else {
                 "value": self.limit.value / factor, "low": self.limit.low / factor, "high": self.limit.high / factor,
                 "order": self.limit.order},
+            "grid_convergence_index": self.index and self.index.index,
             "in_words": self.limit.words,
         }
 
@@ -113,7 +118,7 @@ def _sequence(ensembles: Sequence[Ensemble], y: Response) -> Meshes:
     levels = [extrapolation.level(cells, values) for cells, values in known]
     regimes = [each.regimes for each, (_, values) in zip(ensembles, samples, strict=True) if len(values) > 1]
     said = [", ".join(f"{regime} {share.successes} of {share.trials}" for regime, share in each.items()) for each in regimes]
-    kinds = {regime for each in regimes for regime in each}
+    kinds, index = {regime for each in regimes for regime in each}, None
     if len(known) < len(ensembles):
         few = ", ".join(f"{cells:g}" for cells, values in samples if len(values) < 2)
         limit = Limit(None, None, None, None, f"fewer than two members have ended on {few} cells")
@@ -124,7 +129,8 @@ def _sequence(ensembles: Sequence[Ensemble], y: Response) -> Meshes:
         limit = Limit(None, None, None, None, "some depths are lower bounds, since the projectile perforated or left the mesh")
     else:
         limit = extrapolation.limit(levels, [values for _, values in known])
-    return Meshes(y, levels, said, limit)
+        index = extrapolation.grid_convergence({each.cells: each.mean for each in levels}) if len(levels) > 2 else None
+    return Meshes(y, levels, said, limit, index)
 
 
 def write(directory: Path, meshes: Sequence[Meshes]) -> None:
