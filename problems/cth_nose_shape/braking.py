@@ -1,9 +1,10 @@
-"""The force that brakes a rod in its first 90 us, and its effect on the rod, from `first_90us.toml` and `nose_force.toml`.
+"""The force that brakes a rod in its first 90 us, and its effect on the rod, from `nose_force.toml`.
 
-    python -m problems.cth_nose_shape.braking [STUDY ...]
+    python -m problems.cth_nose_shape.braking [STUDY]
 
-prints the tables of both studies in Markdown, from what is kept of them in `results`. With directories of these studies it
-first writes their finished cases to the files that are kept. A file has the labels of a case, its number as a member, and
+prints the table of the study in Markdown, from what is kept of it in `results`. With a directory of the study it first writes
+its finished cases to the file that is kept. The file has the labels of a case, its number as a member, the version of the
+method, and
 
     force_GPa             what brakes the rod: its loss of momentum from 40 to 85 us, over its first section
     length_mm, radius_mm  of the rod at 90 us; the radius is its largest
@@ -25,8 +26,10 @@ from problems import kept as results
 
 HERE = Path(__file__).parent
 MEASURED = ("force_GPa", "length_mm", "radius_mm", "axial_GPa", "lateral_GPa")
-#: the labels of the cases of each study
-STUDIES = {"first_90us": ("rod", "cells"), "nose_force": ("plate", "velocity")}
+#: what is kept, and its columns
+FILE = HERE / "results" / "nose_force.csv"
+LABELS = ("plate", "velocity")
+COLUMNS = (*LABELS, "member", *MEASURED, "method")
 #: time over which the force is taken, s, and part of the rod behind its tip over which stresses are, m
 FORCE_FROM, FORCE_TO = 40e-6, 85e-6
 NEAR, FAR = 5e-3, 10e-3
@@ -50,7 +53,7 @@ def section(r_edges, z_edges, fraction, axial, lateral) -> tuple[float, float]:
 
 
 def measure(directory: Path) -> dict[str, str]:
-    """The values of MEASURED of a run. Raises ValueError for one that ends too early, hydro2d.Error."""
+    """The values of MEASURED of a run, and the version of its method. Raises ValueError for one that ends too early, hydro2d.Error."""
     run = hydro2d.open_run(directory)
     history, time = run.history, run.history["time"]
     if time[-1] < FORCE_TO:
@@ -64,43 +67,20 @@ def measure(directory: Path) -> dict[str, str]:
                              pressure - zz, pressure - 0.5 * (rr + tt))
     told = (f"{1e-9 * force:.3f}", f"{1e3 * history['rod_length_m'][-1]:.2f}", f"{1e3 * history['rod_max_radius_m'][-1]:.3f}",
             f"{1e-9 * axial:.2f}", f"{1e-9 * lateral:.2f}")
-    return dict(zip(MEASURED, told, strict=True))
+    return dict(zip(MEASURED, told, strict=True)) | {"method": run.summary.method}
 
 
-def columns(study: str) -> tuple[str, ...]:
-    """The columns of the file that is kept of a study."""
-    return (*STUDIES[study], "member", *MEASURED)
-
-
-def file(study: str) -> Path:
-    """Where a study is kept."""
-    return HERE / "results" / f"{study}.csv"
-
-
-def kept(study: str) -> list[dict[str, str]]:
-    """The rows that are kept of a study. Raises StudyError, OSError."""
-    return results.rows(file(study), columns(study))
+def kept() -> list[dict[str, str]]:
+    """The rows that are kept. Raises StudyError, OSError."""
+    return results.rows(FILE, COLUMNS)
 
 
 def keep(directory: Path) -> None:
-    """Writes the finished cases of a study to its file. Raises StudyError, OSError, and what `measure` raises."""
+    """Writes the finished cases of the study to its file. Raises StudyError, OSError, and what `measure` raises."""
     cases = [case for case in hydro2d.open_study(directory).cases if case.status == "done"]
-    study = next((name for name, labels in STUDIES.items() if cases and tuple(cases[0].values) == labels), None)
-    if study is None:
-        raise hydro2d.StudyError(f"{directory}: no finished case of {' or '.join(STUDIES)}")
-    results.write(file(study), columns(study),
-                  [{**case.values, "member": case.member, **measure(case.directory)} for case in cases])
-
-
-def rods(rows: list[dict[str, str]]) -> list[str]:
-    """Lines of Markdown: a row for each rod and mesh."""
-    lines = ["| rod | cells | runs | force, GPa | length, mm | largest radius, mm | axial, GPa | flank, GPa |",
-             "|---|---|---|---|---|---|---|---|"]
-    for rod, cells in dict.fromkeys((row["rod"], row["cells"]) for row in rows):
-        members = [row for row in rows if (row["rod"], row["cells"]) == (rod, cells)]
-        numbers = " | ".join(results.told(members, column) for column in MEASURED)
-        lines.append(f"| {rod} | {cells} | {len(members)} | {numbers} |")
-    return lines
+    if not cases or tuple(cases[0].values) != LABELS:
+        raise hydro2d.StudyError(f"{directory}: no finished case of nose_force.toml")
+    results.write(FILE, COLUMNS, [{**case.values, "member": case.member, **measure(case.directory)} for case in cases])
 
 
 def forces(rows: list[dict[str, str]]) -> list[str]:
@@ -114,17 +94,18 @@ def forces(rows: list[dict[str, str]]) -> list[str]:
         for word, found in (("force over the section", force), ("pressure on the flank", flank), ("difference", left)):
             cells = [f"{found[at]:.2f}" if at in found else "" for at in velocities]
             lines.append(f"| {plate}, {word} | " + " | ".join(cells) + " |")
-    return lines
+    note = hydro2d.method_note(row["method"] for row in rows)
+    return [*lines, "", note] if note else lines
 
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("studies", nargs="*", type=Path, metavar="STUDY")
+    parser.add_argument("study", nargs="?", type=Path)
     given = parser.parse_args(arguments)
     try:
-        for directory in given.studies:
-            keep(directory)
-        print("\n".join([*rods(kept("first_90us")), "", *forces(kept("nose_force"))]))
+        if given.study:
+            keep(given.study)
+        print("\n".join(forces(kept())))
     except (hydro2d.Error, OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2

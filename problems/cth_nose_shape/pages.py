@@ -16,13 +16,22 @@ from pathlib import Path
 
 import hydro2d
 from problems import kept
-from problems.cth_nose_shape import findings, members, plate_laws, probability, rigid_rod, transitions
+from problems.cth_nose_shape import (
+    braking,
+    convergence,
+    findings,
+    members,
+    plate_laws,
+    probability,
+    rigid_rod,
+    transitions,
+)
 
 HERE = Path(__file__).parent
-PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape"))
+PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape", "resolution"))
 RESULTS = HERE / "results"
-#: cells across the rod of the tables of all twelve shots, and of those that are compared with them
-USUAL, OTHERS = 5.5, (6.5, 8.5, 12.5)
+#: cells across the rod of the tables of all twelve shots
+USUAL = 5.5
 HEMISPHERICAL, OGIVAL = rigid_rod.NOSES.values()
 
 
@@ -36,27 +45,11 @@ def _shots() -> list[str]:
 
 
 def _scores() -> list[str]:
-    lines: list[str] = []
-    for cells in (USUAL, *OTHERS):
-        found = members.grouped(_twelve(cells))
-        head, rule, *rows = members.scores(found) if found else ("", "")
-        lines = lines or [f"| cells {head}", f"|---{rule}"] if head else lines
-        lines += [f"| {cells:g} {row}" for row in rows]
-    return [*lines, *rigid_rod.notes(_twelve(None))]
-
-
-def _meshes() -> list[str]:
-    runs = [run for run in _twelve(None) if float(run.labels[rigid_rod.CELLS]) in OTHERS]
-    found: dict[str, dict[rigid_rod.Shot, list[rigid_rod.Result]]] = {}
-    for run in sorted(runs, key=lambda run: float(run.labels[rigid_rod.CELLS])):
-        if run.shot is not None and run.shot.nose == HEMISPHERICAL:
-            column = f"{run.column}, {run.labels[rigid_rod.CELLS]}"
-            found.setdefault(column, {}).setdefault(run.shot, []).append(run)
-    return [*members.table(found), *rigid_rod.notes(runs)]
+    return [*members.scores(members.grouped(_twelve())), *rigid_rod.notes(_twelve())]
 
 
 def _holes() -> list[str]:
-    runs = [*_twelve(None), *rigid_rod.read(RESULTS / "rigid_rod_failure.csv")]
+    runs = [*_twelve(None), *rigid_rod.read(convergence.FILE)]
     return [*rigid_rod.holes(runs), *rigid_rod.notes(runs)]
 
 
@@ -97,7 +90,8 @@ def _uncertain_notes(cells: float = USUAL) -> list[str]:
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
-    "shots": _shots, "scores": _scores, "meshes": _meshes, "holes": _holes, "transitions": _transitions,
+    "shots": _shots, "scores": _scores, "holes": _holes, "transitions": _transitions,
+    "meshes": lambda: convergence.tables(convergence.found()), "forces": lambda: braking.forces(braking.kept()),
     "laws_5083": lambda: plate_laws.table("5083"), "laws_7039": lambda: plate_laws.table("7039"),
     "hemispherical": _depths(HEMISPHERICAL),
     "ogival": _depths(OGIVAL),
