@@ -20,8 +20,8 @@ FILE = HERE / "results" / "transition.csv"
 #: what tells one search from another
 CASE = ("nose", "cells_across", "law", "plate")
 #: velocities of the experiments between which the change lies, m/s: the fastest rod that stayed rigid, the next that eroded
-EXPERIMENTS = {("hemispherical", 5083): "1086 to 1200 m/s", ("hemispherical", 7039): "1038 to 1165 m/s",
-               ("ogival", 5083): "above 1227 m/s", ("ogival", 7039): "above 1291 m/s"}
+EXPERIMENTS = {("hemispherical", "5083"): "1086 to 1200 m/s", ("hemispherical", "7039"): "1038 to 1165 m/s",
+               ("ogival", "5083"): "above 1227 m/s", ("ogival", "7039"): "above 1291 m/s"}
 HEAD = ("nose", "cells", "law", "plate", "experiments", "half of the rods", "90 % interval",
         "fastest that kept, slowest that lost", "runs")
 
@@ -29,10 +29,11 @@ HEAD = ("nose", "cells", "law", "plate", "experiments", "half of the rods", "90 
 def searches(runs: pandas.DataFrame) -> dict[tuple, pandas.DataFrame]:
     """The finished runs of every search, the slowest first: those of the newest method of which the search has some.
 
-    runs : of `hydro2d.runs`;  the results have ``speed`` in m/s, and whether the rod ``kept`` two thirds of its length as well
+    runs : of `hydro2d.runs`;  the results have ``speed`` in m/s, and whether the rod ``kept`` two thirds of its length as well;
+    plates are words
     """
     done = runs[runs["status"] == "done"]
-    done = done.assign(speed=[hydro2d.to_si(each, "m/s") for each in done["velocity"]],
+    done = done.assign(plate=[each if isinstance(each, str) else f"{each:g}" for each in done["plate"]], speed=[hydro2d.to_si(each, "m/s") for each in done["velocity"]],
                        kept=done["length_ratio"] >= hydro2d.LEAST_KEPT_LENGTH)
     return {case: members[members["method"] == members["method"].max()].sort_values("speed", kind="stable")
             for case, members in done.groupby(list(CASE), sort=False)}
@@ -65,7 +66,7 @@ def table(runs: pandas.DataFrame) -> list[str]:
     shown = searches(runs)
     for (nose, cells, law, plate), members in shown.items():
         half, interval, sides = _said(members)
-        lines.append(f"| {nose} | {cells:g} | {law} | {plate:g} | {EXPERIMENTS[nose, plate]} | {half} | {interval} | {sides} "
+        lines.append(f"| {nose} | {cells:g} | {law} | {plate} | {EXPERIMENTS[nose, plate[:4]]} | {half} | {interval} | {sides} "
                      f"| {len(members)} |")
     note = hydro2d.method_note(method for members in shown.values() for method in members["method"])
     return [*lines, "", note] if note else lines
