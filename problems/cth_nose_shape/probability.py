@@ -7,15 +7,16 @@ prints tables in Markdown from the rows that `uncertain_shots.toml` keeps in res
 A rod is held if two thirds of its length are left; the rod of an experiment is held if it went deeper than the hydrodynamic
 limit. The probability p that it is not held is a logistic function of the impact velocity v and the other inputs x of a row,
 
-    logit p = (ln v - m(x)) / s,    m(x) = m_law + c_f ln f + c_p ln f_plate + c_mu mu,                            (1)
+    logit p = (ln v - m(x)) / s,    m(x) = m_law + c_f ln f + c_p ln f_plate + c_l l + c_mu mu,                    (1)
 
-with a constant for each law, the factors f on the strengths and the friction mu. Half of the rods are held at the velocity
+with a constant for each law, the factors f on the strengths, whether the law of the plate is one that was fitted to measured
+flow stresses, l = 1, or the published one, l = 0, and the friction mu. Half of the rods are held at the velocity
 exp m. The width s is chance, and all else that the inputs do not explain. Each plate has a function of its own, from the rows
 of the three shots into it: its numbers are drawn from their likelihood, between wide bounds, within which each of them, and
 ln s, is as probable everywhere. Where rows next to each other do not have both outcomes, they only bound s from above.
 
-Given x, the outcomes of shots are independent; the law, f and mu are the same for all shots, f_plate for all shots into a
-plate, and the error of v is that of a shot. So
+Given x, the outcomes of shots are independent; the law, f and mu are the same for all shots, f_plate and l for all shots into
+a plate, and the error of v is that of a shot. So
 
     L(law) = mean over x of prod_shots p_shot(outcome that was seen; x)                                            (2)
 
@@ -39,26 +40,30 @@ import pandas
 import hydro2d
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.members import finish
-from problems.cth_nose_shape.rigid_rod import ALLOYS, COLOURS, PLATE, Shot
+from problems.cth_nose_shape.rigid_rod import ALLOYS, COLOURS, Shot
 
 HERE = Path(__file__).parent
 STUDY = HERE / "uncertain_shots.toml"
 #: the inputs as columns
-VELOCITY, LAW, FACTOR = "body.rod.velocity (difference) [m/s]", "body.rod.material", "body.rod.strength_factor"
-PLATE_FACTOR, FRICTION = "body.plate.strength_factor", "sliding.friction"
-NAMES = {VELOCITY: "velocity", LAW: "law", FACTOR: "factor of the rod", PLATE_FACTOR: "factor of the plate",
-         FRICTION: "friction"}
+VELOCITY, LAW, FACTOR = "body.rod.velocity (difference) [m/s]", "materials.rod_alloy.based_on", "body.rod.strength_factor"
+DENSITY = "materials.rod_alloy.eos.reference_density (factor)"
+PLATE_LAW, PLATE_FACTOR, FRICTION = "body.plate.material", "body.plate.strength_factor", "sliding.friction"
+NAMES = {VELOCITY: "velocity", LAW: "law", FACTOR: "factor of the rod", DENSITY: "density", PLATE_LAW: "law of the plate",
+         PLATE_FACTOR: "factor of the plate", FRICTION: "friction"}
+#: the law of the plate that is not a fit, and the plate that has fits
+PUBLISHED, FITTED = "published", "5083"
 #: flow stress in MPa at plastic strains, 1e4 per second, heated by the plastic work: `hydro2d curve W_alloy W_sintered ...`
 STRAINS = (0.1, 0.5, 1.0)
-STRENGTH = {"Steinberg-Guinan": (1991.0, 2157.0, 2170.0), "JC-sintered": (2100.0, 1967.0, 1547.0),
-            "JC-90W": (1777.0, 1430.0, 1072.0), "JC-Y925": (1755.0, 1528.0, 1190.0)}
+STRENGTH = {"W_alloy": (1991.0, 2157.0, 2170.0), "W_sintered": (2100.0, 1967.0, 1547.0),
+            "W_90_7_3": (1777.0, 1430.0, 1072.0), "W_Y925": (1755.0, 1528.0, 1190.0)}
 #: the laws as results/twelve_shots.csv names them
-MEMBERS = {"Steinberg-Guinan": "Steinberg-Guinan", "JC-sintered": "Johnson-Cook, sintered", "JC-90W": "Johnson-Cook, 90W",
-           "JC-Y925": "Johnson-Cook, Y925"}
+MEMBERS = {"W_alloy": "Steinberg-Guinan", "W_sintered": "Johnson-Cook, sintered", "W_90_7_3": "Johnson-Cook, 90W",
+           "W_Y925": "Johnson-Cook, Y925"}
 #: draws of the inputs for each law, and of the numbers of (1); the seed of both; walkers and their steps, half to settle
 DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
-#: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_mu
-CHANCE, LAWS_WITHIN, BOUNDS = (0.003, 0.05), (-0.4, 0.4), ((0.0, 3.0), (-3.0, 0.0), (-20.0, 20.0))
+#: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_l; c_mu
+CHANCE, LAWS_WITHIN = (0.003, 0.05), (-0.4, 0.4)
+BOUNDS = ((0.0, 3.0), (-3.0, 0.0), (-0.4, 0.4), (-20.0, 20.0))
 #: and of what a finer mesh adds to m
 MESH_WITHIN = (-0.2, 0.2)
 #: cells across the radius of the tables, and of those with which they are compared
@@ -84,9 +89,8 @@ def held(sample: hydro2d.Samples) -> np.ndarray:
 
 
 def reach(sample: hydro2d.Samples) -> np.ndarray:
-    """Depths in cm, float64[runs], of runs that are done; the thickness of the plate for rods that perforate."""
-    done = sample.table[sample.ended]
-    return np.where(done["perforated"] == "yes", PLATE, 1e2 * done["depth_m"])
+    """Depths in cm, float64[runs], of runs that are done: the thickness of the plate for rods that perforate."""
+    return 1e2 * column(sample, "depth_m")
 
 
 def column(sample: hydro2d.Samples, name: str) -> np.ndarray:
@@ -99,21 +103,22 @@ def column(sample: hydro2d.Samples, name: str) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Points:
-    """Values of the inputs, arrays (n,): velocity in m/s, number of the law, factors, friction."""
+    """Values of the inputs, arrays (n,): velocity in m/s, number of the law, factors, whether the plate's is a fit, friction."""
 
     velocity: np.ndarray
     law: np.ndarray
     factor: np.ndarray
     plate: np.ndarray
+    fit: np.ndarray
     friction: np.ndarray
 
     def terms(self, laws: int, finer: bool | None = None) -> np.ndarray:
-        """The terms of m, float64[n, laws + 3]: a column for each law, ln f, ln f_plate, mu.
+        """The terms of m, float64[n, laws + 4]: a column for each law, ln f, ln f_plate, l, mu.
 
         finer : whether the points are on the finer of two meshes, for a last column, which is 1 there; None: there is one mesh
         """
         mesh = [] if finer is None else [np.full(len(self.law), float(finer))]
-        return np.column_stack([np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate), self.friction, *mesh])
+        return np.column_stack([np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate), self.fit, self.friction, *mesh])
 
 
 def walk(density: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, seed: Sequence[int]) -> np.ndarray:
@@ -151,7 +156,17 @@ def points(shot: Shot, sample: hydro2d.Samples, laws: list[str]) -> Points:
     """The inputs of the runs of a shot that are done."""
     number = np.array([laws.index(law) for law in column(sample, LAW)])
     return Points(shot.velocity + column(sample, VELOCITY), number, column(sample, FACTOR), column(sample, PLATE_FACTOR),
-                  column(sample, FRICTION))
+                  _is_fit(shot.alloy, column(sample, PLATE_LAW)), column(sample, FRICTION))
+
+
+def _is_fit(alloy: str, laws: np.ndarray) -> np.ndarray:
+    """Whether laws of a plate are fits to measured flow stresses, as 0 or 1, float64[n]."""
+    return (laws != PUBLISHED).astype(float) * (alloy == FITTED)
+
+
+def _words(law: str) -> str:
+    """The name of a law of the rod in tables."""
+    return MEMBERS.get(law, law)
 
 
 def laws_of(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
@@ -161,7 +176,7 @@ def laws_of(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
 
 
 def fitted(by_shot: dict[Shot, hydro2d.Samples], alloy: str, fine: dict[Shot, hydro2d.Samples] | None = None) -> np.ndarray:
-    """Draws of the numbers of (1) for a plate, from all shots into it, float64[FITS, 1 + laws + 3]: ln s and those of m.
+    """Draws of the numbers of (1) for a plate, from all shots into it, float64[FITS, 1 + laws + 4]: ln s and those of m.
 
     fine : the shots on a finer mesh, for which a further number is added to m
     """
@@ -188,8 +203,9 @@ def drawn(by_shot: dict[Shot, hydro2d.Samples]) -> tuple[Points, np.ndarray]:
     number = DRAWS * len(laws_of(by_shot))
     factor, plate, friction = (by_head[name].quantiles(generator.random(number)) for name in (FACTOR, PLATE_FACTOR, FRICTION))
     law = np.repeat(np.arange(len(laws_of(by_shot))), DRAWS)
+    fit = _is_fit(FITTED, np.array(by_head[PLATE_LAW].values(generator.random(number))))
     errors = by_head[VELOCITY].quantiles(generator.random((len(by_shot), number)))
-    return Points(np.full(number, USUAL), law, factor, plate, friction), errors
+    return Points(np.full(number, USUAL), law, factor, plate, fit, friction), errors
 
 
 def logistic(logit: np.ndarray) -> np.ndarray:
@@ -234,7 +250,7 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
     orders = {alloy: np.roll(at.plate, number) for number, alloy in enumerate(ALLOYS)}
     for alloy in ALLOYS:
         numbers[alloy] = fitted(by_shot, alloy, fine)
-        there = Points(at.velocity, at.law, at.factor, orders[alloy], at.friction)
+        there = Points(at.velocity, at.law, at.factor, orders[alloy], at.fit * (alloy == FITTED), at.friction)
         terms = there.terms(len(laws), None if fine is None else True)
         middle, width = numbers[alloy][:, 1:] @ terms.T, np.exp(numbers[alloy][:, :1])
         half[alloy], chance[alloy] = USUAL * np.exp(middle), LOGISTIC * width[:, 0]
@@ -252,7 +268,7 @@ def inferred(by_shot: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samp
 def outcomes(by_shot: dict[Shot, hydro2d.Samples]) -> list[str]:
     """Lines of Markdown: depth and outcome of every shot, and how often each law gives the outcome that was seen."""
     laws, measured = laws_of(by_shot), rigid_rod.experiments()
-    heads = ("shot", "experiment", "depth: median, 10 to 90 %", "as seen", *laws)
+    heads = ("shot", "experiment", "depth: median, 10 to 90 %", "as seen", *map(_words, laws))
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for shot, sample in by_shot.items():
         right = held(sample) == measured[shot].rigid
@@ -274,7 +290,7 @@ def likelihoods(inference: Inference) -> list[str]:
              "|---" * 4 + "|"]
     for number, law in enumerate(inference.laws):
         worst = min(alone, key=lambda shot: alone[shot][:, number].mean())
-        lines.append(f"| {law} | {_interval(together[:, number], 3)} | {worst.alloy}, {worst.velocity:g} m/s: "
+        lines.append(f"| {_words(law)} | {_interval(together[:, number], 3)} | {worst.alloy}, {worst.velocity:g} m/s: "
                      f"{alone[worst][:, number].mean():.2f} | {_interval(after[:, number], 2)} |")
     lines.append(f"| all, each a quarter | {_interval(together.mean(axis=1), 3)} | | |")
     return lines
@@ -289,7 +305,7 @@ def strengths(inference: Inference) -> list[str]:
         lines.append(f"| flow stress at a plastic strain of {strain:g} | {_before_and_after(values, weights, 0, ' MPa')} |")
     for number, law in enumerate(inference.laws):
         chosen = inference.at.law == number
-        lines.append(f"| factor of {law} | {_before_and_after(inference.at.factor[chosen], weights[chosen], 2)} |")
+        lines.append(f"| factor of {_words(law)} | {_before_and_after(inference.at.factor[chosen], weights[chosen], 2)} |")
     return lines
 
 
@@ -336,20 +352,22 @@ def halves_by_law(by_shot: dict[Shot, hydro2d.Samples], inference: Inference) ->
             some = any(kept.any() for kept in there.values())
             cells.append(f"{middle:.0f} m/s, {low:.0f} to {high:.0f}" if some
                          else f"below {min(shot.velocity for shot in there):.0f} m/s")
-        lines.append(f"| {law} | {' | '.join(cells)} |")
+        lines.append(f"| {_words(law)} | {' | '.join(cells)} |")
     return lines
 
 
 def slopes(inference: Inference) -> list[str]:
     """Lines of Markdown: by how much the factors and the friction move the velocity of the change, m/s."""
-    steps = (np.log(1.01), np.log(1.01), 0.05)
-    heads = ("plate", "1 % more strength of the rod", "1 % more strength of the plate", f"a friction of {steps[-1]:g}")
+    steps = (np.log(1.01), np.log(1.01), 1.0, 0.05)
+    heads = ("plate", "1 % more strength of the rod", "1 % more strength of the plate", "the plate's law as measured",
+             f"a friction of {steps[-1]:g}")
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for alloy in ALLOYS:
         first = 1 + len(inference.laws)
         moved = np.median(inference.half[alloy]) * np.array(steps) * inference.numbers[alloy][:, first : first + len(steps)]
         cells = [f"{middle:+.0f} m/s ({low:+.0f} to {high:+.0f})" for low, middle, high
                  in np.quantile(moved, (ENDS[0], 0.5, ENDS[1]), axis=0).T]
+        cells[2] = cells[2] if alloy == FITTED else "one law"
         lines.append(f"| {alloy} | {' | '.join(cells)} |")
     return lines
 
@@ -418,7 +436,7 @@ def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS)
     """
     members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in by_shot]
     laws = laws_of(by_shot)
-    heads = ("shot", "measured", *laws)
+    heads = ("shot", "measured", *map(_words, laws))
     lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     for shot, sample in by_shot.items():
         told, law = rigid_rod.experiments()[shot], column(sample, LAW)
@@ -500,7 +518,7 @@ def draw(by_shot: dict[Shot, hydro2d.Samples]):
         for number, law in enumerate(laws):
             dots = [(shot.velocity + 7.0 * (number - 1.5), depth) for shot, sample in there.items()
                     for depth in reach(sample)[column(sample, LAW) == law]]
-            axes.plot(*zip(*dots, strict=True), "o", color=COLOURS[number], markersize=4, alpha=0.6, label=law)
+            axes.plot(*zip(*dots, strict=True), "o", color=COLOURS[number], markersize=4, alpha=0.6, label=_words(law))
         for shot, sample in there.items():
             low, high = np.quantile(reach(sample), SPREAD)
             axes.fill_between([shot.velocity - 18.0, shot.velocity + 18.0], low, high, color="black", alpha=0.08, linewidth=0)
