@@ -53,7 +53,10 @@ def section(r_edges, z_edges, fraction, axial, lateral) -> tuple[float, float]:
 
 
 def measure(directory: Path) -> dict[str, str]:
-    """The values of MEASURED of a run, and the version of its method. Raises ValueError for one that ends too early, hydro2d.Error."""
+    """The values of MEASURED of a run, and the version of its method.
+
+    Raises ValueError for a run that ends too early, hydro2d.Error.
+    """
     run = hydro2d.open_run(directory)
     history, time = run.history, run.history["time"]
     if time[-1] < FORCE_TO:

@@ -103,7 +103,7 @@ def column(sample: hydro2d.Samples, name: str) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Points:
-    """Values of the inputs, arrays (n,): velocity in m/s, number of the law, factors, whether the plate's is a fit, friction."""
+    """Inputs, arrays (n,): velocity in m/s, number of the law, factors, whether the law of the plate is a fit, friction."""
 
     velocity: np.ndarray
     law: np.ndarray
@@ -118,7 +118,8 @@ class Points:
         finer : whether the points are on the finer of two meshes, for a last column, which is 1 there; None: there is one mesh
         """
         mesh = [] if finer is None else [np.full(len(self.law), float(finer))]
-        return np.column_stack([np.eye(laws)[self.law], np.log(self.factor), np.log(self.plate), self.fit, self.friction, *mesh])
+        factors = np.log(self.factor), np.log(self.plate)
+        return np.column_stack([np.eye(laws)[self.law], *factors, self.fit, self.friction, *mesh])
 
 
 def walk(density: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, seed: Sequence[int]) -> np.ndarray:

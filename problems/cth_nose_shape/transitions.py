@@ -33,7 +33,8 @@ def searches(runs: pandas.DataFrame) -> dict[tuple, pandas.DataFrame]:
     plates are words
     """
     done = runs[runs["status"] == "done"]
-    done = done.assign(plate=[each if isinstance(each, str) else f"{each:g}" for each in done["plate"]], speed=[hydro2d.to_si(each, "m/s") for each in done["velocity"]],
+    done = done.assign(plate=[each if isinstance(each, str) else f"{each:g}" for each in done["plate"]],
+                       speed=[hydro2d.to_si(each, "m/s") for each in done["velocity"]],
                        kept=done["length_ratio"] >= hydro2d.LEAST_KEPT_LENGTH)
     return {case: members[members["method"] == members["method"].max()].sort_values("speed", kind="stable")
             for case, members in done.groupby(list(CASE), sort=False)}

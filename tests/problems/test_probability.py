@@ -102,7 +102,8 @@ def test_the_probability_of_all_outcomes_together():
         product = np.ones(4000)
         for shot in SHOTS:
             speed = shot.velocity + generator.normal(0.0, 3.0, 4000)
-            lost = 1.0 / (1.0 + np.exp(-np.log(speed / half(law, factor, plates[shot.alloy], fit & (shot.alloy == "5083"))) / CHANCE))
+            middle = half(law, factor, plates[shot.alloy], fit & (shot.alloy == "5083"))
+            lost = 1.0 / (1.0 + np.exp(-np.log(speed / middle) / CHANCE))
             product *= 1.0 - lost if measured[shot].rigid else lost
         low, high = np.quantile(together[:, number], (0.05, 0.95)) + np.array([-0.01, 0.01])  # of the points of both integrals
         assert low <= product.mean() <= high
