@@ -77,7 +77,7 @@ def _limit(meshes: dict[float, list[Result]], quantity: Quantity) -> str:
     told = hydro2d.grid_convergence(finest)
     if told.order is None or told.value is None:
         return told.words
-    return f"{told.value:.{quantity.digits}f}, order {told.order:.1f}, index {100.0 * told.index:.1f} %"
+    return f"{told.value:.{quantity.digits}f}, order {told.order:.1f}, index {100.0 * told.index:.2g} %"
 
 
 def table(meshes: Meshes, quantity: Quantity) -> list[str]:

@@ -21,8 +21,8 @@ ORDERS = np.linspace(0.5, 3.0, 251)
 DRAWS, SEED, ENOUGH = 4000, 0, 0.9
 #: smallest error of a mean in a fit, as a share of the change between meshes
 EXACT = 3e-3
-#: factor of safety of the grid convergence index, and the largest order that it may have
-SAFETY, HIGHEST = 1.25, 20.0
+#: factor of safety of the grid convergence index, the order of a smooth solution, and the largest that is looked for
+SAFETY, FORMAL, HIGHEST = 1.25, 2.0, 20.0
 #: largest probability of chance alone at which a change between meshes is accepted; chi^2 of one degree that a fit may have
 CHANCE, MISFIT = 0.1, 3.84
 
@@ -58,7 +58,8 @@ class Limit(NamedTuple):
 class GridConvergence(NamedTuple):
     """Order, extrapolated value and grid convergence index of three meshes, a share of the value on the finest one.
 
-    All are None if the values do not converge; ``words`` says why, and is empty if they do.
+    All are None if the values do not converge; ``words`` says why, and is empty if they do. An order above 2 is told as it is,
+    but the value and the index are those of the order 2.
     """
 
     order: float | None
@@ -70,7 +71,7 @@ class GridConvergence(NamedTuple):
         """Such as "1.2 %, order 1.4", or the reason why there is none."""
         if self.index is None or self.order is None:
             return self.words or "0 %, since the meshes have the same value"
-        return f"{1e2 * self.index:.2g} %, order {self.order:.2g}"
+        return f"{1e2 * self.index:.2g} %, order {self.order:.2g}" + (" (taken as 2)" if self.order > FORMAL else "")
 
 
 def grid_convergence(values: Mapping[float, float]) -> GridConvergence:
@@ -78,8 +79,9 @@ def grid_convergence(values: Mapping[float, float]) -> GridConvergence:
 
     The order p solves e32/e21 = r21^p (r32^p - 1)/(r21^p - 1) with the changes e and the ratios r of cell sizes between the
     meshes 3, 2 and 1, the finest. The index is 1.25 |e21/y1|/(r21^p - 1): an estimate of the error of the mesh that should hold
-    for 95 % of cases (Celik and others, J. Fluids Eng. 130 (2008) 078001). Values that go up and down, or whose changes do not
-    fall, do not converge, and have none.
+    for 95 % of cases (Celik and others, J. Fluids Eng. 130 (2008) 078001). No more than the order of a smooth solution, 2, is
+    taken, since a larger one is chance (Oberkampf and Roy, Verification and Validation in Scientific Computing, 2010, 8.6).
+    Values that go up and down, or whose changes do not fall, do not converge, and have none.
 
     Parameters
     ----------
@@ -103,12 +105,10 @@ def grid_convergence(values: Mapping[float, float]) -> GridConvergence:
 
     if ratio(1e-6) >= 0.0:
         return GridConvergence(None, None, None, "the change grows from mesh to mesh")
-    if ratio(HIGHEST) < 0.0:
-        return GridConvergence(None, finest, 0.0, f"the change falls faster than with the order {HIGHEST:g}")
     from scipy.optimize import brentq
 
-    order = brentq(ratio, 1e-6, HIGHEST)
-    step = fine / math.expm1(order * math.log(r21))
+    order = brentq(ratio, 1e-6, HIGHEST) if ratio(HIGHEST) > 0.0 else HIGHEST
+    step = fine / math.expm1(min(order, FORMAL) * math.log(r21))
     return GridConvergence(order, finest + step, abs(SAFETY * step / finest) if finest else math.inf, "")
 
 
