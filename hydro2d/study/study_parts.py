@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from functools import cached_property
 from pathlib import Path
@@ -19,7 +19,7 @@ from hydro2d.study.plan.definition import Definition, Overrides, Part, StudyErro
 from hydro2d.study.plan.planned import Plan, Planned
 from hydro2d.study.plan.scaling import Size
 from hydro2d.study.records import keeping
-from hydro2d.study.run.choice import Choice
+from hydro2d.study.run.choice import Choice, matching
 from hydro2d.study.run.monitor import lines
 from hydro2d.study.search.transition import choice_of
 
@@ -79,6 +79,8 @@ def plans(path: Path, overrides: Overrides, size: Size, only: Sequence[str] = ()
     for part, name in chosen:
         of_part = Size(size.members or part.members, size.cells or part.cells)
         plan = cases.plan(path.parent / part.study, definition.set, quiet=quiet, size=of_part)
+        if plan.search:  # a search has the combinations that are left; a sweep leaves its other cases for later
+            plan = replace(plan, cases=matching(plan, part.only, part.skip))
         parts.append(Chosen(part, name, plan, again))
     return parts
 

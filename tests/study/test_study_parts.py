@@ -9,6 +9,7 @@ from hydro2d.study import study_parts
 from hydro2d.study.plan.definition import StudyError
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
 from hydro2d.study.records import study_directory
+from tests.rules import source
 from tests.study import tubes
 
 PARTS = """
@@ -74,6 +75,20 @@ def test_parts_by_name(tmp_path):
     assert [each.name for each in study_parts.plans(write(tmp_path), (), AS_IT_IS, ["fir*"], quiet=True)] == ["first"]
     with pytest.raises(StudyError, match="matches no part; parts: first, tubes"):
         study_parts.plans(write(tmp_path), (), AS_IT_IS, ["last"], quiet=True)
+
+
+def test_a_search_has_only_the_combinations_of_its_part(tmp_path):
+    """Of the law of its rod, of which one part takes one and leaves another out; a pattern without a case is refused."""
+    rule = '[[part]]\nstudy = "cth_nose_shape/transition.toml"\n'
+    for pattern, laws in (('only = ["hemi*90W_5083_*"]', {"Johnson-Cook, 90W"}), ('skip = ["*Johnson*"]', {"Steinberg-Guinan"})):
+        (tmp_path / "part.toml").write_text(rule.replace("cth_nose", f"{source.PROBLEMS}/cth_nose") + pattern)
+        (part,) = study_parts.plans(tmp_path / "part.toml", (), AS_IT_IS, quiet=True)
+        assert {case.values["law"] for case in part.plan.cases} == laws
+        assert len(part.choice.groups) == len({tuple(case.values[axis] for axis in ("nose", "law", "plate"))
+                                               for case in part.plan.cases})
+    (tmp_path / "part.toml").write_text(rule.replace("cth_nose", f"{source.PROBLEMS}/cth_nose") + 'only = ["flat*"]')
+    with pytest.raises(StudyError, match="flat\\*: matches no case"):
+        study_parts.plans(tmp_path / "part.toml", (), AS_IT_IS, quiet=True)
 
 
 def test_overrides_reach_all_parts(tmp_path):

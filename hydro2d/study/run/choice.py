@@ -16,7 +16,7 @@ from hydro2d.study.records.keeping import Keeper
 from hydro2d.study.records.study_directory import ENDED, Case, Study
 
 
-def _matching(plan: Plan, only: Sequence[str], skip: Sequence[str]) -> list[Planned]:
+def matching(plan: Plan, only: Sequence[str], skip: Sequence[str]) -> list[Planned]:
     """The cases whose names match one of the patterns `only`, or all without patterns, and none of `skip`.
 
     ``*`` and ``?`` are wildcards. Raises StudyError for a pattern that no name matches.
@@ -42,7 +42,7 @@ class Choice:
     def __init__(self, plan: Plan, only: Sequence[str] = (), skip: Sequence[str] = (), again: bool = False):
         self.plan = plan
         self.given: set[str] = set()
-        chosen = _matching(plan, only, skip)
+        chosen = matching(plan, only, skip)
         self.keeper = Keeper(plan) if plan.keep else None
         self.fresh = self.keeper.fresh(case.name for case in chosen) if self.keeper and not again else set()
         self.selected = [case for case in chosen if case.name not in self.fresh]
