@@ -33,7 +33,7 @@ STATIC = HERE / "_static"
 #: largest picture of a page, bytes; its width, and that of a film, pixels
 MOST, WIDTH, FILM_WIDTH = 100_000, 1200, 370
 #: colours of a picture and of a film
-COLOURS, FILM_COLOURS = 255, 32
+COLOURS, FILM_COLOURS = 255, 48
 
 #: a name that a reader replaces, such as DECK
 TO_FILL_IN = re.compile(r"(?<![\w.-])[A-Z]{3,}\b")
@@ -130,18 +130,30 @@ def shrink(source: Path, target: Path) -> None:
         if source.suffix == ".gif":
             _film(picture, target)
         else:
-            _smaller(picture.convert("RGB"), WIDTH, COLOURS).save(target, optimize=True)
+            _coloured(_smaller(picture, WIDTH), COLOURS).save(target, optimize=True)
     if target.stat().st_size > MOST:
         raise ValueError(f"{target} has {target.stat().st_size} bytes; a picture of a page has at most {MOST}")
 
 
-def _smaller(picture: Image.Image, width: int, colours: int) -> Image.Image:
-    picture.thumbnail((width, width), Image.Resampling.LANCZOS)
+def _smaller(picture: Image.Image, width: int) -> Image.Image:
+    smaller = picture.convert("RGB")
+    smaller.thumbnail((width, width), Image.Resampling.LANCZOS)
+    return smaller
+
+
+def _coloured(picture: Image.Image, colours: int) -> Image.Image:
     return picture.quantize(colours, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
 
 
 def _film(picture: Image.Image, target: Path) -> None:
-    first, *rest = [_smaller(frame.convert("RGB"), FILM_WIDTH, FILM_COLOURS) for frame in ImageSequence.Iterator(picture)]
+    """All frames have the same colours, so that a body keeps its own and a cell that does not change takes no bytes."""
+    frames = [_smaller(frame, FILM_WIDTH) for frame in ImageSequence.Iterator(picture)]
+    width, height = frames[0].size
+    strip = Image.new("RGB", (width, height * len(frames)))
+    for number, frame in enumerate(frames):
+        strip.paste(frame, (0, number * height))
+    coloured = _coloured(strip, FILM_COLOURS)
+    first, *rest = [coloured.crop((0, top, width, top + height)) for top in range(0, strip.height, height)]
     first.save(target, save_all=True, append_images=rest, duration=picture.info.get("duration", 100), loop=0, optimize=True)
 
 

@@ -105,11 +105,13 @@ def file_of(name: str) -> Path:
     if (ROOT / name).is_file():
         return ROOT / name
     for page in listed()["page"]:
-        for saved, _, text in figures.blocks((ROOT / page["file"]).read_text(encoding="utf-8")):
-            if saved == name:
-                file = Path(_saved().name) / name
-                file.write_text(text, encoding="utf-8")
-                return file
+        files = {saved: text for saved, _, text in figures.blocks((ROOT / page["file"]).read_text(encoding="utf-8")) if saved}
+        if name in files:
+            folder = Path(_saved().name) / Path(page["file"]).stem
+            folder.mkdir(exist_ok=True)
+            for saved, text in files.items():  # a deck may name another file of its page
+                (folder / saved).write_text(text, encoding="utf-8")
+            return folder / name
     raise FileNotFoundError(f"{LIST.name}: {name} is no file of the repository, and no page has its reader save it")
 
 
@@ -188,7 +190,8 @@ def measured(name: str, again: bool) -> dict:
     """Makes a run, as `make` does. Returns what docs/quoted.json keeps of it."""
     command = listed()["runs"][name]
     found, folder = make(name, again)
-    values = {text: eval(text, {**vars(claims), name: found}) for text in wanted(name)}
+    names = {**vars(claims), name: found, "opened": lambda _: hydro2d.open_run(folder)}
+    values = {text: eval(text, names) for text in wanted(name)}
     short = {text: value if isinstance(value, str) else float(f"{value:.{DIGITS}g}") for text, value in values.items()}
     return {"command": command, "method": METHOD, "setups": setups(command), "values": short, "closing": closing(folder)}
 

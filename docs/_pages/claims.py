@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import sys
 from collections.abc import Collection
 from pathlib import Path
@@ -11,13 +12,18 @@ from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
+import hydro2d
 from _pages import materials
+from hydro2d.output import ending
 from hydro2d.penetration import catalogue
 from problems.cth_nose_shape import members, pages, rigid_rod
+from problems.perforation import limits
 from problems.validation import against_experiments
 
 if TYPE_CHECKING:
     import pandas
+
+    from hydro2d.results.reading import Results
 
 WORDS = "none one two three four five six seven eight nine ten eleven twelve".split()
 
@@ -58,6 +64,23 @@ def lost(table: pandas.DataFrame, *labels: str) -> float:
 def apart(table: pandas.DataFrame) -> float:
     """The difference of the largest and the least depth, per cent of the median."""
     return 100.0 * (table["depth_m"].max() - table["depth_m"].min()) / table["depth_m"].median()
+
+
+# runs
+
+
+def mesh_z(run: Results) -> tuple[float, float]:
+    """Where the mesh begins and ends along z in the last state, m."""
+    z = run.dump().z_edges
+    return float(z[0]), float(z[-1])
+
+
+def predicted_end(run: Results, time: float) -> float:
+    """The end, in s, that `hydro2d status` predicted when the run had got to this time in s."""
+    upto = run.history["time"] <= time
+    end = ending.first(run.stop, {name: column[upto] for name, column in run.history.items()})
+    assert end is not None, run.directory
+    return end.time
 
 
 # the twelve shots, by the law of strength of their rods
@@ -121,6 +144,28 @@ def deepest() -> float:
     """The largest ratio of the depths of computed and measured rods of the twelve shots, without constants of another alloy."""
     rows = against_experiments.rows()[against_experiments.SETS[0].name]
     return max(median(row.computed) / row.measured for row in rows if row.measured and not row.said)
+
+
+# the conical rod of problems/perforation
+
+
+@functools.cache
+def cone(velocity: float) -> float:
+    """Velocity left behind the plate at a striking velocity, m/s, by the kept run of the deck as it stands."""
+    runs = hydro2d.runs(limits.HERE / "results" / "limits_cone.csv")
+    (left,) = runs[(runs["plate"] == "as it stands") & (runs["velocity"] == f"{velocity:g} m/s")]["residual_velocity_m_s"]
+    return float(left)
+
+
+def cone_limit() -> float:
+    """The measured ballistic limit, m/s."""
+    (limit,) = (each.limit for each in limits.measured() if each.deck == "cone")
+    return limit
+
+
+def cone_measured(velocity: float) -> float:
+    """Velocity left by the formula of Lambert and Jonas, exponent 2, with the measured limit, m/s."""
+    return math.sqrt(velocity**2 - cone_limit() ** 2)
 
 
 # what there is

@@ -9,11 +9,12 @@ from __future__ import annotations
 import csv
 import functools
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 from pydantic import TypeAdapter
 
 from hydro2d.deck import deck as decks
+from hydro2d.deck import targets
 from hydro2d.deck.shapes.body import Body
 from hydro2d.deck.shapes.box import Box
 from hydro2d.deck.shapes.rod import Rod
@@ -42,21 +43,31 @@ EXPLOSIVES = ("TNT", "comp_B", "PBX9404")
 #: parts of an analytic model's inputs that describe materials, and inputs among them that do not
 OF_MATERIALS = ("rod", "target", "cavity", "poncelet")
 NOT_OF_MATERIALS = ("rod.length", "rod.diameter", "rod.mass", "target.thickness", "cavity.velocity")
-#: beginning of a line, its end where there is no row, and what it begins with where the shots were slower or faster
-HEAD, NONE, OUTSIDE = "experience", "none for this kind of shot", "outside its range of velocities; "
-#: share of a velocity by which a shot may be slower or faster than those of a row and still be of its range
+#: beginning of a line, its end where there is no row, and what it begins with where the shots were others
+HEAD, NONE, OUTSIDE, OTHERS = "experience", "none for this kind of shot", "outside its range of", "with other materials"
+#: share of a velocity or thickness by which a shot may differ from those of a row and still be of its range
 MARGIN = 0.05
+#: between the sets of a row, and between its materials
+BETWEEN = "; "
 
 
 @dataclass(frozen=True)
 class Impact:
     """A rod, ball or bar with its material, such as "tungsten rod", and the material that it strikes.
 
-    An explosive strikes the metal that it drives.
+    An explosive strikes the metal that it drives. Impacts that differ only in the following are of one kind:
+
+    projectile_material : name of the projectile's material, as the library has it
+    target_materials : those of the bodies that it strikes, each once
+    thickness : of the deck's targets together, without gaps, over the length of the projectile, or the diameter of a ball;
+        None if it is not known
     """
 
     projectile: str
     target: str
+    projectile_material: str = field(default="", compare=False)
+    target_materials: tuple[str, ...] = field(default=(), compare=False)
+    thickness: float | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)
@@ -78,6 +89,8 @@ class Experience:
     numerical : standard deviation of the logarithms within a shot, over members and meshes
     measurement : relative standard deviation of the measurements;  model : scatter without it
     slowest, fastest : impact velocities in m/s;  coarsest, finest : cells across the radius
+    thinnest, thickest : thickness of the target over the length of the projectile
+    projectile_materials, target_materials : names of the materials of the shots, "; " between them
     """
 
     of: str
@@ -105,6 +118,10 @@ class Experience:
     fastest: float | None = None
     coarsest: float | None = None
     finest: float | None = None
+    thinnest: float | None = None
+    thickest: float | None = None
+    projectile_materials: str = ""
+    target_materials: str = ""
 
     @property
     def impact(self) -> Impact:
@@ -120,6 +137,7 @@ class Experience:
         """The row in a line, such as "computed/measured 0.97 (0.92 to 1.02), scatter 13 %, 21 shots (depth of ...)"."""
         many = f"{self.shots} {'point' if self.fit else 'shot'}{'s' * (self.shots != 1)}{' of a fit to shots' * self.fit}"
         about = [self.kind, *_range(self.slowest, self.fastest, "m/s"), *_range(self.coarsest, self.finest, "cells"),
+                 *(f"targets {each}" for each in _range(self.thinnest, self.thickest, "lengths thick", digits=2)),
                  *(["set-up chosen by results"] if self.chosen else [])]
         about_it = f"({', '.join(about)})"
         if self.right is not None:
@@ -133,19 +151,36 @@ class Experience:
         within = "" if self.numerical is None else f", {100.0 * self.numerical:.0f} % between runs of one shot"
         return f"computed/measured {self.bias:.2f}{interval}{scatter}{within}, {many}{missed} {about_it}"
 
-    def words_at(self, velocities: Iterable[float]) -> str:
-        """The row in a line, for shots at these impact velocities, m/s: it says so if one is outside the range of the row."""
-        if self.slowest is None or self.fastest is None:
-            return self.words
-        low, high = self.slowest * (1.0 - MARGIN), self.fastest * (1.0 + MARGIN)
-        return OUTSIDE * any(not low <= abs(velocity) <= high for velocity in velocities) + self.words
+    def words_at(self, impact: Impact, velocities: Iterable[float]) -> str:
+        """The row in a line, for such an impact at these velocities, m/s: it begins with what the shots of the row were not."""
+        speeds = any(_is_outside(abs(each), self.slowest, self.fastest) for each in velocities)
+        # a target in which the projectile stops may be thicker
+        thick = None if self.ended else self.thickest
+        outside = ["velocities"] * speeds + ["thickness"] * _is_outside(impact.thickness, self.thinnest, thick)
+        sides = ((self.projectile_materials, [impact.projectile_material]), (self.target_materials, impact.target_materials))
+        others = " into ".join(known.replace(BETWEEN, ", ") for known, own in sides if _are_others(own, known))
+        about = [f"{OUTSIDE} {' and '.join(outside)}"] * bool(outside) + [f"{OTHERS} ({others})"] * bool(others)
+        return "; ".join([*about, self.words])
 
 
-def _range(low: float | None, high: float | None, unit: str) -> list[str]:
+def _is_outside(value: float | None, low: float | None, high: float | None) -> bool:
+    """Whether a value is more than MARGIN below or above a range, an end of which is None if there is none."""
+    if value is None:
+        return False
+    return (low is not None and value < low * (1.0 - MARGIN)) or (high is not None and value > high * (1.0 + MARGIN))
+
+
+def _are_others(own: Iterable[str], known: str) -> bool:
+    """Whether one of these materials is none of the known ones of a row."""
+    return bool(known) and any(each and each not in known.split(BETWEEN) for each in own)
+
+
+def _range(low: float | None, high: float | None, unit: str, digits: int = 6) -> list[str]:
     """One text of a range, or none without its ends."""
     if low is None or high is None:
         return []
-    return [f"{low:g} {unit}" if low == high else f"{low:g} to {high:g} {unit}"]
+    ends = dict.fromkeys(f"{each:.{digits}g}" for each in (low, high))
+    return [f"{' to '.join(ends)} {unit}"]
 
 
 def kind(quantity: str, impact: Impact, ended: str) -> str:
@@ -170,10 +205,12 @@ def table() -> tuple[Experience, ...]:
 def read(row: Mapping[str, str]) -> Experience:
     """A row of the file; an empty text is a value that is not known. Raises KeyError for a missing column, ValueError."""
     texts = {field.name: row[field.name] for field in fields(Experience)}
-    return _ROW.validate_python({name: text for name, text in texts.items() if text or name == "ended"})
+    return _ROW.validate_python({name: text for name, text in texts.items() if text or name in TEXTS})
 
 
 _ROW = TypeAdapter(Experience)
+#: columns of texts that may be empty
+TEXTS = ("ended", "projectile_materials", "target_materials")
 
 
 def substance(material: Material) -> str:
@@ -206,19 +243,29 @@ def impact_of(deck: decks.Deck) -> Impact | None:
         others = [metal for name, metal in metals.items() if name != rod.name]
         alike = len(others) > 1 and len(set(others)) == 1
         target = f"{len(others)} bodies of {others[0]}" if alike else " and ".join(others)
-        return Impact(f"{metals[rod.name]} {rod.shape}", target)
+        struck = (library.origin(deck.materials[body.material]) for body in deck.body if body.name != rod.name)
+        return Impact(f"{metals[rod.name]} {rod.shape}", target, library.origin(deck.materials[rod.material]),
+                      tuple(dict.fromkeys(struck)), _thickness(deck, rod))
     if len(deck.body) == 2:
         return _driven(deck.materials[deck.body[0].material], deck.materials[deck.body[1].material])
     if len(deck.body) == 1 and _is_bar(deck.body[0]) and _flies_at_wall(deck):
-        return Impact(f"{metals[deck.body[0].name]} bar", WALL)
+        return Impact(f"{metals[deck.body[0].name]} bar", WALL, library.origin(deck.materials[deck.body[0].material]))
     return None
+
+
+def _thickness(deck: decks.Deck, rod: Body) -> float | None:
+    """Thickness of the targets of a deck, without gaps, over the length of its projectile; None if one has no rear."""
+    (low, high), through = decks.extent(rod, deck, "z"), targets.targets(deck)
+    if not all(decks.body(deck, each.name).is_target for each in through):
+        return None
+    return sum(abs(each.rear - each.surface) for each in through) / (rod.size[1] if rod.size else high - low)
 
 
 def _driven(one: Material, other: Material) -> Impact | None:
     """An explosive of the kept shots and the material that it drives, in either order; None for other materials."""
     charge, metal = (one, other) if substance(one) == EXPLOSIVE else (other, one)
     known = substance(charge) == EXPLOSIVE and any(charge.eos.values == library.load(name).eos.values for name in EXPLOSIVES)
-    return Impact(EXPLOSIVE, substance(metal)) if known else None
+    return Impact(EXPLOSIVE, substance(metal), library.origin(charge), (library.origin(metal),)) if known else None
 
 
 def _is_bar(body: Body) -> bool:
@@ -254,7 +301,7 @@ def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool, vel
     rows = [row for row in rows if perforated or row.quantity != RESIDUAL]
     predicted = {row.quantity for row in rows if not row.chosen}
     shown = [row for row in rows if not row.chosen or row.quantity not in predicted]
-    yield from (row.words_at(velocities) for row in shown)
+    yield from (row.words_at(impact, velocities) for row in shown)
     main = RESIDUAL if perforated else DEPTH
     struck = ended or perforated or left
     if struck and main not in {row.quantity for row in shown}:
@@ -264,14 +311,14 @@ def _of_run(impact: Impact | None, ended: str, perforated: bool, left: bool, vel
 
 
 def of_model(model: Model, rod: Material | None, target: Material | None, settings: Iterable[str] = (),
-             velocities: Iterable[float] = ()) -> list[str]:
+             velocities: Iterable[float] = (), thickness: float | None = None) -> list[str]:
     """Lines of the experience with an analytic model for a rod of one material and a target of another, or that there is none.
 
     It is that of the formula, with inputs from decks and the library, and not that of runs.
 
     rod, target : None for those of the model's example, of which there is none, since other inputs may replace their properties
     settings : names of the inputs that the user gives, such as "rod.length"; there is none with properties of materials
-    velocities : of the impacts, m/s
+    velocities : of the impacts, m/s;  thickness : of the target over the length of the rod, None if it is not known
     """
     rows = [row for row in table() if row.of == model.name]
     if not rows:
@@ -280,9 +327,9 @@ def of_model(model: Model, rod: Material | None, target: Material | None, settin
         return [f"{HEAD} with this model: none unless the materials of rod and target are given"]
     if own := ", ".join(sorted(filter(_of_materials, settings))):
         return [f"{HEAD} with this model: none with properties of materials that are given ({own})"]
-    here = Impact(f"{substance(rod)} rod", substance(target))
+    here = Impact(f"{substance(rod)} rod", substance(target), library.origin(rod), (library.origin(target),), thickness)
     at = list(velocities)
-    shown = [row.words_at(at) for row in rows if row.impact == here] or [f"{NONE} ({kind(DEPTH, here, '')})"]
+    shown = [row.words_at(here, at) for row in rows if row.impact == here] or [f"{NONE} ({kind(DEPTH, here, '')})"]
     return [f"{HEAD} with this model: {words}" for words in shown]
 
 

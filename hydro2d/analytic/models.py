@@ -38,6 +38,13 @@ class Request:
     geometry: Mapping[str, Given] = field(default_factory=dict)
     strain: float = 0.0
 
+    @property
+    def thickness(self) -> float | None:
+        """Thickness of the target over the length of the rod; None unless both are given."""
+        given = {name: each.value for name, each in self.geometry.items()} | dict(self.settings)
+        thickness, length = given.get("target.thickness"), given.get("rod.length")
+        return thickness / length if isinstance(thickness, float) and isinstance(length, float) and length else None
+
 
 @dataclass(frozen=True)
 class Case:

@@ -76,7 +76,7 @@ def evaluate(
     case = models.resolve(chosen, request)
     rows = case.rows(velocities)
     written = _write(case, rows, csv, figure)
-    known = experience.of_model(chosen, request.rod, request.target, request.settings, velocities)
+    known = experience.of_model(chosen, request.rod, request.target, request.settings, velocities, request.thickness)
     _show(model_text.data(case, rows, known) if json else model_text.report(case, rows, list(map(wrapped, known))))
     if written and not json:
         say("\n" + "\n".join(f"wrote {path}" for path in written))

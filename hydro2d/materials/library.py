@@ -110,6 +110,16 @@ def load(text: str, variant: str | None = None) -> Material:
     return build(text, _varied(tables[name], named or variant, fail), fail, True)
 
 
+def origin(material: Material) -> str:
+    """Name of the library's material on which a material is based, by its title; else its own name, without variants."""
+    return _names_by_title().get(material.title, parted(material.name)[0])
+
+
+@functools.cache
+def _names_by_title() -> dict[str, str]:
+    return {str(table.get("title", "")): name for name, table in _library()[0].items()}
+
+
 def problem(text: str, own: Mapping[str, object]) -> str | None:
     """Why a body cannot be of a material NAME or NAME:VARIANT of the library or of a deck's own tables; None if it can."""
     name, variants = parted(text)

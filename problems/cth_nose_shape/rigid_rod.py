@@ -134,7 +134,7 @@ class Result:
         return PLATE if self.depth is None else self.depth
 
     def __str__(self) -> str:
-        lost = f"{self.loss:.1f} %" if self.loss < 10.0 else f"{self.loss:.0f} %"
+        lost = f"{self.loss:z.1f} %" if self.loss < 10.0 else f"{self.loss:.0f} %"
         return f"perforated at {self.residual:.0f} m/s, {lost}" if self.depth is None else f"{self.depth:.1f} cm, {lost}"
 
 

@@ -52,6 +52,13 @@ CHOSEN = {each.name: not each.predicted for each in against.SETS} | {
 ERRORS = {each.name: each.error for each in against.SETS} | {HARDNESS: against.ODERMATT}
 #: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv
 LONG_ROD = 6.5
+#: materials of the rods of twelve_shots.toml, and of rods and targets of rigid_steel_rods.toml and steel_rods_fitted.toml
+RODS = {"Steinberg-Guinan": "W_alloy", "Johnson-Cook, sintered": "W_sintered", "Johnson-Cook, 90W": "W_90_7_3",
+        "Johnson-Cook, Y925": "W_Y925", "1.6 GPa": "steel_4340_rod", "fit, Rc 38": "steel_4340_Rc38"}
+PLATE = "Al6061_T6"
+#: armour of hardness.toml
+ARMOUR = {**{f"BHN {hardness}": "steel_4340" for hardness in (230, 270, 300, 350)},
+          "fit Rc 32": "steel_4340_Rc32", "fit Rc 38": "steel_4340_Rc38"}
 #: significant digits of a number in the file
 DIGITS = 4
 #: regime of rows that do not say whether the nose was kept
@@ -93,11 +100,16 @@ class Shot:
 
 
 @cache
-def impact(deck: str) -> hydro2d.Impact:
-    """What strikes what in a deck of this folder."""
-    known = hydro2d.impact_of(hydro2d.Deck.from_file(PROBLEMS / deck))
+def impact(deck: str, *changes: str) -> hydro2d.Impact:
+    """What strikes what in a deck of `problems` with changes, such as 'body.rod.material="W_alloy"'."""
+    known = hydro2d.impact_of(hydro2d.Deck.from_file(PROBLEMS / deck, list(changes)))
     assert known is not None, deck
     return known
+
+
+def _of(body: str, material: str) -> str:
+    """The change of a deck that gives one of its bodies a material of the library."""
+    return f'body.{body}.material="{material}"'
 
 
 def shots() -> list[dict[str, str]]:
@@ -123,6 +135,11 @@ def _grouped(runs: Iterable[rigid_rod.Result], label: Callable[[rigid_rod.Result
     return groups
 
 
+def _deck(shot: rigid_rod.Shot) -> str:
+    """The deck of one of the twelve shots."""
+    return f"{'ogive' if shot.nose == 'ogival' else 'hemi'}_{shot.alloy}_{shot.velocity:g}.toml"
+
+
 def twelve() -> list[Shot]:
     """Depths of the twelve shots with every law, and whether they perforate, on all meshes."""
     measured, compared = rigid_rod.experiments(), []
@@ -130,7 +147,7 @@ def twelve() -> list[Shot]:
     for (law, shot), members in _grouped(runs, lambda run: (run.labels["law"], run.shot)).items():
         stopped = [run for run in members if run.depth is not None]
         through, experiment = 2 * len(stopped) <= len(members), measured[shot]
-        what = impact(f"cth_nose_shape/{rigid_rod.DECKS[shot.alloy].name}")
+        what = impact(f"cth_nose_shape/{_deck(shot)}", _of("rod", RODS[law]))
         perforated = experiment.kind == "at least"
         ratios = () if through or perforated else tuple(1e-2 * run.reach / experiment.depth for run in members)
         about = {"velocity": shot.velocity, "cells": _cells(members)}
@@ -170,9 +187,9 @@ def rigid() -> list[Shot]:
         runs = [run for run in rigid_rod.read(HERE / "results" / file) if labels.items() <= run.labels.items()]
         for velocity, members in _grouped(runs, lambda run: float(run.labels["shot"])).items():
             if velocity in measured:
-                compared.append(Shot(name, DEPTH, impact("validation/eroding_steel_6061_2120.toml"), _ended(members),
-                                  tuple(10.0 * run.depth / measured[velocity] for run in members),
-                                  velocity=velocity, cells=_cells(members)))
+                what = impact("validation/rigid_6061_967.toml", _of("rod", RODS[labels["rod"]]), _of("plate", PLATE))
+                ratios = tuple(10.0 * run.depth / measured[velocity] for run in members)
+                compared.append(Shot(name, DEPTH, what, _ended(members), ratios, velocity=velocity, cells=_cells(members)))
     return compared
 
 
@@ -185,9 +202,14 @@ def long_rods() -> list[Shot]:
             fit = depths.odermatt(run.velocity, run.slenderness, depths.brinell(run), *depths.DENSITIES)
             point = (name, run.slenderness, run.velocity, run.labels.get("steel"))
             members.setdefault(point, []).append((run.ratio / fit, float(run.labels.get("cells", LONG_ROD))))
-    return [Shot(name, DEPTH, impact("long_rods/rod_10.toml"), "eroding", tuple(ratio for ratio, _ in runs), velocity=velocity,
-                 cells=tuple(cells for _, cells in runs), fit=True)
-            for (name, _, velocity, _), runs in members.items()]
+    return [Shot(name, DEPTH, impact(f"long_rods/{depths.DECKS[slenderness]}", *_armour(steel)), "eroding",
+                 tuple(ratio for ratio, _ in runs), velocity=velocity, cells=tuple(cells for _, cells in runs), fit=True)
+            for (name, slenderness, velocity, steel), runs in members.items()]
+
+
+def _armour(steel: str | None) -> list[str]:
+    """The change of a deck that gives it the steel of a run of hardness.toml; None leaves its own."""
+    return [] if steel is None else [_of("armour", ARMOUR[steel])]
 
 
 def weldox() -> list[Shot]:
@@ -214,9 +236,11 @@ def ballistic() -> list[Shot]:
         compared.append(Shot(against.BALLS if each.fit else against.LIMITS, LIMIT, impact(f"perforation/{each.deck}.toml"), "",
                              tuple(mesh.limit / each.limit for mesh in meshes), velocity=round(each.limit),
                              cells=tuple(mesh.cells for mesh in meshes), fit=each.fit))
-    return compared + [Shot(against.BALLS, HOLE, impact("perforation/psaap.toml"), "",
-                            (math.sqrt(hole.computed / hole.measured),), velocity=round(1e3 * hole.velocity),
-                            cells=(hole.cells,), fit=True) for hole in limits.holes()]
+    for hole in limits.holes():
+        what = impact("perforation/psaap.toml", f'body.plate.thickness="{hole.thickness} mm"')
+        compared.append(Shot(against.BALLS, HOLE, what, "", (math.sqrt(hole.computed / hole.measured),),
+                             velocity=round(1e3 * hole.velocity), cells=(hole.cells,), fit=True))
+    return compared
 
 
 def driven() -> list[Shot]:
@@ -224,9 +248,10 @@ def driven() -> list[Shot]:
 
     The points of the formula are those of a tube and of plates in planar decks, and count for tubes alone.
     """
-    compared, what = [], impact("explosives/cylinder.toml")
+    compared = []
     for row in of_explosives.kept():
         if "velocity" in row["quantity"]:
+            what = impact("explosives/cylinder.toml", _of("charge", row["explosive"]))
             fit = row["quantity"] == "final velocity"
             compared.append(Shot("driven by an explosive" if fit else "cylinder test", row["quantity"], what, "",
                               (float(row["obtained"]) / float(row["expected"]),), fit=fit))
@@ -243,7 +268,8 @@ def bars() -> list[Shot]:
 def shields() -> list[Shot]:
     """Whether walls of Whipple shields are defeated, by the criterion that half A chose."""
     names = {"A": SHIELDS_CHOSEN, "B": SHIELDS}
-    return [Shot(names[shot["half"]], PERFORATION, impact("whipple/shield.toml"), "", (),
+    wall = 'body.wall.thickness="{wall_mm} mm"'
+    return [Shot(names[shot["half"]], PERFORATION, impact("whipple/shield.toml", wall.format(**shot)), "", (),
                  right=whipple.computed(shot) == whipple.measured(shot), velocity=1e3 * float(shot["velocity_km_s"]),
                  cells=(float(shot["computed"][0]["cells"]),))
             for shot in whipple.shots()]
@@ -271,8 +297,7 @@ def measured_depths() -> list[Measured]:
     measured = []
     for shot, told in rigid_rod.experiments().items():
         if told.kind != "at least":
-            name = f"{'ogive' if shot.nose == 'ogival' else 'hemi'}_{shot.alloy}_{shot.velocity:g}.toml"
-            deck = hydro2d.Deck.from_file(PROBLEMS / "cth_nose_shape" / name)
+            deck = hydro2d.Deck.from_file(PROBLEMS / "cth_nose_shape" / _deck(shot))
             measured.append(Measured("tungsten into aluminium", deck, shot.velocity, told.depth,
                                   STAYED_RIGID if told.rigid else ERODED))
     for row in shots():
@@ -318,6 +343,11 @@ def _rounded(value: float | None) -> float | None:
     return None if value is None else float(f"{value:.{DIGITS}g}")
 
 
+def _listed(names: Iterable[str]) -> str:
+    """Names, each once, in one text."""
+    return "; ".join(sorted({name for name in names if name}))
+
+
 def row(shots: Sequence[Shot]) -> hydro2d.Experience:
     """The experience of shots of one kind, its numbers with the digits of the file."""
     first = shots[0]
@@ -325,10 +355,14 @@ def row(shots: Sequence[Shot]) -> hydro2d.Experience:
     compared = [shot for shot in shots if shot.ratios or shot.missed or shot.right is not None]
     velocities = [shot.velocity for shot in compared if shot.velocity]
     cells = [each for shot in compared for each in shot.cells]
+    thicknesses = [shot.impact.thickness for shot in compared if shot.impact.thickness is not None]
     about = {"of": of, "quantity": quantity, "projectile": what.projectile, "target": what.target, "ended": ended, "fit": fit,
              "chosen": bool(own), "sets": "; ".join(dict.fromkeys(shot.set for shot in compared)),
              "slowest": min(velocities, default=None), "fastest": max(velocities, default=None),
-             "coarsest": min(cells, default=None), "finest": max(cells, default=None)}
+             "coarsest": min(cells, default=None), "finest": max(cells, default=None),
+             "thinnest": _rounded(min(thicknesses, default=None)), "thickest": _rounded(max(thicknesses, default=None)),
+             "projectile_materials": _listed(shot.impact.projectile_material for shot in compared),
+             "target_materials": _listed(name for shot in compared for name in shot.impact.target_materials)}
     if first.right is not None:
         return hydro2d.Experience(**about, shots=len(shots), right=sum(bool(shot.right) for shot in shots))
     with_ratio = [shot for shot in shots if shot.ratios]

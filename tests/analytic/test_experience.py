@@ -2,6 +2,7 @@
 
 import json
 import tomllib
+from dataclasses import replace
 
 import pytest
 
@@ -14,7 +15,8 @@ from hydro2d.materials import library
 RODS = Impact("tungsten rod", "aluminium")
 RIGID = Experience("hydro2d", "depth", "tungsten rod", "aluminium", "rigid", False, False, "a", 21, bias=0.97, low=0.92,
                    high=1.02, scatter=0.13, least=0.8, most=1.3, slowest=900.0, fastest=1200.0, coarsest=6.0,
-                   finest=12.0)
+                   finest=12.0, thinnest=2.0, thickest=3.0, projectile_materials="W_alloy", target_materials="Al5083; Al7039")
+KNOWN = Impact("tungsten rod", "aluminium", "W_alloy", ("Al7039",), 2.5)
 
 
 def change(**changes):
@@ -34,7 +36,7 @@ def test_a_line(table):
     table(RIGID)
     assert experience.of_run(RODS, "rigid", False) == [
         "experience: computed/measured 0.97 (0.92 to 1.02), scatter 13 %, 21 shots (depth of rigid tungsten rods in aluminium, "
-        "900 to 1200 m/s, 6 to 12 cells)"]
+        "900 to 1200 m/s, 6 to 12 cells, targets 2 to 3 lengths thick)"]
 
 
 @pytest.mark.parametrize(("velocity", "outside"), [(870.0, False), (1250.0, False), (-1000.0, False), (None, False),
@@ -43,7 +45,47 @@ def test_a_velocity_outside_the_range_of_a_row_is_named(table, velocity, outside
     table(RIGID)
     (line,) = experience.of_run(RODS, "rigid", False, velocity)
     assert line.startswith("experience: outside its range of velocities; computed") == outside
-    assert line.endswith("900 to 1200 m/s, 6 to 12 cells)")
+    assert line.endswith("900 to 1200 m/s, 6 to 12 cells, targets 2 to 3 lengths thick)")
+
+
+@pytest.mark.parametrize(("changes", "thickness", "outside"), [
+    ({}, 2.5, False), ({}, 1.92, False), ({}, 1.8, True), ({}, 9.0, False), ({}, None, False), ({"thinnest": None}, 0.1, False),
+    ({"ended": ""}, 9.0, True), ({"ended": ""}, 3.1, False), ({"ended": ""}, 1.8, True)])
+def test_a_thickness_outside_the_range_of_a_row_is_named(changes, thickness, outside):
+    """A target that is thicker is of the range of rods that end in theirs, and not of the range of all others."""
+    line = change(**changes).words_at(replace(KNOWN, thickness=thickness), [])
+    assert line.startswith("outside its range of thickness; computed") == outside
+
+
+@pytest.mark.parametrize(("changes", "begins"), [
+    ({}, "computed"),
+    ({"target_materials": ("Al2024_T4",)}, "with other materials (Al5083, Al7039); computed"),
+    ({"target_materials": ("Al5083", "Al2024_T4")}, "with other materials (Al5083, Al7039); computed"),
+    ({"projectile_material": "W_X21C"}, "with other materials (W_alloy); computed"),
+    ({"projectile_material": "W_X21C", "target_materials": ("own",)},
+     "with other materials (W_alloy into Al5083, Al7039); computed"),
+    ({"projectile_material": "", "target_materials": ()}, "computed"),
+    ({"target_materials": ("own",), "thickness": 1.0},
+     "outside its range of thickness; with other materials (Al5083, Al7039); computed"),
+])
+def test_other_materials_of_the_same_metals_are_named(changes, begins):
+    assert RIGID.words_at(replace(KNOWN, **changes), [1000.0]).startswith(begins)
+
+
+def test_velocity_and_thickness_outside_the_range_are_named_together():
+    line = RIGID.words_at(replace(KNOWN, thickness=1.0), [1000.0, 3000.0])
+    assert line.startswith("outside its range of velocities and thickness; computed")
+
+
+def test_a_row_without_materials_has_no_others():
+    assert change(target_materials="", projectile_materials="").words_at(KNOWN, []).startswith("computed")
+
+
+@pytest.mark.parametrize(("thinnest", "thickest", "words"), [
+    (2.667, 8.0, "targets 2.7 to 8 lengths thick)"), (0.144, 0.144, "targets 0.14 lengths thick)"),
+    (3.249, 3.2491, "targets 3.2 lengths thick)"), (None, None, "6 to 12 cells)")])
+def test_words_of_a_thickness(thinnest, thickest, words):
+    assert change(thinnest=thinnest, thickest=thickest).words.endswith(f", {words}")
 
 
 def test_a_model_outside_the_range_of_its_row_says_so(capsys):
@@ -60,8 +102,9 @@ def test_a_model_outside_the_range_of_its_row_says_so(capsys):
     ({"shots": 1, "low": None, "scatter": None}, "0.97, 1 shot ("),
     ({"shots": 0, "bias": None, "missed": 1}, "no ratio, and 1 that perforated where the measured one stopped ("),
     ({"quantity": "residual velocity", "ended": "", "missed": 1}, "21 shots, and 1 that stopped where the measured one perf"),
-    ({"chosen": True}, "6 to 12 cells, set-up chosen by results)"),
-    ({"coarsest": 8.5, "finest": 8.5, "slowest": None}, "(depth of rigid tungsten rods in aluminium, 8.5 cells)"),
+    ({"chosen": True}, "6 to 12 cells, targets 2 to 3 lengths thick, set-up chosen by results)"),
+    ({"coarsest": 8.5, "finest": 8.5, "slowest": None, "thickest": None},
+     "(depth of rigid tungsten rods in aluminium, 8.5 cells)"),
     ({"quantity": "perforation", "ended": "", "right": 10, "shots": 12},
      "10 of 12 shots ended as measured (perforation of tungsten rods through aluminium, "),
 ])
@@ -142,6 +185,31 @@ def test_every_metal_of_the_library_is_recognised():
 ])
 def test_what_strikes_what(deck, impact):
     assert hydro2d.impact_of(hydro2d.Deck.from_file(f"problems/{deck}.toml")) == impact
+
+
+@pytest.mark.parametrize(("deck", "projectile", "targets", "thickness"), [
+    ("cth_nose_shape/hemi_5083_1086", "W_alloy", ("Al5083",), 533.4 / 97.79),
+    ("long_rods/rod_10", "W_90_7_3", ("steel_RHA",), 8.0),
+    ("whipple/shield", "Al2024_T4", ("Al6061_T6",), 1.45 / 3.18),
+    ("perforation/two_plates", "steel_4340", ("Al6061_T6",), (3 + 3) / 10),
+    ("perforation/psaap", "steel_Arne", ("steel_304",), 2.667 / 1.778),
+    ("explosives/cylinder", "TNT", ("copper_OFHC",), None),
+    ("classic/taylor_bar", "copper_OFHC", (), None),
+])
+def test_materials_and_thickness_of_an_impact(deck, projectile, targets, thickness):
+    """A material of a deck is named by that of the library on which it is based; gaps are no thickness."""
+    found = hydro2d.impact_of(hydro2d.Deck.from_file(f"problems/{deck}.toml"))
+    assert (found.projectile_material, found.target_materials) == (projectile, targets)
+    assert found.thickness == (None if thickness is None else pytest.approx(thickness))
+
+
+def test_a_variant_is_no_other_material_and_a_run_knows_the_origin_of_its_materials():
+    deck = hydro2d.Deck.from_file("problems/cth_nose_shape/hemi_5083_1086.toml",
+                                  ['body.plate.material="Al5083:published"', 'body.rod.material="own"',
+                                   'materials.own.based_on="W_sintered"'])
+    for each in (deck, hydro2d.Deck.from_toml(deck.to_toml())):
+        found = hydro2d.impact_of(each)
+        assert (found.projectile_material, found.target_materials) == ("W_sintered", ("Al5083",))
 
 
 @pytest.mark.parametrize("changes", [
@@ -262,6 +330,20 @@ def test_the_command_shows_it(capsys):
     assert last.startswith("experience with this model: computed/measured ")
     assert call([*words, "--json"]) == 0
     assert last in json.loads(capsys.readouterr().out)["experience"]
+
+
+def test_the_command_names_other_materials_and_a_thin_target(capsys):
+    """The thickness is that of the inputs or of the deck."""
+    def shown(*more, name="tate"):
+        assert call(["model", name, "--rod", "W_alloy", "--velocity", "1160m/s", "--target", *more]) == 0
+        return " ".join(capsys.readouterr().out.split()).partition("experience with this model: ")[2]
+
+    assert shown("Al5083").startswith("computed")
+    assert shown("Al2024_T4").startswith("with other materials (Al5083, Al7039); computed")
+    assert shown("Al5083", "--deck", "problems/cth_nose_shape/hemi_5083_1086.toml").startswith("computed")
+    for thickness, begins in (("530mm", "computed"), ("200mm", "outside its range of thickness; computed")):
+        inputs = (word for each in ("rod.length=97.79mm", f"target.thickness={thickness}") for word in ("--set", each))
+        assert shown("Al5083", *inputs, name="ravid-bodner").startswith(begins)
 
 
 def test_the_model_command_has_no_experience_with_properties_that_are_given(capsys):

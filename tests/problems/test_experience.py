@@ -1,5 +1,6 @@
 """The table of experience is that of the kept results, and the page shows it."""
 
+import tomllib
 from dataclasses import replace
 
 import pytest
@@ -67,6 +68,41 @@ def test_members_of_a_shot_count_once():
     assert (row.slowest, row.fastest, row.coarsest, row.finest) == (1000.0, 1200.0, 5.5, 12.5)
     assert experience._numerical([(1.0, 1.21), (5.0,)]) == pytest.approx(0.13479, rel=1e-4)  # ln 1.21 over the root of 2
     assert experience._numerical([(1.0,), (5.0,)]) is None
+
+
+def test_a_row_has_the_thicknesses_and_materials_of_its_shots():
+    def into(plate, thickness):
+        return hydro2d.Impact("tungsten rod", "aluminium", "W_alloy", plate, thickness)
+
+    (row,) = experience.rows([shot(1.0, impact=into(("Al7039",), 2.66666)), shot(1.1, impact=into(("Al5083", "Al7039"), 4.0)),
+                              shot(1.2, impact=into(("Al5083",), None)), shot(ratios=(), impact=into(("lead",), 9.0))])
+    assert (row.thinnest, row.thickest) == (2.667, 4.0)
+    assert (row.projectile_materials, row.target_materials) == ("W_alloy", "Al5083; Al7039")
+
+
+def test_the_materials_of_studies_are_those_of_their_files():
+    """The table of materials has those of the axes of the studies."""
+    for file, axis, body in (("cth_nose_shape/twelve_shots", "law", "rod_alloy"), ("long_rods/hardness", "steel", "steel"),
+                             ("validation/rigid_steel_rods", "rod", "rod_steel"),
+                             ("validation/steel_rods_fitted", "rod", "rod_steel")):
+        known = experience.ARMOUR if body == "steel" else experience.RODS
+        with open(experience.PROBLEMS / f"{file}.toml", "rb") as text:
+            (axis,) = (each for each in tomllib.load(text)["axis"] if each["name"] == axis)
+        own = {label: keys[f"materials.{body}"]["based_on"] for label, keys in axis["variants"].items()
+               if f"materials.{body}" in keys and label in known}
+        assert own, file
+        assert own == {label: known[label] for label in own}
+
+
+def test_kept_rows_have_the_thickness_of_each_shot(runs):
+    """The target of a shield is its wall, and a hole is of its own sheet."""
+    found = {(row.quantity, row.impact, row.chosen): (row.thinnest, row.thickest) for row in runs}
+    balls = hydro2d.Impact("steel sphere", "steel")
+    assert found["hole diameter", balls, False] == (pytest.approx(1.524 / 1.778, rel=1e-3), 1.125)
+    shields = hydro2d.Impact("aluminium sphere", "2 bodies of aluminium")
+    thick = [float(each["wall_mm"]) for each in experience.whipple.shots() if each["half"] == "B"]
+    assert found["perforation", shields, False] == (pytest.approx(min(thick) / 3.18, rel=1e-3),
+                                                    pytest.approx(max(thick) / 3.18, rel=1e-3))
 
 
 def test_perforations_have_no_ratio_and_are_counted():

@@ -3,10 +3,13 @@
 import re
 import subprocess
 import sys
+from types import SimpleNamespace
 
+import numpy as np
 import pandas
 import pytest
 
+import hydro2d
 from hydro2d.cli.main import call
 from hydro2d.materials import library
 from tests.rules import source
@@ -157,6 +160,40 @@ def test_numbers_of_tables_of_runs():
     assert claims.depth(table, "2 m/s", "b") == pytest.approx(10.0)
     assert claims.depths(table, "1 m/s", "b") == ""
     assert claims.apart(claims.rows(table, "1 m/s")) == pytest.approx(100.0 * 0.1 / 0.45)
+
+
+def test_a_file_of_a_page_has_the_others_of_the_page_beside_it():
+    """bar.toml names my_model.py."""
+    file = quoted.file_of("bar.toml")
+    assert (file.name, (file.parent / "my_model.py").is_file()) == ("bar.toml", True)
+    with pytest.raises(FileNotFoundError, match="no page has its reader save it"):
+        quoted.file_of("nothing.toml")
+
+
+def test_the_first_case_of_the_study_has_the_members_of_the_repeated_shot():
+    """The tutorial quotes the repeats of the first shot for those of the first case of its study."""
+    study = quoted.file_of("first_study.toml")
+    repeated = study.with_name("repeated.toml")
+    repeated.write_text(study.read_text(encoding="utf-8") + "\n[ensemble]\nrepeats = 4\n", encoding="utf-8")
+    shot = {"deck": str(source.ROOT / quoted.arguments_of(quoted.listed()["runs"]["quick"]).file), "ensemble": {"repeats": 4}}
+    plans = quoted.cases.plan(repeated, [], quiet=True), quoted.cases.plan_of(shot, "shot", [])
+    first, alone = ([hydro2d.Deck.from_toml(case.text).setup for case in plan.cases[:4]] for plan in plans)
+    assert len(set(first)) == 4
+    assert first == alone
+
+
+def test_the_mesh_and_the_predicted_end_of_a_run():
+    """A body that slows by 1 m/s every microsecond is below 5 m/s after 95 of them."""
+    time = np.linspace(0.0, 50e-6, 51)
+    run = SimpleNamespace(dump=lambda: SimpleNamespace(z_edges=np.array([0.1, 0.2, 0.4])), stop={"speed_below": 5.0},
+                          history={"time": time, "rod_core_velocity_m_s": 100.0 - 1e6 * time}, directory="run")
+    assert claims.mesh_z(run) == (0.1, 0.4)
+    assert claims.predicted_end(run, 40e-6) == pytest.approx(95e-6)
+
+
+def test_velocities_left_of_the_conical_rod():
+    assert [round(claims.cone(each)) for each in (260.0, 300.0)] == [91, 176]
+    assert claims.cone_measured(300.0) == pytest.approx((300.0**2 - 249.0**2) ** 0.5)
 
 
 def test_words_for_numbers():
