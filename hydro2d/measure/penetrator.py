@@ -205,6 +205,21 @@ class Penetrator:
         low, high = max(ends, key=lambda pair: pair[1] - pair[0])
         return high - low, low, high
 
+    def _without_debris(self, low: float, high: float) -> tuple[float, float]:
+        """The ends of a run on the axis without the material behind it that flies back, out of the target and from the nose.
+
+        A rod that has eroded and stopped may touch such debris, which is no part of its length.
+        """
+        s, grid = self.sim.state, self.sim.grid
+        within = (grid.z_edges > low) & (grid.z_edges < high)
+        edges = grid.z_edges[within][:: int(self.direction)]
+        speed = self.direction * grid.interior_vertices(s.v)[s.group[self.m]][within, 0][:: int(self.direction)]
+        slower = speed < min(self.direction * self._against, speed[-1] if len(speed) else 0.0) - self._slack
+        if not slower.any():
+            return low, high
+        tail = float(edges[np.flatnonzero(slower)[-1]])
+        return (tail, high) if self.direction > 0 else (low, tail)
+
     def nose(self) -> float:
         """Depth of the deepest rod material near the axis, from the original surface, now, m; 0 before impact.
 
@@ -474,10 +489,11 @@ class Penetrator:
 
     def measure(self) -> Projectile:
         """What the rod has done until now."""
-        length, low, high = self._length()
-        tail, nose = (low, high) if self.direction > 0 else (high, low)
-        length *= self._stretch
+        _, low, high = self._length()
         rows = self._rows(low, high)
+        low, high = self._without_debris(low, high)
+        tail, nose = (low, high) if self.direction > 0 else (high, low)
+        length = self._stretch * (high - low)
         radius = self._largest_radius(rows)
         core, core_momentum = self._core(rows)
         mass_of_rows, momentum_of_rows = self.sim.body_sums(self.m)

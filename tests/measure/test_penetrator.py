@@ -184,6 +184,17 @@ def test_material_that_flies_back_does_not_stop_the_run(simulation):
     assert simulation.penetrator.velocity() == pytest.approx(505.0, rel=0.01)  # momentum of the rest over the whole mass
 
 
+def test_debris_that_flies_back_from_a_stub_is_no_part_of_its_length(simulation):
+    """The front 8 mm of the rod have stopped; what is behind them flies back. A rod that rebounds as a whole keeps its length."""
+    whole, z = simulation.diagnostics()["rod_length_m"], simulation.grid.z_edges
+    v = simulation.grid.interior_vertices(simulation.state.v)[0]
+    v[:] = np.where(z < -8.01e-3, -300.0, -20.0)[:, None]
+    assert simulation.diagnostics()["rod_length_m"] == pytest.approx(8e-3, abs=np.diff(z).max())
+    for speed, rear in ((-300.0, -300.0), (300.0, 400.0), (1000.0, 20.0)):
+        v[:] = np.where(z < -8.01e-3, rear, speed)[:, None]
+        assert simulation.diagnostics()["rod_length_m"] == whole
+
+
 def test_debris_against_the_flank_is_not_of_the_core(simulation):
     """Debris with more mass than the core flies back along half of it: the core keeps the rod's velocity and its mass."""
     before = simulation.diagnostics()
