@@ -185,7 +185,7 @@ def test_material_that_flies_back_does_not_stop_the_run(simulation):
 
 
 def test_debris_that_flies_back_from_a_stub_is_no_part_of_its_length(simulation):
-    """The front 8 mm of the rod have stopped; what is behind them flies back. A rod that rebounds as a whole keeps its length."""
+    """The front 8 mm of the rod have stopped; what is behind flies back. A rod that rebounds as a whole keeps its length."""
     whole, z = simulation.diagnostics()["rod_length_m"], simulation.grid.z_edges
     v = simulation.grid.interior_vertices(simulation.state.v)[0]
     v[:] = np.where(z < -8.01e-3, -300.0, -20.0)[:, None]
