@@ -76,17 +76,12 @@ def _samples() -> dict[rigid_rod.Shot, hydro2d.Samples]:
 
 
 @functools.cache
-def _fine() -> dict[rigid_rod.Shot, hydro2d.Samples]:
-    return probability.samples(probability.FINER)
-
-
-@functools.cache
 def _inferred() -> probability.Inference:
     return probability.inferred(_samples())
 
 
-def _uncertain_notes(cells: float = USUAL) -> list[str]:
-    return rigid_rod.notes(rigid_rod.read(RESULTS / "uncertain_shots.csv", cells))
+def _uncertain_notes() -> list[str]:
+    return rigid_rod.notes(rigid_rod.read(RESULTS / "uncertain_shots.csv", USUAL))
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
@@ -95,21 +90,15 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "laws_5083": lambda: plate_laws.table("5083"), "laws_7039": lambda: plate_laws.table("7039"),
     "hemispherical": _depths(HEMISPHERICAL),
     "ogival": _depths(OGIVAL),
-    "ways": _of_advection(findings.scores),
     "schemes": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "advection")),
     "failures": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "failure")),
     "slidings": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "sliding")),
     "uncertain_outcomes": lambda: [*probability.outcomes(_samples()), *_uncertain_notes()],
-    "uncertain_depths": lambda: probability.validation(_samples()),
     "uncertain_laws": lambda: probability.likelihoods(_inferred()),
     "uncertain_foretold": lambda: probability.foretold(_samples()),
     "uncertain_strengths": lambda: probability.strengths(_inferred()),
     "uncertain_velocities": lambda: probability.halves(_inferred()),
-    "uncertain_by_law": lambda: probability.halves_by_law(_samples(), _inferred()),
     "uncertain_slopes": lambda: probability.slopes(_inferred()),
-    "uncertain_meshes": lambda: [*probability.compared(_samples(), _fine()), *_uncertain_notes(probability.FINER)],
-    "uncertain_refined": lambda: probability.refined(_samples(), _fine()),
-    "uncertain_shares": lambda: probability.shares(_samples()),
 }
 
 

@@ -433,7 +433,7 @@ def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS)
     """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input and u_num, cm.
 
     u_input : standard deviation of the rows of a law, without u_num
-    u_num : of the members of the law in results/twelve_shots.csv: chance, not the size of the cells
+    u_num : of the members of the law in results/twelve_shots.csv, if there are several: chance, not the size of the cells
     """
     members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in by_shot]
     laws = laws_of(by_shot)
@@ -444,9 +444,11 @@ def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS)
         cells_of_shot = []
         for each in laws:
             depths = reach(sample)[law == each]
-            numerical = float(np.var([run.reach for run in members if (run.shot, run.column) == (shot, MEMBERS[each])], ddof=1))
+            alike = [run.reach for run in members if (run.shot, run.column) == (shot, MEMBERS[each])]
+            numerical = float(np.var(alike, ddof=1)) if len(alike) > 1 else 0.0
             of_inputs = max(float(np.var(depths, ddof=1)) - numerical, 0.0)
-            cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f} ({numerical**0.5:.1f})")
+            chance = f" ({numerical**0.5:.1f})" if len(alike) > 1 else ""
+            cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f}{chance}")
         lines.append(f"| {shot} | {told} | {' | '.join(cells_of_shot)} |")
     return lines
 
