@@ -74,7 +74,7 @@ WELDOX, BAR = "steel rods through Weldox 460 E", "Taylor bar"
 LIMITS, BALLS = "ballistic limits of aluminium plates", "440C balls in 304 steel"
 SETS = (
     Set("tungsten into aluminium", "Scheffler, CTH nose-shape study, Table 2",
-        "nothing: Steinberg and Guinan's law for the study's alloy, its fracture pressures, no friction, 8.5 cells",
+        "nothing: Steinberg and Guinan's law for the study's alloy, its fracture pressures, no friction, 5.5 cells",
         "sweep problems/cth_nose_shape/twelve_shots.toml"),
     Set("tungsten into aluminium, sintered alloy", SAME,
         "the rod's law: that of another alloy, one of four that were tried; density of the shots' rods",
@@ -128,12 +128,14 @@ SETS = (
 SINGLE = ("blast in air", "craters of aluminium balls", "cone through 20 mm", "striker bar")
 
 #: sets of the twelve shots by the law of the rod, and that law in uncertain_shots.toml
-LAWS = {"Steinberg-Guinan": ("tungsten into aluminium", "Steinberg-Guinan"),
-        "Johnson-Cook, sintered": ("tungsten into aluminium, sintered alloy", "JC-sintered"),
-        "Johnson-Cook, 90W": ("tungsten into aluminium, 90W-7Ni-3Fe", "JC-90W"),
-        "Johnson-Cook, Y925": ("tungsten into aluminium, Y925", "JC-Y925")}
+LAWS = {"Steinberg-Guinan": ("tungsten into aluminium", "W_alloy"),
+        "Johnson-Cook, sintered": ("tungsten into aluminium, sintered alloy", "W_sintered"),
+        "Johnson-Cook, 90W": ("tungsten into aluminium, 90W-7Ni-3Fe", "W_90_7_3"),
+        "Johnson-Cook, Y925": ("tungsten into aluminium, Y925", "W_Y925")}
+#: the law of the rod of convergence.toml
+CONVERGED = "Steinberg-Guinan"
 #: inputs of uncertain_shots.toml by its heads
-MATERIAL, DEPTH = "body.rod.material", "depth_m"
+MATERIAL, DEPTH = "materials.rod_alloy.based_on", "depth_m"
 
 #: metal that an explosive drives, by the deck of problems/explosives
 DRIVEN = {"cylinder": "tube", "plate_push": "plate on a charge", "sandwich": "two plates around a charge"}
@@ -200,10 +202,13 @@ def _text(value: float | None) -> str:
 
 
 def twelve(name: str, law: str) -> list[Row]:
-    """The twelve shots with one law."""
-    file = PROBLEMS / "cth_nose_shape/results/twelve_shots.csv"
+    """The twelve shots with one law; of one law there are members on several meshes as well."""
+    folder = PROBLEMS / "cth_nose_shape/results"
+    file = folder / "twelve_shots.csv"
     measured, rows, samples = rigid_rod.experiments(), [], _samples(LAWS[law][1])
     all_of = members.grouped(rigid_rod.read(file)).get(law, {})
+    if law == CONVERGED:
+        all_of |= members.grouped(rigid_rod.read(folder / "convergence.csv"))[""]
     by_shot = members.grouped(rigid_rod.read(file, heads.CELLS)).get(law, {})
     for shot, runs in sorted(by_shot.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)):
         experiment, versions = measured[shot], {run.method for run in runs}
