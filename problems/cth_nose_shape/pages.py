@@ -20,6 +20,7 @@ from problems.cth_nose_shape import (
     braking,
     convergence,
     findings,
+    heads,
     members,
     plate_laws,
     probability,
@@ -28,7 +29,8 @@ from problems.cth_nose_shape import (
 )
 
 HERE = Path(__file__).parent
-PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in ("rigid-rod", "nose-shape", "resolution"))
+PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in (
+    "rigid-rod", "nose-shape", "resolution", "eroding-heads"))
 RESULTS = HERE / "results"
 #: cells across the rod of the tables of all twelve shots
 USUAL = 5.5
@@ -87,6 +89,7 @@ def _uncertain_notes() -> list[str]:
 TABLES: dict[str, Callable[[], list[str]]] = {
     "shots": _shots, "scores": _scores, "holes": _holes, "transitions": _transitions,
     "meshes": lambda: convergence.tables(convergence.found()), "forces": lambda: braking.forces(braking.kept()),
+    "heads": lambda: [*heads.table(heads.cases(heads.kept())), *rigid_rod.notes(heads.kept())],
     "laws_5083": lambda: plate_laws.table("5083"), "laws_7039": lambda: plate_laws.table("7039"),
     "hemispherical": _depths(HEMISPHERICAL),
     "ogival": _depths(OGIVAL),
