@@ -56,7 +56,7 @@ def _holes() -> list[str]:
 
 
 def _transitions() -> list[str]:
-    return transitions.table(hydro2d.runs(transitions.FILE))
+    return transitions.table(hydro2d.runs(*transitions.FILES))
 
 
 def _of_advection(make: Callable[[findings.Runs], list[str]],

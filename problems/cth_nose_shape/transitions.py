@@ -1,8 +1,8 @@
 """The velocity at which half of the rods lose a third of their length, with its interval.
 
-    python -m problems.cth_nose_shape.transitions [FILE]
+    python -m problems.cth_nose_shape.transitions [FILE ...]
 
-prints the table of `transition.toml` in Markdown, from the rows that its searches keep in results/transition.csv.
+prints the table of `transition.toml` and `transition_ogival.toml` in Markdown, from the rows that their searches keep.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import pandas
 import hydro2d
 
 HERE = Path(__file__).parent
-FILE = HERE / "results" / "transition.csv"
+FILES = tuple(HERE / "results" / f"{study}.csv" for study in ("transition", "transition_ogival"))
 #: what tells one search from another
 CASE = ("nose", "cells_across", "law", "plate")
 #: velocities of the experiments between which the change lies, m/s: the fastest rod that stayed rigid, the next that eroded
@@ -76,9 +76,9 @@ def table(runs: pandas.DataFrame) -> list[str]:
 def main(arguments: list[str]) -> int:
     """Prints the table. Returns the exit status."""
     parser = argparse.ArgumentParser(prog="transitions", description=__doc__.splitlines()[0])
-    parser.add_argument("file", type=Path, nargs="?", default=FILE, help="rows of a search; default: those that are kept")
+    parser.add_argument("files", type=Path, nargs="*", default=FILES, help="rows of searches; default: those that are kept")
     try:
-        print("\n".join(table(hydro2d.runs(parser.parse_args(arguments).file))))
+        print("\n".join(table(hydro2d.runs(*parser.parse_args(arguments).files))))
     except (hydro2d.Error, OSError) as problem:
         print(problem, file=sys.stderr)
         return 2

@@ -11,8 +11,6 @@ from hydro2d.study.plan import cases
 from problems.cth_nose_shape import transitions
 from tests.rules import source
 
-ROWS = hydro2d.runs(transitions.FILE)
-
 
 def rows(runs, nose="hemispherical", method=METHOD):
     """Runs of a search, of velocities and shares of the length."""
@@ -64,10 +62,11 @@ def test_a_table_says_that_its_runs_are_old():
     assert transitions.table(rows([(1000, 0.99)], method="2020-01-01"))[-1].endswith(": 1 of 2020-01-01.")
 
 
-def test_kept_runs_are_those_of_the_study():
-    plan = cases.plan(source.PROBLEMS / "cth_nose_shape/transition.toml", quiet=True)
+@pytest.mark.parametrize("file", transitions.FILES, ids=lambda file: file.stem)
+def test_kept_runs_are_those_of_the_study(file):
+    plan = cases.plan(source.PROBLEMS / f"cth_nose_shape/{file.stem}.toml", quiet=True)
     studied = {(case.values["nose"], case.values["law"], case.values["plate"]) for case in plan.cases}
-    searches = transitions.searches(ROWS)
+    searches = transitions.searches(hydro2d.runs(file))
     assert {(nose, law, plate) for nose, _, law, plate in searches} <= studied
     numbers = Counter(len(runs) for runs in searches.values())
     assert max(numbers) <= plan.search.budget.runs
