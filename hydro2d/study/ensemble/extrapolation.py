@@ -78,10 +78,10 @@ def grid_convergence(values: Mapping[float, float]) -> GridConvergence:
     """Order of convergence, extrapolated value and grid convergence index of the three finest meshes.
 
     The order p solves e32/e21 = r21^p (r32^p - 1)/(r21^p - 1) with the changes e and the ratios r of cell sizes between the
-    meshes 3, 2 and 1, the finest. The index is 1.25 |e21/y1|/(r21^p - 1): an estimate of the error of the mesh that should hold
-    for 95 % of cases (Celik and others, J. Fluids Eng. 130 (2008) 078001). No more than the order of a smooth solution, 2, is
-    taken, since a larger one is chance (Oberkampf and Roy, Verification and Validation in Scientific Computing, 2010, 8.6).
-    Values that go up and down, or whose changes do not fall, do not converge, and have none.
+    meshes 3, 2 and 1, the finest. The index is the size of 1.25 (e21/y1)/(r21^p - 1): an estimate of the error of the mesh that
+    should hold for 95 % of cases (Celik and others, J. Fluids Eng. 130 (2008) 078001). No more than the order of a smooth
+    solution, 2, is taken, since a larger one is chance (Oberkampf and Roy, Verification and Validation in Scientific Computing,
+    2010, 8.6). Values that go up and down, or whose changes do not fall, do not converge, and have none.
 
     Parameters
     ----------
