@@ -2,8 +2,8 @@
 
     python -m problems.cth_nose_shape.convergence [--figure PATH]
 
-The first table has the depth of every shot on every mesh: the median of the members, the least and the largest, and the median
-loss of length. The second has the length that is left, and the third the volume of the hole. Order, extrapolated value and grid
+The tables have the depth of every shot on every mesh, the length that is left, the volume of the hole, and the velocity of rods
+that went through the plate: the median of the members, the least and the largest. Order, extrapolated value and grid
 convergence index are those of the medians on the three finest meshes (hydro2d.grid_convergence); where some members hold and
 others erode there are none.
 """
@@ -22,8 +22,6 @@ from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 
 FILE = rigid_rod.EXPERIMENTS.with_name("results") / "convergence.csv"
-#: length of the hemispherical and the ogival rods, mm
-LENGTHS = {"hemispherical": 97.79, "ogival": 101.346}
 
 Meshes = dict[Shot, dict[float, list[Result]]]
 
@@ -39,7 +37,8 @@ class Quantity:
 
 
 DEPTH = Quantity("depth", "cm", 1, lambda run: run.depth)
-LENGTH = Quantity("length left", "mm", 1, lambda run: LENGTHS[run.shot.nose] * (1.0 - 1e-2 * run.loss))
+LENGTH = Quantity("length left", "mm", 1,
+                  lambda run: 1e3 * rigid_rod.experiments()[run.shot].length * (1.0 - 1e-2 * run.loss))
 HOLE = Quantity("volume of the hole", "cm³", 2, lambda run: run.hole)
 RESIDUAL = Quantity("residual velocity", "m/s", 0, lambda run: run.residual)
 QUANTITIES = (DEPTH, LENGTH, HOLE, RESIDUAL)
@@ -50,7 +49,7 @@ def found(path: Path = FILE) -> Meshes:
     meshes: Meshes = {}
     for run in sorted(rigid_rod.read(path), key=lambda run: float(run.labels[rigid_rod.CELLS])):
         meshes.setdefault(run.shot, {}).setdefault(float(run.labels[rigid_rod.CELLS]), []).append(run)
-    return dict(sorted(meshes.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)))
+    return dict(sorted(meshes.items()))
 
 
 def _values(runs: Sequence[Result], quantity: Quantity) -> list[float]:
@@ -115,8 +114,7 @@ def draw(meshes: Meshes):
         axes.set_xlim(left=0.0)
         axes.set_ylim(bottom=0.0)
         axes.grid(alpha=0.3)
-    handles, labels = panels[0][1].get_legend_handles_labels()
-    figure.legend(handles, labels, fontsize="small", loc="outside lower center", ncols=3)
+    figure.legend(*panels[0][1].get_legend_handles_labels(), fontsize="small", loc="outside lower center", ncols=3)
     return figure
 
 

@@ -43,8 +43,7 @@ def grouped(results: Sequence[Result]) -> Runs:
 
 def shots_of(found: Runs, nose: str) -> list[Shot]:
     """The shots with a nose, by alloy and velocity."""
-    return sorted({shot for cases in found.values() for shot in cases if shot.nose == nose},
-                  key=lambda shot: (shot.alloy, shot.velocity))
+    return sorted({shot for cases in found.values() for shot in cases if shot.nose == nose})
 
 
 def _cell(runs: Sequence[Result]) -> str:

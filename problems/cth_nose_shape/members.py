@@ -62,7 +62,7 @@ def cell(members: list[Result], stayed_rigid: bool | None) -> str:
 def table(found: dict[str, dict[Shot, list[Result]]]) -> list[str]:
     """Lines of Markdown: a row for each shot, a column for each law."""
     measured, sides = rigid_rod.experiments(), rigid()
-    shots = sorted({shot for cases in found.values() for shot in cases}, key=lambda at: (at.nose, at.alloy, at.velocity))
+    shots = sorted({shot for cases in found.values() for shot in cases})
     lines = ["| shot | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 2) + "|"]
     for shot in shots:
         cells = [cell(cases[shot], sides.get(shot)) if shot in cases else "" for cases in found.values()]

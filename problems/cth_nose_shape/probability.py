@@ -57,8 +57,7 @@ STRAINS = (0.1, 0.5, 1.0)
 STRENGTH = {"W_alloy": (1991.0, 2157.0, 2170.0), "W_sintered": (2100.0, 1967.0, 1547.0),
             "W_90_7_3": (1777.0, 1430.0, 1072.0), "W_Y925": (1755.0, 1528.0, 1190.0)}
 #: the laws as results/twelve_shots.csv names them
-MEMBERS = {"W_alloy": "Steinberg-Guinan", "W_sintered": "Johnson-Cook, sintered", "W_90_7_3": "Johnson-Cook, 90W",
-           "W_Y925": "Johnson-Cook, Y925"}
+MEMBERS = {material: law for law, material in rigid_rod.LAWS.items()}
 #: draws of the inputs for each law, and of the numbers of (1); the seed of both; walkers and their steps, half to settle
 DRAWS, FITS, SEED, WALKERS, STEPS = 2000, 200, 1, 50, 2000
 #: bounds of the numbers of (1): s, from 0.3 to 5 % of the velocity as a standard deviation; m_law; c_f; c_p; c_l; c_mu

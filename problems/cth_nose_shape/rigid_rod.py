@@ -40,6 +40,9 @@ ALLOYS = ("5083", "7039")
 RODS = tuple(itertools.product(NOSES.values(), ALLOYS))
 #: thickness of the plates, cm; mass of the rods, kg
 PLATE, MASS = 53.34, 0.063
+#: materials of the library with the laws of the rod, by what tables call the laws
+LAWS = {"Steinberg-Guinan": "W_alloy", "Johnson-Cook, sintered": "W_sintered", "Johnson-Cook, 90W": "W_90_7_3",
+        "Johnson-Cook, Y925": "W_Y925"}
 #: marks runs that are not trustworthy
 DOUBTFUL = "†"
 #: words for the loss of length of rods, by the largest loss in per cent
@@ -47,9 +50,9 @@ LOSSES = {10.0: "up to a tenth of the length lost", 100.0 / 3.0: "up to a third"
 COLOURS = ("#1f4e79", "#c26a1b", "#4f7942", "#8b3a62", "#5b6770")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, order=True)
 class Shot:
-    """A row of the table: nose, alloy and velocity (m/s)."""
+    """A row of the table: nose, alloy and velocity (m/s), in this order."""
 
     nose: str
     alloy: str
@@ -67,11 +70,12 @@ class Shot:
 
 @dataclass(frozen=True)
 class Experiment:
-    """Depth (m), whether it is "measured", "estimated" or "at least", and the hydrodynamic limit of the depth (m)."""
+    """Depth (m), whether it is "measured", "estimated" or "at least", its hydrodynamic limit, and the length of the rod (m)."""
 
     depth: float
     kind: str
     limit: float
+    length: float
 
     @property
     def rigid(self) -> bool:
@@ -144,9 +148,10 @@ def experiments() -> dict[Shot, Experiment]:
     by_shot = {}
     for row in kept.rows(EXPERIMENTS, ("nose", "target", "velocity_m_s", "depth_cm", "depth_is", "length_cm")):
         alloy = row["target"].removeprefix("Al")
-        limit = 1e-2 * float(row["length_cm"]) * math.sqrt(_density_ratio(alloy))
+        length = 1e-2 * float(row["length_cm"])
+        limit = length * math.sqrt(_density_ratio(alloy))
         shot = Shot(row["nose"], alloy, float(row["velocity_m_s"]))
-        by_shot[shot] = Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"], limit)
+        by_shot[shot] = Experiment(1e-2 * float(row["depth_cm"]), row["depth_is"], limit, length)
     return by_shot
 
 
@@ -196,7 +201,7 @@ def columns(results: list[Result]) -> dict[str, dict[Shot, Result]]:
 def table(found: dict[str, dict[Shot, Result]]) -> list[str]:
     """Lines of Markdown."""
     measured = experiments()
-    shots = sorted({shot for cases in found.values() for shot in cases}, key=lambda at: (at.nose, at.alloy, at.velocity))
+    shots = sorted({shot for cases in found.values() for shot in cases})
     lines = ["| shot | experiment | " + " | ".join(found) + " |", "|---" * (len(found) + 2) + "|"]
     for shot in shots:
         cells = [str(cases.get(shot, "")) for cases in found.values()]

@@ -127,11 +127,9 @@ SETS = (
 #: sets of which single_runs.csv has the shots
 SINGLE = ("blast in air", "craters of aluminium balls", "cone through 20 mm", "striker bar")
 
-#: sets of the twelve shots by the law of the rod, and that law in uncertain_shots.toml
-LAWS = {"Steinberg-Guinan": ("tungsten into aluminium", "W_alloy"),
-        "Johnson-Cook, sintered": ("tungsten into aluminium, sintered alloy", "W_sintered"),
-        "Johnson-Cook, 90W": ("tungsten into aluminium, 90W-7Ni-3Fe", "W_90_7_3"),
-        "Johnson-Cook, Y925": ("tungsten into aluminium, Y925", "W_Y925")}
+#: sets of the twelve shots by the law of the rod
+LAWS = {"Steinberg-Guinan": "tungsten into aluminium", "Johnson-Cook, sintered": "tungsten into aluminium, sintered alloy",
+        "Johnson-Cook, 90W": "tungsten into aluminium, 90W-7Ni-3Fe", "Johnson-Cook, Y925": "tungsten into aluminium, Y925"}
 #: the law of the rod of convergence.toml
 CONVERGED = "Steinberg-Guinan"
 #: inputs of uncertain_shots.toml by its heads
@@ -205,12 +203,12 @@ def twelve(name: str, law: str) -> list[Row]:
     """The twelve shots with one law; of one law there are members on several meshes as well."""
     folder = PROBLEMS / "cth_nose_shape/results"
     file = folder / "twelve_shots.csv"
-    measured, rows, samples = rigid_rod.experiments(), [], _samples(LAWS[law][1])
+    measured, rows, samples = rigid_rod.experiments(), [], _samples(rigid_rod.LAWS[law])
     all_of = members.grouped(rigid_rod.read(file)).get(law, {})
     if law == CONVERGED:
         all_of |= members.grouped(rigid_rod.read(folder / "convergence.csv"))[""]
     by_shot = members.grouped(rigid_rod.read(file, heads.CELLS)).get(law, {})
-    for shot, runs in sorted(by_shot.items(), key=lambda item: (item[0].nose, item[0].alloy, item[0].velocity)):
+    for shot, runs in sorted(by_shot.items()):
         experiment, versions = measured[shot], {run.method for run in runs}
         through = sum(run.depth is None for run in runs)
         said = f"{PERFORATED} in {through} of {len(runs)} runs" if through else ""
@@ -229,7 +227,7 @@ def _of(versions: set[str]) -> str:
 
 @cache
 def _samples(law: str) -> dict[rigid_rod.Shot, tuple[tuple[float, ...], str]]:
-    """Depths (cm) of the hemispherical shots with one law of the rod at other values of the other uncertain inputs.
+    """Depths (cm) of the hemispherical shots with one law of the rod, a material, at values of the other uncertain inputs.
 
     Of the meshes that were run, that with the most rows counts.
     """

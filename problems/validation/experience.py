@@ -53,8 +53,7 @@ ERRORS = {each.name: each.error for each in against.SETS} | {HARDNESS: against.O
 #: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv
 LONG_ROD = 6.5
 #: materials of the rods of twelve_shots.toml, and of rods and targets of rigid_steel_rods.toml and steel_rods_fitted.toml
-RODS = {"Steinberg-Guinan": "W_alloy", "Johnson-Cook, sintered": "W_sintered", "Johnson-Cook, 90W": "W_90_7_3",
-        "Johnson-Cook, Y925": "W_Y925", "1.6 GPa": "steel_4340_rod", "fit, Rc 38": "steel_4340_Rc38"}
+RODS = {**rigid_rod.LAWS, "1.6 GPa": "steel_4340_rod", "fit, Rc 38": "steel_4340_Rc38"}
 PLATE = "Al6061_T6"
 #: armour of hardness.toml
 ARMOUR = {**{f"BHN {hardness}": "steel_4340" for hardness in (230, 270, 300, 350)},
@@ -151,7 +150,7 @@ def twelve() -> list[Shot]:
         perforated = experiment.kind == "at least"
         ratios = () if through or perforated else tuple(1e-2 * run.reach / experiment.depth for run in members)
         about = {"velocity": shot.velocity, "cells": _cells(members)}
-        name = against.LAWS[law][0]
+        name = against.LAWS[law]
         compared.append(Shot(name, DEPTH, what, _ended(members), ratios, missed=through and not perforated, **about))
         compared.append(Shot(name, PERFORATION, what, "", (), right=through == perforated, **about))
     return compared
