@@ -17,7 +17,7 @@ import hydro2d
 from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "explosives.csv"
-COLUMNS = ("deck", "explosive", "quantity", "unit", "expected", "source", "obtained")
+COLUMNS = ("deck", "explosive", "quantity", "unit", "expected", "source", "obtained", "method")
 
 #: wall velocity at 6 and 19 mm, km/s
 CYLINDER = {"TNT": (1.21, 1.42), "comp_B": (1.44, 1.63), "PBX9404": (1.61, 1.80)}
@@ -50,14 +50,14 @@ def _mass_ratio(file) -> float:
 def of_run(directory: Path) -> list[tuple]:
     """The rows of a run, in the order of COLUMNS; velocities in km/s."""
     deck = hydro2d.Deck.from_file(directory / "deck.toml")
-    explosive = deck.materials[deck.body[0].material].name
+    explosive, method = deck.materials[deck.body[0].material].name, hydro2d.open_run(directory).summary.method
     rows: list[tuple] = []
     if deck.name == "against_a_wall":
         with h5py.File(directory / "history.h5") as file:
             pressure = float(np.mean(file["gauge_pressure_Pa"][:, 0][file["time"][:] > ARRIVED])) * 1e-9
         cj = deck.materials["charge"].eos.values["cj_pressure"] * 1e-9
         return [(deck.name, "TNT", "pressure at the wall", "GPa", round(REFLECTED * cj, 2), "shock relations",
-                 round(pressure, 2))]
+                 round(pressure, 2), method)]
     with h5py.File(directory / "history.h5") as file:
         ratio = _mass_ratio(file)
         if deck.name == "cylinder":
@@ -65,13 +65,13 @@ def of_run(directory: Path) -> list[tuple]:
             speed = file["tracer_velocity_r_m_s"][:, 0] * 1e-3
             for distance, expected in zip((6, 19), CYLINDER[explosive], strict=True):
                 rows.append((deck.name, explosive, f"wall velocity at {distance} mm", "km/s", expected, HANDBOOK,
-                             round(float(np.interp(distance * 1e-3, moved, speed)), 3)))
+                             round(float(np.interp(distance * 1e-3, moved, speed)), 3), method))
             form, final = "cylinder", float(speed.max())
         else:
             final = float(file["body_plate_velocity_m_s"][-1]) * 1e-3
             form = "sandwich" if deck.boundaries.z_min == "wall" else "open"
         expected = round(GURNEY[explosive] * gurney(form, ratio), 3)
-        rows.append((deck.name, explosive, "final velocity", "km/s", expected, FORMULA, round(final, 3)))
+        rows.append((deck.name, explosive, "final velocity", "km/s", expected, FORMULA, round(final, 3), method))
     return rows
 
 

@@ -20,7 +20,7 @@ from problems import kept
 
 FOLDER = Path(__file__).parent
 EXPECTED, OBTAINED = FOLDER / "results" / "expected.csv", FOLDER / "results" / "obtained.csv"
-COLUMNS = ("deck", "quantity", "obtained", "trusted")
+COLUMNS = ("deck", "quantity", "obtained", "trusted", "method")
 #: density of water, kg/m^3, and speed of the wedge, m/s
 WATER, SLAM = 998.2, 100.0
 #: decks that were changed after their first run; the README says how
@@ -150,8 +150,8 @@ def rows_of(name: str, runs: Path) -> list[dict[str, str]]:
     found = dict(READ[name](history | {"targets": results.summary.targets}))
     rows = [row for row in expected() if row["deck"] == name]
     assert [row["quantity"] for row in rows] == list(found), name
-    return [{"deck": name, "quantity": quantity, "obtained": f"{value:.4g}", "trusted": trusted}
-            for quantity, value in found.items()]
+    return [{"deck": name, "quantity": quantity, "obtained": f"{value:.4g}", "trusted": trusted,
+             "method": results.summary.method} for quantity, value in found.items()]
 
 
 def line(row: dict[str, str], found: dict[str, str]) -> str:

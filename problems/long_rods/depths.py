@@ -62,12 +62,13 @@ def odermatt(velocity: float, slenderness: float, brinell: float, rod_density: f
 
 @dataclass(frozen=True)
 class Result:
-    """A finished case: its name, its labels on the axes, its slenderness L/D, and the numbers of ``NUMBERS``."""
+    """A finished case: its name, its labels on the axes, its slenderness L/D, the numbers of ``NUMBERS``, and its method."""
 
     name: str
     labels: dict[str, str]
     slenderness: int
     numbers: dict[str, float]
+    method: str
 
     @property
     def velocity(self) -> float:
@@ -85,7 +86,7 @@ class Result:
     @property
     def row(self) -> dict[str, str]:
         texts = {name: f"{round(self.numbers[name], digits):.12g}" for name, digits in NUMBERS.items()}
-        return {**self.labels, "slenderness": str(self.slenderness), **texts, "case": self.name}
+        return {**self.labels, "slenderness": str(self.slenderness), **texts, "method": self.method, "case": self.name}
 
 
 def measured(history: dict[str, np.ndarray], diameter: float) -> dict[str, float]:
@@ -112,12 +113,12 @@ def measured(history: dict[str, np.ndarray], diameter: float) -> dict[str, float
 
 def read(path: Path) -> list[Result]:
     """The finished cases of the directory of a study, or of a file of results. Raises StudyError, OSError."""
-    return kept.read(path, ("case", "slenderness", *NUMBERS), _kept, _of)
+    return kept.read(path, ("case", "slenderness", *NUMBERS, "method"), _kept, _of)
 
 
 def _kept(row: dict[str, str]) -> Result:
-    labels = kept.labels(row, ("slenderness", *NUMBERS))
-    return Result(row["case"], labels, int(row["slenderness"]), {name: float(row[name]) for name in NUMBERS})
+    labels = kept.labels(row, ("slenderness", *NUMBERS, "method"))
+    return Result(row["case"], labels, int(row["slenderness"]), {name: float(row[name]) for name in NUMBERS}, row["method"])
 
 
 def _of(case: hydro2d.Case) -> Result:
@@ -129,13 +130,14 @@ def _of(case: hydro2d.Case) -> Result:
     parts = measured(hydro2d.open_run(case.directory).history, diameter)
     numbers = (velocity, parts["depth"] / length, parts["slope"], parts["end"], parts["u"], parts["v"], parts["left"] / length,
                summary.crater.mean_diameter_m / diameter, 1e6 * parts["time"], summary.wall_s / 60.0)
-    return Result(case.name, case.values, round(length / diameter), dict(zip(NUMBERS, numbers, strict=True)))
+    return Result(case.name, case.values, round(length / diameter), dict(zip(NUMBERS, numbers, strict=True)),
+                  summary.method)
 
 
 def keep(results: Sequence[Result], path: Path) -> None:
     """Writes a file of results. Raises OSError."""
     axes = dict.fromkeys(axis for result in results for axis in result.labels)
-    kept.write(path, [*axes, "slenderness", *NUMBERS, "case"], (result.row for result in results))
+    kept.write(path, [*axes, "slenderness", *NUMBERS, "method", "case"], (result.row for result in results))
 
 
 def keep_histories(directories: Sequence[Path], path: Path) -> None:

@@ -265,9 +265,10 @@ def armour(name: str) -> list[Row]:
     meshes = depths.read(folder / "meshes.csv")
     for run in sorted(depths.read(folder / "velocities.csv"), key=lambda run: (int(run.labels["L/D"]), run.velocity)):
         fit = depths.odermatt(run.velocity, float(run.labels["L/D"]), 270.0, *depths.DENSITIES)
-        same = [run, *(other for other in meshes if (other.slenderness, other.velocity) == (run.slenderness, run.velocity))]
+        same = [run, *(other for other in meshes if (other.slenderness, other.velocity, other.method)
+                       == (run.slenderness, run.velocity, run.method))]
         rows.append(Row(name, f"L/D {run.labels['L/D']}, {run.velocity:g} m/s", fit, "L", (run.ratio,), digits=2,
-                        around=(tuple(each.ratio for each in same), len(same))))
+                        around=(tuple(each.ratio for each in same), len(same)), method=run.method))
     return rows
 
 
@@ -308,13 +309,15 @@ def bars(name: str) -> list[Row]:
 
 def explosives(name: str) -> list[Row]:
     """Velocities of the wall of the cylinder test."""
-    return [Row(name, f"{row['explosive']}, {row['quantity']}", *_of_explosive(row), digits=2, quantity=row["quantity"])
+    return [Row(name, f"{row['explosive']}, {row['quantity']}", *_of_explosive(row), digits=2, quantity=row["quantity"],
+                method=row["method"])
             for row in of_explosives.kept() if row["quantity"].startswith("wall velocity")]
 
 
 def gurney(name: str) -> list[Row]:
     """Final velocities of metal that an explosive drives."""
-    return [Row(name, f"{DRIVEN[row['deck']]}, {row['explosive']}", *_of_explosive(row), digits=2, quantity=row["quantity"])
+    return [Row(name, f"{DRIVEN[row['deck']]}, {row['explosive']}", *_of_explosive(row), digits=2, quantity=row["quantity"],
+                method=row["method"])
             for row in of_explosives.kept() if row["quantity"] == "final velocity"]
 
 
@@ -325,9 +328,9 @@ def _of_explosive(row: dict[str, str]) -> tuple[float, str, tuple[float]]:
 
 def single(name: str) -> list[Row]:
     """Shots that were run once."""
-    columns = ("set", "shot", "unit", "measured", "computed", "digits")
+    columns = ("set", "shot", "unit", "measured", "computed", "digits", "method")
     return [Row(name, row["shot"], float(row["measured"]), row["unit"], (float(row["computed"]),), digits=int(row["digits"]),
-                quantity=row["shot"])
+                quantity=row["shot"], method=row["method"])
             for row in kept.rows(HERE / "single_runs.csv", columns) if row["set"] == name]
 
 
@@ -335,8 +338,9 @@ def handbooks(name: str, changed: bool) -> list[Row]:
     """The ten problems from handbooks: those whose deck was changed after the first run, or the others."""
     found = compare.obtained()
     return [Row(name, f"{row['deck']}, {row['quantity']}".replace("_", " "), float(row["expected"]), row["unit"],
-                (float(found[row["deck"], row["quantity"]]["obtained"]),), digits=2, quantity=row["quantity"])
-            for row in compare.expected() if (row["deck"] in compare.CHANGED) == changed]
+                (float(of["obtained"]),), digits=2, quantity=row["quantity"], method=of["method"])
+            for row in compare.expected() if (row["deck"] in compare.CHANGED) == changed
+            for of in [found[row["deck"], row["quantity"]]]]
 
 
 def rows() -> dict[str, list[Row]]:
