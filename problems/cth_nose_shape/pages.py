@@ -30,7 +30,7 @@ from problems.cth_nose_shape import (
 
 HERE = Path(__file__).parent
 PAGES = tuple(HERE.parents[1] / "docs" / "explanation" / f"{name}.md" for name in (
-    "rigid-rod", "nose-shape", "resolution", "eroding-heads"))
+    "rigid-rod", "nose-shape", "uncertain-shots", "resolution", "eroding-heads"))
 RESULTS = HERE / "results"
 #: cells across the rod of the tables of all twelve shots
 USUAL = 5.5
@@ -73,8 +73,8 @@ def _depths(nose: str) -> Callable[[], list[str]]:
 
 
 @functools.cache
-def _samples() -> dict[rigid_rod.Shot, hydro2d.Samples]:
-    return probability.samples()
+def _samples(nose: str = HEMISPHERICAL) -> dict[rigid_rod.Shot, hydro2d.Samples]:
+    return probability.samples(nose=nose)
 
 
 @functools.cache
@@ -82,8 +82,9 @@ def _inferred() -> probability.Inference:
     return probability.inferred(_samples())
 
 
-def _uncertain_notes() -> list[str]:
-    return rigid_rod.notes(rigid_rod.read(RESULTS / "uncertain_shots.csv", USUAL))
+def _uncertain_notes(nose: str) -> list[str]:
+    runs = rigid_rod.read(RESULTS / "uncertain_shots.csv", USUAL)
+    return rigid_rod.notes([run for run in runs if run.shot is not None and run.shot.nose == nose])
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
@@ -96,12 +97,15 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "schemes": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "advection")),
     "failures": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "failure")),
     "slidings": _of_advection(lambda found: findings.compared(found, HEMISPHERICAL, "sliding")),
-    "uncertain_outcomes": lambda: [*probability.outcomes(_samples()), *_uncertain_notes()],
+    "uncertain_outcomes": lambda: [*probability.outcomes(_samples()), *_uncertain_notes(HEMISPHERICAL)],
+    "uncertain_ogival": lambda: [*probability.outcomes(_samples(OGIVAL)), *_uncertain_notes(OGIVAL)],
     "uncertain_laws": lambda: probability.likelihoods(_inferred()),
     "uncertain_foretold": lambda: probability.foretold(_samples()),
     "uncertain_strengths": lambda: probability.strengths(_inferred()),
     "uncertain_velocities": lambda: probability.halves(_inferred()),
+    "uncertain_by_law": lambda: probability.halves_by_law(_samples(), _inferred()),
     "uncertain_slopes": lambda: probability.slopes(_inferred()),
+    "uncertain_shares": lambda: probability.shares(_samples()),
 }
 
 
