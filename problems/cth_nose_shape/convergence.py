@@ -1,29 +1,34 @@
-"""Seven shots on several meshes: tables of results/convergence.csv for the pages, and the figure.
+"""Seven shots on several meshes, and one of them without softening: tables of the kept rows for the pages, and the figure.
 
     python -m problems.cth_nose_shape.convergence [--figure PATH]
 
 The tables have the depth of every shot on every mesh, the length that is left, the volume of the hole, and the velocity of rods
 that went through the plate: the median of the members, the least and the largest. Order, extrapolated value and grid
 convergence index are those of the medians on the three finest meshes (hydro2d.grid_convergence); where some members hold and
-others erode there are none.
+others erode there are none. A last table has the depth of the shot of hollow_nose.toml with laws that do not soften.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
+from typing import TypeVar
 
 import hydro2d
 from problems.cth_nose_shape import rigid_rod
 from problems.cth_nose_shape.rigid_rod import Result, Shot
 
 FILE = rigid_rod.EXPERIMENTS.with_name("results") / "convergence.csv"
+#: the same shot with laws that do not soften, and the law that it has in FILE
+HARD, HARD_SHOT, SOFT = FILE.with_name("hollow_nose.csv"), Shot.named("7039-1248"), "Steinberg-Guinan"
 
-Meshes = dict[Shot, dict[float, list[Result]]]
+Key = TypeVar("Key")
+ByCells = dict[float, list[Result]]
+Meshes = dict[Shot, ByCells]
 
 
 @dataclass(frozen=True)
@@ -46,10 +51,19 @@ QUANTITIES = (DEPTH, LENGTH, HOLE, RESIDUAL)
 
 def found(path: Path = FILE) -> Meshes:
     """The runs of every shot by cells across the radius of the rod. Raises hydro2d.Error, OSError."""
-    meshes: Meshes = {}
+    return dict(sorted(_by_cells(path, lambda run: run.shot).items()))
+
+
+def softening() -> dict[str, ByCells]:
+    """The runs of the shot of hollow_nose.toml by law of the rod and by cells. Raises hydro2d.Error, OSError."""
+    return {SOFT: found()[HARD_SHOT], **_by_cells(HARD, lambda run: run.labels["law"])}
+
+
+def _by_cells(path: Path, key: Callable[[Result], Key]) -> dict[Key, ByCells]:
+    meshes: dict[Key, ByCells] = {}
     for run in sorted(rigid_rod.read(path), key=lambda run: float(run.labels[rigid_rod.CELLS])):
-        meshes.setdefault(run.shot, {}).setdefault(float(run.labels[rigid_rod.CELLS]), []).append(run)
-    return dict(sorted(meshes.items()))
+        meshes.setdefault(key(run), {}).setdefault(float(run.labels[rigid_rod.CELLS]), []).append(run)
+    return meshes
 
 
 def _values(runs: Sequence[Result], quantity: Quantity) -> list[float]:
@@ -64,7 +78,7 @@ def _cell(runs: Sequence[Result], quantity: Quantity) -> str:
     return middle if least == most else f"{middle} ({least} to {most})"
 
 
-def _limit(meshes: dict[float, list[Result]], quantity: Quantity) -> str:
+def _limit(meshes: ByCells, quantity: Quantity) -> str:
     """Extrapolated value, order and grid convergence index, or why there are none."""
     known = {cells: median(values) for cells, runs in meshes.items() if (values := _values(runs, quantity))}
     finest = dict(sorted(known.items())[-3:])
@@ -79,8 +93,8 @@ def _limit(meshes: dict[float, list[Result]], quantity: Quantity) -> str:
     return f"{told.value:.{quantity.digits}f}, order {told.order:.1f}, index {100.0 * told.index:.2g} %"
 
 
-def table(meshes: Meshes, quantity: Quantity) -> list[str]:
-    """Lines of Markdown: a row for each shot that has the quantity, a column for each mesh."""
+def table(meshes: Mapping[Key, ByCells], quantity: Quantity) -> list[str]:
+    """Lines of Markdown: a row for each shot or law that has the quantity, a column for each mesh."""
     cells = sorted({number for each in meshes.values() for number in each})
     lines = [f"| {quantity.name}, {quantity.unit} | " + " | ".join(f"{number:g} cells" for number in cells)
              + " | extrapolated |", "|---" * (len(cells) + 2) + "|"]
@@ -125,7 +139,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         meshes = found(given.file)
-        print("\n".join(tables(meshes)))
+        print("\n".join([*tables(meshes), "", *table(softening(), DEPTH)]))
         if given.figure:
             hydro2d.save_figure(draw(meshes), given.figure)
     except (hydro2d.Error, OSError) as error:

@@ -89,7 +89,9 @@ def _uncertain_notes(nose: str) -> list[str]:
 
 TABLES: dict[str, Callable[[], list[str]]] = {
     "shots": _shots, "scores": _scores, "holes": _holes, "transitions": _transitions,
-    "meshes": lambda: convergence.tables(convergence.found()), "forces": lambda: braking.forces(braking.kept()),
+    "meshes": lambda: convergence.tables(convergence.found()),
+    "softening": lambda: convergence.table(convergence.softening(), convergence.DEPTH),
+    "forces": lambda: braking.forces(braking.kept()),
     "heads": lambda: [*heads.table(heads.cases(heads.kept())), *rigid_rod.notes(heads.kept())],
     "laws_5083": lambda: plate_laws.table("5083"), "laws_7039": lambda: plate_laws.table("7039"),
     "hemispherical": _depths(HEMISPHERICAL),
@@ -105,7 +107,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "uncertain_velocities": lambda: probability.halves(_inferred()),
     "uncertain_by_law": lambda: probability.halves_by_law(_samples(), _inferred()),
     "uncertain_slopes": lambda: probability.slopes(_inferred()),
-    "uncertain_shares": lambda: probability.shares(_samples()),
+    "uncertain_shares": lambda: probability.shares(_samples() | _samples(OGIVAL)),
 }
 
 

@@ -1,8 +1,9 @@
-"""The hemispherical shots with uncertain inputs: how probable is what was seen, which law explains it, which input decides?
+"""The shots with uncertain inputs: how probable is what was seen, which law explains it, which input decides?
 
     python -m problems.cth_nose_shape.probability [--figure PATH]
 
 prints tables in Markdown from the rows that `uncertain_shots.toml` keeps in results/uncertain_shots.csv, and draws the depths.
+Ogival rods are held at every point that was run, so that probabilities are those of the hemispherical shots.
 
 A rod is held if two thirds of its length are left; the rod of an experiment is held if it went deeper than the hydrodynamic
 limit. The probability p that it is not held is a logistic function of the impact velocity v and the other inputs x of a row,
@@ -428,30 +429,6 @@ def shares(by_shot: dict[Shot, hydro2d.Samples], result: str = "depth_m") -> lis
     return lines
 
 
-def validation(by_shot: dict[Shot, hydro2d.Samples], cells: float = USUAL_CELLS) -> list[str]:
-    """Lines of Markdown: by how much the mean depth of each law differs from the measured one, with u_input and u_num, cm.
-
-    u_input : standard deviation of the rows of a law, without u_num
-    u_num : of the members of the law in results/twelve_shots.csv, if there are several: chance, not the size of the cells
-    """
-    members = [run for run in rigid_rod.read(HERE / "results" / "twelve_shots.csv", cells) if run.shot in by_shot]
-    laws = laws_of(by_shot)
-    heads = ("shot", "measured", *map(_words, laws))
-    lines = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
-    for shot, sample in by_shot.items():
-        told, law = rigid_rod.experiments()[shot], column(sample, LAW)
-        cells_of_shot = []
-        for each in laws:
-            depths = reach(sample)[law == each]
-            alike = [run.reach for run in members if (run.shot, run.column) == (shot, MEMBERS[each])]
-            numerical = float(np.var(alike, ddof=1)) if len(alike) > 1 else 0.0
-            of_inputs = max(float(np.var(depths, ddof=1)) - numerical, 0.0)
-            chance = f" ({numerical**0.5:.1f})" if len(alike) > 1 else ""
-            cells_of_shot.append(f"{depths.mean() - 1e2 * told.depth:+.1f} ± {of_inputs**0.5:.1f}{chance}")
-        lines.append(f"| {shot} | {told} | {' | '.join(cells_of_shot)} |")
-    return lines
-
-
 def compared(coarse: dict[Shot, hydro2d.Samples], fine: dict[Shot, hydro2d.Samples]) -> list[str]:
     """Lines of Markdown: the same points of the inputs on two meshes, whose places on the mesh are not the same."""
     measured, of_shots = rigid_rod.experiments(), [np.zeros((0, 3), dtype=bool)]
@@ -537,10 +514,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--figure", type=Path, help="also draws the depths")
     given = parser.parse_args(arguments)
     try:
-        by_shot = samples()
+        by_shot, ogival = samples(), samples(nose=rigid_rod.NOSES["ogive"])
         inference = inferred(by_shot)
-        for lines in (outcomes(by_shot), validation(by_shot), likelihoods(inference), foretold(by_shot), strengths(inference),
-                      halves(inference), halves_by_law(by_shot, inference), slopes(inference), shares(by_shot)):
+        for lines in (outcomes(by_shot), outcomes(ogival), likelihoods(inference), foretold(by_shot), strengths(inference),
+                      halves(inference), halves_by_law(by_shot, inference), slopes(inference), shares(by_shot | ogival)):
             print("\n".join([*lines, ""]))
         if fine := samples(FINER):
             print("\n".join([*compared(by_shot, fine), "", *refined(by_shot, fine), ""]))
