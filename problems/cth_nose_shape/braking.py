@@ -30,8 +30,6 @@ MEASURED = ("force_GPa", "length_mm", "radius_mm", "axial_GPa", "lateral_GPa")
 FILE = HERE / "results" / "nose_force.csv"
 LABELS = ("nose", "plate", "velocity")
 COLUMNS = (*LABELS, "member", *MEASURED, "method")
-#: the noses of the rods
-HEMISPHERICAL, FLAT = "hemispherical", "flat"
 #: time over which the force is taken, s, and part of the rod behind its tip over which stresses are, m
 FORCE_FROM, FORCE_TO = 40e-6, 85e-6
 NEAR, FAR = 5e-3, 10e-3
@@ -89,27 +87,15 @@ def keep(directory: Path) -> None:
 
 
 def forces(rows: list[dict[str, str]]) -> list[str]:
-    """Lines of Markdown: for each plate the force, the pressure on the flank and their difference at each velocity.
-
-    Of rods with a flat nose there is the force alone: the hole is wider than they are.
-    """
+    """Lines of Markdown: the force on each nose in each plate against the velocity."""
     velocities = list(dict.fromkeys(row["velocity"] for row in rows))
-    lines = ["| GPa | " + " | ".join(velocities) + " |", "|---" * (len(velocities) + 1) + "|"]
-    for plate in dict.fromkeys(row["plate"] for row in rows):
-        force, flank = (_values(rows, HEMISPHERICAL, plate, name) for name in ("force_GPa", "lateral_GPa"))
-        left = {at: force[at] - flank[at] for at in force}
-        for word, found in (("force over the section", force), ("pressure on the flank", flank), ("difference", left),
-                            ("force over the section, flat nose", _values(rows, FLAT, plate, "force_GPa"))):
-            if found:
-                cells = [f"{found[at]:.2f}" if at in found else "" for at in velocities]
-                lines.append(f"| {plate}, {word} | " + " | ".join(cells) + " |")
+    lines = ["| force over the section, GPa | " + " | ".join(velocities) + " |", "|---" * (len(velocities) + 1) + "|"]
+    for nose, plate in dict.fromkeys((row["nose"], row["plate"]) for row in rows):
+        found = {row["velocity"]: float(row["force_GPa"]) for row in rows if (row["nose"], row["plate"]) == (nose, plate)}
+        cells = [f"{found[at]:.2f}" if at in found else "" for at in velocities]
+        lines.append(f"| {nose} nose, {plate} | " + " | ".join(cells) + " |")
     note = hydro2d.method_note(row["method"] for row in rows)
     return [*lines, "", note] if note else lines
-
-
-def _values(rows: list[dict[str, str]], nose: str, plate: str, name: str) -> dict[str, float]:
-    """A column of the rows of a nose and a plate, by velocity."""
-    return {row["velocity"]: float(row[name]) for row in rows if (row["nose"], row["plate"]) == (nose, plate)}
 
 
 def main(arguments: list[str] | None = None) -> int:

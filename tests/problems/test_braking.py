@@ -23,13 +23,18 @@ def test_stresses_are_means_over_the_rods_own_section():
 
 
 def test_statements_of_the_page_on_the_force():
-    """It grows by some per cent over 500 m/s, and less the pressure on the flank by 7 to 10 % from 1000 to 1200 m/s."""
-    for plate, share, borne in (("5083", 1.04, 1.10), ("5083 as measured", 1.03, 1.08), ("7039", 1.025, 1.07)):
-        here = {row["velocity"]: row for row in braking.kept() if (row["nose"], row["plate"]) == ("hemispherical", plate)}
-        force = {at: float(row["force_GPa"]) for at, row in here.items()}
-        left = {at: force[at] - float(row["lateral_GPa"]) for at, row in here.items()}
-        assert force["1400 m/s"] / force["900 m/s"] == pytest.approx(share, abs=0.005)
-        assert left["1200 m/s"] / left["1000 m/s"] == pytest.approx(borne, abs=0.01)
+    """It hardly grows on a hemispherical nose, and by a quarter on a flat one; the law of 5083 matters less to the latter."""
+    force = {(row["nose"], row["plate"], row["velocity"]): float(row["force_GPa"]) for row in braking.kept()}
+    for plate, share, flat, steep in (("5083", 1.043, 1.265, 1.160), ("5083 as measured", 1.029, 1.252, 1.135),
+                                      ("5083 as measured, strongest fit", 1.046, 1.197, 1.084), ("7039", 1.025, 1.217, 1.125)):
+        for nose, grows in (("hemispherical", share), ("flat", flat)):
+            assert force[nose, plate, "1400 m/s"] / force[nose, plate, "900 m/s"] == pytest.approx(grows, abs=0.005)
+        assert force["flat", plate, "1300 m/s"] / force["flat", plate, "1100 m/s"] == pytest.approx(steep, abs=0.005)
+    larger = {key[1:]: force["flat", *key[1:]] / value for key, value in force.items() if key[0] == "hemispherical"}
+    assert (min(larger.values()), max(larger.values())) == pytest.approx((1.15, 1.47), abs=0.005)
+    by_law = {(nose, at): force[nose, "5083 as measured", at] / force[nose, "5083", at]
+              for nose in ("hemispherical", "flat") for at in ("1200 m/s", "1300 m/s")}
+    assert list(by_law.values()) == pytest.approx([1.10, 1.11, 1.024, 1.036], abs=0.005)
 
 
 def test_kept_rows_are_cases_of_their_study():
