@@ -57,8 +57,14 @@ def _said(runs: pandas.DataFrame) -> tuple[str, str, str]:
         fit = fitted(runs)
     except ValueError:
         return "not known", "", f"{held[-1]}, {lost[0]} m/s"
-    ends = " to ".join("open" if end is None else f"{end:.0f}" for end in (fit.v50_low, fit.v50_high))
-    return f"{fit.v50:.0f} m/s", f"{ends} m/s", f"{held[-1]}, {lost[0]} m/s"
+    return f"{fit.v50:.0f} m/s", _interval(fit.v50_low, fit.v50_high), f"{held[-1]}, {lost[0]} m/s"
+
+
+def _interval(low: float | None, high: float | None) -> str:
+    """An interval in words; None: it is open on this side."""
+    if low is None:
+        return "open" if high is None else f"below {high:.0f} m/s"
+    return f"above {low:.0f} m/s" if high is None else f"{low:.0f} to {high:.0f} m/s"
 
 
 def table(runs: pandas.DataFrame) -> list[str]:

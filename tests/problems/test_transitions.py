@@ -33,6 +33,12 @@ def test_the_velocity_lies_between_what_kept_and_what_lost():
     assert one(rows([(1000, 0.667), (1100, 0.666)]))["kept"].tolist() == [True, False]
 
 
+@pytest.mark.parametrize(("low", "high", "said"), [
+    (1000.4, 1100.0, "1000 to 1100 m/s"), (None, 1100.0, "below 1100 m/s"), (1000.0, None, "above 1000 m/s"), (None, None, "open")])
+def test_intervals_may_be_open(low, high, said):
+    assert transitions._interval(low, high) == said
+
+
 def test_a_plate_with_another_law_is_a_search_of_its_own():
     """Its experiments are those of its alloy."""
     measured = rows([(1000, 0.99), (1100, 0.2)]).assign(plate="5083 as measured")
