@@ -219,6 +219,20 @@ def test_ogival_rods_hold_with_the_strong_laws_at_the_worst_corner():
     runs = hydro2d.runs(probability.HERE / "results" / "uncertain_ogival.csv")
     kept = {(run["shot"][6:10], run["law"]): round(100.0 * run["length_ratio"], 1) for _, run in runs.iterrows()}
     assert kept == {
-        ("5083", "Steinberg-Guinan"): 98.6, ("5083", "JC-sintered"): 98.6, ("5083", "JC-90W"): 97.8, ("5083", "JC-Y925"): 96.0,
-        ("7039", "Steinberg-Guinan"): 92.7, ("7039", "JC-sintered"): 94.0, ("7039", "JC-90W"): 20.1, ("7039", "JC-Y925"): 61.8,
+        ("5083", "Steinberg-Guinan"): 94.2, ("5083", "JC-sintered"): 95.1, ("5083", "JC-90W"): 80.6, ("5083", "JC-Y925"): 75.8,
+        ("7039", "Steinberg-Guinan"): 93.4, ("7039", "JC-sintered"): 94.6, ("7039", "JC-90W"): 72.0, ("7039", "JC-Y925"): 63.5,
     }
+
+
+def test_statements_of_the_page_on_ogival_rods():
+    """They lose 3 % at most; no input changes by how much the faster of two rods that stop goes deeper."""
+    by_shot = probability.samples(nose="ogival")
+    assert min(sample.table["length_ratio"].min() for sample in by_shot.values()) > 0.97
+    reach = {shot.velocity: probability.reach(sample) for shot, sample in by_shot.items()}
+    for slow, fast, low, high in ((923.0, 1070.0, 1.295, 1.335), (1075.0, 1156.0, 1.125, 1.165)):
+        stops = reach[fast] < 0.999 * rigid_rod.PLATE
+        ratio = (reach[fast] / reach[slow])[stops]
+        assert stops.sum() == len(stops) - 1
+        assert low < ratio.min() < ratio.max() < high
+    measured = {shot.velocity: told.depth for shot, told in rigid_rod.experiments().items() if shot.nose == "ogival"}
+    assert [measured[1070.0] / measured[923.0], measured[1156.0] / measured[1075.0]] == pytest.approx([0.957, 1.065], abs=1e-3)
