@@ -234,5 +234,9 @@ def test_statements_of_the_page_on_ogival_rods():
         ratio = (reach[fast] / reach[slow])[stops]
         assert stops.sum() == len(stops) - 1
         assert low < ratio.min() < ratio.max() < high
+    friction = {shot.velocity: probability.column(sample, probability.FRICTION) for shot, sample in by_shot.items()}
+    through = {fast: np.sort(friction[fast][reach[fast] > 0.9995 * rigid_rod.PLATE]) for fast in (1227.0, 1291.0)}
+    assert [len(through[fast]) for fast in through] == [7, 6]
+    assert [*through[1227.0][-2:], through[1291.0][-1]] == pytest.approx([0.020, 0.032, 0.020], abs=1e-3)
     measured = {shot.velocity: told.depth for shot, told in rigid_rod.experiments().items() if shot.nose == "ogival"}
     assert [measured[1070.0] / measured[923.0], measured[1156.0] / measured[1075.0]] == pytest.approx([0.957, 1.065], abs=1e-3)

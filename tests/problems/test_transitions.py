@@ -34,7 +34,8 @@ def test_the_velocity_lies_between_what_kept_and_what_lost():
 
 
 @pytest.mark.parametrize(("low", "high", "said"), [
-    (1000.4, 1100.0, "1000 to 1100 m/s"), (None, 1100.0, "below 1100 m/s"), (1000.0, None, "above 1000 m/s"), (None, None, "open")])
+    (1000.4, 1100.0, "1000 to 1100 m/s"), (None, 1100.0, "below 1100 m/s"), (1000.0, None, "above 1000 m/s"),
+    (None, None, "open")])
 def test_intervals_may_be_open(low, high, said):
     assert transitions._interval(low, high) == said
 
