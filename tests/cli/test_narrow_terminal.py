@@ -72,7 +72,7 @@ def test_the_deck_of_all_cases_is_printed_once(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
     output = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), "--check")
     assert [line for line in output if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]
-    output = printed(capsys, "sweep", shipped("validation/eroding_rods"), "--check")
+    output = printed(capsys, "sweep", shipped("long_rods/velocities"), "--check")
     assert output[2].split() == ["case", "deck", "cells", "cycles", "time"]
 
 
