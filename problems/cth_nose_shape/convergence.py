@@ -60,6 +60,7 @@ def softening() -> dict[str, ByCells]:
 
 
 def _by_cells(path: Path, key: Callable[[Result], Key]) -> dict[Key, ByCells]:
+    """The runs of a file by a key and by cells, the coarsest mesh first."""
     meshes: dict[Key, ByCells] = {}
     for run in sorted(rigid_rod.read(path), key=lambda run: float(run.labels[rigid_rod.CELLS])):
         meshes.setdefault(key(run), {}).setdefault(float(run.labels[rigid_rod.CELLS]), []).append(run)

@@ -20,7 +20,7 @@ from tests.study import fake
 #: the studies whose rows `rigid_rod` reads
 KEPT = sorted(source.PROBLEMS / name for name in (
     "cth_nose_shape/results/advection.csv", "cth_nose_shape/results/plate_laws.csv",
-    "cth_nose_shape/results/rigid_rod_failure.csv",
+    "cth_nose_shape/results/rigid_rod_failure.csv", "cth_nose_shape/results/specific_heat.csv",
     "cth_nose_shape/results/twelve_shots.csv", "cth_nose_shape/results/yield_factor.csv", "validation/results/eroded_heads.csv",
     "validation/results/eroding_rods.csv", "validation/results/rigid_steel_rods.csv",
     "validation/results/steel_rods_fitted.csv"))
@@ -161,6 +161,15 @@ def test_kept_results_are_judged_by_the_rule_of_today():
         allowed = {RIGID: tuple(words), DEFORMING: (DEFORMING, ERODING), ERODING: (ERODING,)}[by_length]
         assert result.regime in allowed, result
     assert min(words.values()) > 0
+
+
+def test_statements_of_the_readme_on_the_specific_heat():
+    """As printed it leaves a rod that holds as it was, and lets rods that erode go deeper."""
+    runs = rigid_rod.read(source.PROBLEMS / "cth_nose_shape/results/specific_heat.csv")
+    depth = {(run.labels["shot"], run.labels["specific heat"]): run.depth for run in runs}
+    assert {key: round(value, 1) for key, value in depth.items()} == {
+        ("5083-1086", "corrected"): 44.9, ("5083-1086", "printed"): 45.3, ("5083-1296", "corrected"): 27.4,
+        ("5083-1296", "printed"): 35.0, ("7039-1248", "corrected"): 14.0, ("7039-1248", "printed"): 25.2}
 
 
 @pytest.mark.parametrize(("page", "least"), [("rigid-rod", 24), ("nose-shape", -1)])
