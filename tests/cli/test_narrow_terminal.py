@@ -14,6 +14,7 @@ DECKS = ["cth_nose_shape/hemi_5083_1086", "sliding/impact_head_on", "perforation
          "cth_nose_shape/hemi_5083_1296_strain_failure"]
 STUDIES = [("sweep", "cth_nose_shape/rigid_rod_failure"), ("sweep", "classic/methods"), ("sweep", "validation/eroding_rods"),
            ("transition", "cth_nose_shape/transition_hemi_5083")]
+PLAN = ("--check", "--overwrite")  # every case, whether or not its kept row is up to date
 
 
 def shipped(name):
@@ -59,7 +60,7 @@ def test_explanations_go_on_below_their_column(command, capsys, monkeypatch):
 @pytest.mark.parametrize(("command", "name"), STUDIES)
 def test_every_case_of_a_study_has_one_line(command, name, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(COLUMNS))
-    output = printed(capsys, command, shipped(name), "--check", "--workers", "2")
+    output = printed(capsys, command, shipped(name), *PLAN, "--workers", "2")
     assert max(map(len, output)) <= COLUMNS
     begin, end = output.index("") + 1, len(output) - output[::-1].index("") - 1
     heads, *rows = output[begin:end]
@@ -70,9 +71,9 @@ def test_every_case_of_a_study_has_one_line(command, name, capsys, monkeypatch):
 
 def test_the_deck_of_all_cases_is_printed_once(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
-    output = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), "--check")
+    output = printed(capsys, "transition", shipped("cth_nose_shape/transition_hemi_5083"), *PLAN)
     assert [line for line in output if "hemi_5083_1086_quick.toml" in line] == ["deck: hemi_5083_1086_quick.toml"]
-    output = printed(capsys, "sweep", shipped("long_rods/velocities"), "--check")
+    output = printed(capsys, "sweep", shipped("long_rods/velocities"), *PLAN)
     assert output[2].split() == ["case", "deck", "cells", "cycles", "time"]
 
 
