@@ -43,13 +43,14 @@ class Chosen:
 
     @cached_property
     def states(self) -> tuple[int, int, int]:
-        """Runs of the part; those that are up to date, and stale."""
+        """Runs of the part; those that are up to date and are not made again, and stale ones."""
         choice = self.choice
         if self.plan.search:
             budget = self.plan.search.budget
             if budget is None:
                 return len(self.plan.cases), 0, 0
-            return len(choice.groups) * budget.runs, sum(min(len(shots), budget.runs) for shots in choice.fresh_shots), 0
+            fresh = 0 if self.again else sum(min(len(shots), budget.runs) for shots in choice.fresh_shots)
+            return len(choice.groups) * budget.runs, fresh, 0
         names = [*choice.fresh, *(case.name for case in choice.selected)]
         keeper = choice.keeper
         return len(names), len(choice.fresh), keeper.stale(names) if keeper else 0

@@ -10,11 +10,12 @@ from hydro2d.deck import deck as decks
 from hydro2d.deck import identity
 from hydro2d.files.whole import write_json
 from hydro2d.study.plan import cases
-from hydro2d.study.plan.definition import StudyError
+from hydro2d.study.plan.definition import Part, StudyError
 from hydro2d.study.plan.scaling import AS_IT_IS, Size
 from hydro2d.study.records import keeping, study_directory
 from hydro2d.study.run.choice import Choice
 from hydro2d.study.search import transition
+from hydro2d.study.study_parts import Chosen
 from tests.study import fake, tubes
 
 
@@ -186,6 +187,8 @@ values = ["Al5083", "Al7039"]
     assert again.complete
     assert again.kept().endswith("8 of 8 runs up to date")
     assert not transition.choice_of(search(4), again=True).complete
+    part = Part(study="search.toml")
+    assert [Chosen(part, "search", search(4), again).states for again in (False, True)] == [(8, 8, 0), (8, 0, 0)]
     assert not transition.choice_of(search(5)).complete
     file.with_name("rows.csv").write_text(choice.plan.keep.read_text().replace(keeping.METHOD, "2020-01-01"))
     assert not transition.choice_of(search(4)).complete
