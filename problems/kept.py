@@ -60,6 +60,11 @@ def show(columns: Sequence[str], of_run: Callable[[Path], Sequence], runs: Itera
             print(f"{run}: {problem}", file=sys.stderr)
 
 
+def standing(summary: hydro2d.Summary) -> tuple[str, str]:
+    """Whether a run is trusted, "yes" or "no", and the version of the method that made it."""
+    return "yes" if summary.trustworthy else "no", summary.method
+
+
 def labels(row: dict[str, str], others: Collection[str]) -> dict[str, str]:
     """The labels of a row on the axes of its study: all columns that are not empty, except `case` and these others."""
     return {name: text for name, text in row.items() if text and name != "case" and name not in others}

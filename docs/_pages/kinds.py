@@ -166,7 +166,7 @@ KINDS = (
     Kind("ceramic", "A ceramic tile",
          "A rod of tungsten alloy goes through a tile of alumina, which lies in a ring of steel, into the steel behind. "
          "Materials above the axis, damage below, after 10 and 60 µs: yellow is crushed. Without the tile the rod of hydro2d "
-         "goes 33.8 mm deep, so the tile saves 10 mm (`problems/ceramics/README.md`).",
+         "goes 34.1 mm deep, so the tile saves 10 mm (`problems/ceramics/README.md`).",
          '--field material --mirror damage --time "10 us" --time "60 us" --window "-30 mm,50 mm,45 mm"',
          (("depth in the steel behind the tile", "none published for this shot; 38.7 mm without the tile (fit of Lanz and "
            "Odermatt), of which alumina of a mass efficiency of 1.5 to 2 (recalled) leaves 19 to 24 mm", in_steel),)),

@@ -6,6 +6,7 @@ from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
 from hydro2d.kernels.boundaries import velocity_at_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, union
 from hydro2d.kernels.cut_cells import KIND, WHOLE, bodies_stress, cut_pressure, pull_of_ties, ties
+from hydro2d.kernels.mixed_strength import dominant_body
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
@@ -21,12 +22,12 @@ SMALLEST_SPEED = 1e-20
 
 @point
 def mixed_stress(j, i, w):
-    """(rr, zz, tt, rz) of a mixed cell without its pressure, Pa: of its bodies, or of the hard body in a hard zone."""
-    for m in range(w.vof.shape[0]):
-        if w.hard_bodies[m] and w.vof[m, j, i] >= w.threshold:
-            rr, zz = w.solid[j, i] * w.q[SRR, m, j, i], w.solid[j, i] * w.q[SZZ, m, j, i]
-            return rr, zz, -(rr + zz), w.solid[j, i] * w.q[SRZ, m, j, i]
-    return bodies_stress(-1, j, i, w)
+    """(rr, zz, tt, rz) of a mixed cell without its pressure, Pa: of its bodies, or of the dominant one in a hard zone."""
+    m = dominant_body(j, i, w)
+    if m < 0:
+        return bodies_stress(-1, j, i, w)
+    rr, zz = w.solid[j, i] * w.q[SRR, m, j, i], w.solid[j, i] * w.q[SZZ, m, j, i]
+    return rr, zz, -(rr + zz), w.solid[j, i] * w.q[SRZ, m, j, i]
 
 
 @rowwise

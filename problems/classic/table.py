@@ -74,6 +74,7 @@ class Result:
     discarded, clipped : energy that the remap of velocities discarded and `ke_bound` clipped, per cent of that at the start
     time, cycles : time of flight in us, number of cycles
     fault : the clip that the first fault names, or the kind of cell that it doubts, else its sentence; empty for a trusted run
+    method : version of the method that made the run
     """
 
     shot: str
@@ -86,6 +87,7 @@ class Result:
     time: float
     cycles: int
     fault: str
+    method: str
 
     def __str__(self) -> str:
         if self.status == "unphysical":
@@ -106,7 +108,7 @@ def read(path: Path) -> list[Result]:
 def _kept(row: dict[str, str]) -> Result:
     value = float(row["value"]) if row["value"] else None
     discarded, clipped, time = (float(row[name]) for name in ("discarded", "clipped", "time"))
-    labels = {name: row[name] for name in ("shot", "sliding", "advection", "status", "fault")}
+    labels = {name: row[name] for name in ("shot", "sliding", "advection", "status", "fault", "method")}
     return Result(**labels, value=value, discarded=discarded, clipped=clipped, time=time, cycles=int(row["cycles"]))
 
 
@@ -119,7 +121,7 @@ def _of(case: hydro2d.Case) -> Result:
     status = ("trusted" if summary.trustworthy else "not trusted") if ended else "unphysical"
     return Result(shot, case.values.get("sliding", "none"), case.values["advection"], status,
                   None if value is None else round(value, 3), discarded, clipped, round(1e6 * summary.time_s, 2),
-                  summary.cycles, _short(next(iter(summary.faults), "")))
+                  summary.cycles, _short(next(iter(summary.faults), "")), summary.method or "")
 
 
 def _short(fault: str) -> str:

@@ -2,11 +2,13 @@
 
     python -m problems.long_rods.depths RESULTS [RESULTS ...] [--keep FILE] [--histories FILE] [--figure PATH]
     python -m problems.long_rods.depths HISTORIES --parts PATH --cases CASE [CASE ...]
+    python -m problems.long_rods.depths --pages [--check]
 
 RESULTS is the directory of a study, finished or not, or a file in `results`, which has the finished cases of an earlier study.
 The table is in Markdown. `--keep` writes all cases into a CSV file and `--histories` (of directories alone) the velocities and
 depth of the rods against time. `--figure` draws depth over length against velocity, with Odermatt's fit and the models of the
-catalogue, and `--parts` draws some cases of a file that --histories wrote.
+catalogue, and `--parts` draws some cases of a file that --histories wrote. `--pages` fills the tables of the README and of
+docs/explanation/tungsten-into-steel.md from the kept results; with `--check` it writes nothing and fails if one is another.
 
 The depth is the largest of the run: the target springs back by up to 1 % while the run ends. The *slope* is the depth gained
 per length of rod worn away, taken while the rod is worn by 2 to 6 diameters. The *end* is the depth that the last 4 diameters
@@ -21,6 +23,7 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -29,9 +32,13 @@ import hydro2d
 from problems import kept
 
 HERE = Path(__file__).parent
+PAGES = (HERE / "README.md", HERE.parents[1] / "docs" / "explanation" / "tungsten-into-steel.md")
+STUDIES = ("velocities", "hardness", "meshes", "choices", "chance")
 DECKS = {10: "rod_10.toml", 20: "rod_20.toml", 30: "rod_30.toml"}
 #: hardness for which Odermatt's fit is compared with armour steel, whose own is not known
 BRINELL = 270.0
+#: cells across the radius of the rod in all decks, and so in the studies other than meshes.toml
+CELLS = 6.5
 #: densities of rod and target in all decks, kg/m^3
 DENSITIES = (17600.0, 7850.0)
 #: range of wear of the rod over which the slope is taken, and the length left when the end begins, in diameters
@@ -77,6 +84,11 @@ class Result:
     @property
     def ratio(self) -> float:
         return self.numbers["depth_over_length"]
+
+    @property
+    def cells(self) -> float:
+        """Cells across the radius of the rod."""
+        return float(self.labels.get("cells", str(CELLS)).split()[0])
 
     @property
     def others(self) -> str:
@@ -168,6 +180,45 @@ def table(results: Sequence[Result]) -> list[str]:
     return lines
 
 
+def matrix(results: Sequence[Result], heads: str) -> list[str]:
+    """Lines of Markdown: depth over length by velocity, with that of Odermatt's fit in brackets; a row for each other label.
+
+    heads : the head of the column of labels
+    """
+    speeds = sorted({each.velocity for each in results})
+    cells = {(each.others or f"L/D = {each.slenderness}", each.velocity): each for each in results}
+    columns = " | ".join(f"{1e-3 * speed:g} km/s" for speed in speeds)
+    lines = [f"| {heads} | {columns} |", "|---" * (len(speeds) + 1) + "|"]
+    for label in dict.fromkeys(label for label, _ in cells):
+        lines.append(f"| {label} | " + " | ".join(_with_fit(cells.get((label, speed))) for speed in speeds) + " |")
+    return lines
+
+
+def _with_fit(result: Result | None) -> str:
+    if result is None:
+        return ""
+    return f"{result.ratio:.2f} ({odermatt(result.velocity, result.slenderness, brinell(result), *DENSITIES):.2f})"
+
+
+def of_study(name: str) -> list[Result]:
+    """The kept results of a study. Raises StudyError, OSError."""
+    return read(HERE / "results" / f"{name}.csv")
+
+
+def _cases_of(name: str) -> list[str]:
+    return table(of_study(name))
+
+
+def _matrix_of(name: str, heads: str) -> list[str]:
+    return matrix(of_study(name), heads)
+
+
+#: the tables of the pages by the name of their place
+TABLES = {name: partial(_cases_of, name) for name in STUDIES} | {
+    f"{name}-by-velocity": partial(_matrix_of, name, heads)
+    for name, heads in (("velocities", "rod"), ("hardness", "steel"), ("choices", "choice"), ("meshes", "cells"))}
+
+
 def brinell(result: Result) -> float:
     """Brinell hardness of the target: that of its label, by ASTM E140 for a Rockwell hardness, else ``BRINELL``."""
     label = result.labels.get("steel", "")
@@ -257,14 +308,18 @@ def draw_parts(path: Path, cases: Sequence[str]):
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", nargs="+", type=Path)
+    parser.add_argument("results", nargs="*", type=Path)
     parser.add_argument("--keep", type=Path, metavar="FILE", help="write all cases to a CSV file")
     parser.add_argument("--histories", type=Path, metavar="FILE", help="write the histories of all cases to a CSV file")
     parser.add_argument("--figure", type=Path, help="draw depth against velocity")
     parser.add_argument("--parts", type=Path, help="draw the histories of --cases")
     parser.add_argument("--cases", nargs="+", default=[], metavar="CASE")
+    parser.add_argument("--pages", action="store_true", help="fill the tables of the pages")
+    parser.add_argument("--check", action="store_true", help="with --pages: write nothing, and fail if a table is another")
     given = parser.parse_args(arguments)
     try:
+        if given.pages:
+            return kept.fill(PAGES, TABLES, given.check)
         if given.parts:
             if len(given.results) != 1 or not given.results[0].is_file() or not given.cases:
                 raise hydro2d.StudyError("--parts draws --cases of one file that --histories wrote")

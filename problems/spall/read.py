@@ -1,7 +1,8 @@
 """Prints the free-surface velocities of runs of these decks: `python -m problems.spall.read RUN [RUN ...]`.
 
 A row has the shot, the failure model, the cells across the target, the highest velocity of the surface, the lowest after it,
-the pull-back between them and the rebound after it. The rows that the README shows are kept in results/spall.csv.
+the pull-back between them and the rebound after it, whether the run is trusted, and the version of its method. The rows that
+the README shows are kept in results/spall.csv.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import hydro2d
 from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "spall.csv"
-COLUMNS = ("shot", "failure", "cells", "top_m_s", "lowest_m_s", "pull_back_m_s", "rebound_m_s")
+COLUMNS = ("shot", "failure", "cells", "top_m_s", "lowest_m_s", "pull_back_m_s", "rebound_m_s", "trusted", "method")
 #: rise of the velocity that a lowest one must be followed by, m/s: less is a ripple
 RISE = 20.0
 #: thickness of the target, m
@@ -47,7 +48,8 @@ def of_run(directory: Path) -> tuple:
     size = float(np.diff(deck.edges()[1]).min())
     failure = "cracks" if deck.failure.damage == "material" else "plain"
     numbers = top, lowest, top - lowest, rebound - lowest
-    return (deck.name, failure, round(THICKNESS / size), *(round(each, 1) for each in numbers))
+    return (deck.name, failure, round(THICKNESS / size), *(round(each, 1) for each in numbers),
+            *results.standing(hydro2d.open_run(directory).summary))
 
 
 def kept() -> list[dict[str, str]]:

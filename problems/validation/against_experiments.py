@@ -265,8 +265,8 @@ def armour(name: str) -> list[Row]:
     meshes = depths.read(folder / "meshes.csv")
     for run in sorted(depths.read(folder / "velocities.csv"), key=lambda run: (int(run.labels["L/D"]), run.velocity)):
         fit = depths.odermatt(run.velocity, float(run.labels["L/D"]), 270.0, *depths.DENSITIES)
-        same = [run, *(other for other in meshes if (other.slenderness, other.velocity, other.method)
-                       == (run.slenderness, run.velocity, run.method))]
+        same = [run, *(other for other in meshes if other.cells != run.cells and (
+            other.slenderness, other.velocity, other.method) == (run.slenderness, run.velocity, run.method))]
         rows.append(Row(name, f"L/D {run.labels['L/D']}, {run.velocity:g} m/s", fit, "L", (run.ratio,), digits=2,
                         around=(tuple(each.ratio for each in same), len(same)), method=run.method))
     return rows

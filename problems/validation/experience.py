@@ -50,8 +50,6 @@ CHOSEN = {each.name: not each.predicted for each in against.SETS} | {
     HARDNESS: False, SHIELDS: False, SHIELDS_CHOSEN: True}
 #: relative standard deviation of measurements where a source gives it
 ERRORS = {each.name: each.error for each in against.SETS} | {HARDNESS: against.ODERMATT}
-#: cells across the radius of the runs of long_rods/results/velocities.csv and hardness.csv
-LONG_ROD = 6.5
 #: materials of the rods of twelve_shots.toml, and of rods and targets of rigid_steel_rods.toml and steel_rods_fitted.toml
 RODS = {**rigid_rod.LAWS, "1.6 GPa": "steel_4340_rod", "fit, Rc 38": "steel_4340_Rc38"}
 PLATE = "Al6061_T6"
@@ -200,7 +198,8 @@ def long_rods() -> list[Shot]:
         for run in depths.read(folder / file):
             fit = depths.odermatt(run.velocity, run.slenderness, depths.brinell(run), *depths.DENSITIES)
             point = (name, run.slenderness, run.velocity, run.labels.get("steel"))
-            members.setdefault(point, []).append((run.ratio / fit, float(run.labels.get("cells", LONG_ROD))))
+            if run.cells not in {cells for _, cells in members.get(point, ())}:
+                members.setdefault(point, []).append((run.ratio / fit, run.cells))
     return [Shot(name, DEPTH, impact(f"long_rods/{depths.DECKS[slenderness]}", *_armour(steel)), "eroding",
                  tuple(ratio for ratio, _ in runs), velocity=velocity, cells=tuple(cells for _, cells in runs), fit=True)
             for (name, slenderness, velocity, steel), runs in members.items()]

@@ -25,14 +25,20 @@ def off(shot, failure, cells):
 
 
 def test_statements_of_the_page_on_the_meshes():
-    """The flyer within 1 % with either model. The pulse: cracks are at the acoustic value, and the plain model still rises."""
+    """From 200 cells on the flyer is within 1 %; the pulse is acoustic with cracks, and 4 % less with the plain model."""
     for failure in ("cracks", "plain"):
-        assert max(abs(off("flyer", failure, cells)) for cells in (100, 200, 800)) < 0.01
+        assert max(abs(off("flyer", failure, cells)) for cells in (200, 800)) < 0.01
+    assert 0.035 < off("flyer", "cracks", 100) < 0.045
+    assert 0.015 < off("flyer", "plain", 100) < 0.025
     acoustic = 2.0 * 1.2e9 / (2703.0 * 5240.0)
     assert [PULL_BACK["pulse", "cracks", cells] for cells in (200, 400, 800)] == pytest.approx([acoustic] * 3, rel=0.015)
     assert 0.03 < off("pulse", "cracks", 100) < 0.06
-    assert max(off("pulse", "plain", 100), off("pulse", "plain", 200)) < -0.01
-    assert off("pulse", "plain", 800) > 0.02
+    assert -0.04 < off("pulse", "plain", 100) < -0.03
+    assert [PULL_BACK["pulse", "plain", cells] for cells in (200, 400, 800)] == pytest.approx([0.96 * acoustic] * 3, rel=0.005)
+
+
+def test_the_runs_are_trusted_and_of_one_method():
+    assert {(row["trusted"], row["method"]) for row in KEPT} == {("yes", "2026-11-29.4")}, "the page says so"
 
 
 def test_how_a_pull_back_is_read():

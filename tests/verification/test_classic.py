@@ -39,6 +39,15 @@ def test_a_shot_begins_with_all_defaults(name):
     assert abs(simulation.conservation()["total_energy"]) < 1e-11
 
 
+def test_a_slip_layer_beside_two_hard_bodies_conserves_energy():
+    """Core and jacket share cells: in each, force and work belong to the same one of them."""
+    simulation = begin("jacketed_rod", "sliding.method=slip-layer", 'sliding.hard=["core", "jacket"]',
+                       "sliding.boundary_layer=2", "sliding.slip_layer=2", "sliding.yield_factor=radius")
+    core, jacket, _ = simulation.array("volume_fraction")
+    assert (core.clip(max=jacket) >= simulation.deck.sliding.threshold).any(), "no cell has enough of both"
+    assert abs(simulation.conservation()["total_energy"]) < 1e-13
+
+
 @pytest.mark.parametrize("name", ["crater", "bumper"])
 def test_the_scheme_that_clips_fails_and_the_message_names_the_remedy(name):
     with pytest.raises(UnphysicalState, match='ke_bound has removed .*; try numerics.advection = "both"'):
