@@ -20,7 +20,8 @@ RESULTS = Path(__file__).parent / "results"
 KEPT, MEMBERS = RESULTS / "dwell.csv", RESULTS / "members.csv"
 #: times of three of the depths, us
 AT = (10, 20, 30)
-COLUMNS = ("face", "velocity_m_s", "pressure_GPa", *(f"depth_{each}_us_mm" for each in AT), "depth_mm", "u_m_s", "v_m_s")
+COLUMNS = ("face", "velocity_m_s", "pressure_GPa", *(f"depth_{each}_us_mm" for each in AT), "depth_mm", "u_m_s", "v_m_s",
+           "trusted", "method")
 #: wear of the rod between which the velocities are means, m
 WORN = (10e-3, 20e-3)
 #: the strength of intact boron carbide at its elastic limit, 1.5 (HEL - P_HEL), GPa
@@ -67,7 +68,8 @@ def of_run(directory: Path) -> tuple:
     estimate = pressure(speed, *rod_of(run.deck)) * 1e-9
     face = "bare" if rod.tip == 0.0 else "cover"
     depths = (*np.interp(np.array(AT) * 1e-6, time, depth), depth.max())
-    return face, round(speed), round(estimate, 2), *(round(float(each) * 1e3, 1) for each in depths), round(u), round(v)
+    return (face, round(speed), round(estimate, 2), *(round(float(each) * 1e3, 1) for each in depths), round(u), round(v),
+            *results.standing(run.summary))
 
 
 def kept(path: Path = KEPT) -> list[dict[str, str]]:

@@ -17,7 +17,7 @@ import hydro2d
 from problems import kept as results
 
 KEPT = Path(__file__).parent / "results" / "ceramics.csv"
-COLUMNS = ("cells", "ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_steel_mm")
+COLUMNS = ("cells", "ceramic", "density_kg_m3", "thickness_mm", "depth_mm", "in_steel_mm", "trusted", "method")
 #: density of the backing, kg/m^3
 STEEL = 7850.0
 
@@ -39,7 +39,8 @@ def of_run(directory: Path) -> tuple:
     depth = float(run.history["penetration_depth_m"].max()) * 1e3
     density = run.deck.materials[tile.material].eos.values["reference_density"]
     behind = max(depth - thickness, 0.0)
-    return round(cells, 1), tile.material, round(density), round(thickness, 3), round(depth, 2), round(behind, 2)
+    return (round(cells, 1), tile.material, round(density), round(thickness, 3), round(depth, 2), round(behind, 2),
+            *results.standing(run.summary))
 
 
 def efficiency(saved: float, density: float, thickness: float) -> float:

@@ -21,7 +21,7 @@ from problems import kept as results
 HERE = Path(__file__).parent
 SHOTS, KEPT, VELOCITIES = HERE / "shots.csv", HERE / "results" / "walls.csv", HERE / "results" / "wall_velocities.csv"
 CHOICES = HERE / "results" / "choices.csv"
-COLUMNS = ("case", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "cells", "hole", "behind_mg")
+COLUMNS = ("case", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "cells", "hole", "behind_mg", "trusted", "method")
 #: columns of shots.csv
 TOLD = ("shot", "report", "velocity_km_s", "bumper_mm", "gap_mm", "wall_mm", "perforated", "half")
 #: shots by which the set-up was chosen, and those run after that
@@ -86,7 +86,8 @@ def of_run(directory: Path) -> tuple:
     gap = wall.z_front - bumper.thickness - bumper.z_front
     lengths = (f"{1e3 * each:.4g}" for each in (bumper.thickness, gap, wall.thickness))
     hole = "yes" if open_through(fraction) else "no"
-    return directory.name, f"{1e-3 * ball.velocity[1]:g}", *lengths, round(ball.radius / size), hole, f"{1e6 * behind:.2f}"
+    return (directory.name, f"{1e-3 * ball.velocity[1]:g}", *lengths, round(ball.radius / size), hole, f"{1e6 * behind:.2f}",
+            *results.standing(run.summary))
 
 
 def defeated(row: dict[str, str]) -> bool:
@@ -124,6 +125,11 @@ def computed(shot: dict) -> bool:
     return defeated(shot["computed"][0])
 
 
+def lost_a_third(shot: dict) -> bool:
+    """Whether more than a third of the ball's mass has left the rear of the wall in its run."""
+    return float(shot["computed"][0]["behind_mg"]) > BALL_MASS / 3.0
+
+
 def has_hole(shot: dict) -> bool:
     """Whether the wall of a shot has a hole in its run on the coarsest mesh."""
     return shot["computed"][0]["hole"] == "yes"
@@ -137,6 +143,7 @@ def lost_a_crumb(shot: dict) -> bool:
 #: criteria for a wall being defeated
 VERDICTS = {
     "more than the mass of the ball has left its rear, which was chosen": computed,
+    "more than a third of that mass, the best by A now": lost_a_third,
     "it has a hole": has_hole,
     "it has a hole, or a hundredth of that mass has left its rear": lost_a_crumb,
     "the equation says so": predicted,

@@ -22,7 +22,7 @@ def test_the_tables_of_the_page_are_those_of_the_kept_results():
     assert [line for line in page if line.startswith(("| 5.5 |", "| 8.5 |", "| 11.5 |"))] == read.table(TILES)[2:]
     assert [line for line in page if line.startswith(("| cover |", "| bare |"))] == [
         *dwell.table(DWELLS)[2:], *dwell.members_table(MEMBERS)[2:]]
-    assert (len(TILES), len(DWELLS), len(MEMBERS)) == (32, 12, 23)
+    assert (len(TILES), len(DWELLS), len(MEMBERS)) == (68, 12, 48)
 
 
 def efficiencies(cells):
@@ -43,27 +43,29 @@ def test_statements_of_the_page_on_the_tiles():
     coarse = efficiencies("5.5")
     assert {round(coarse["alumina_995", each], 1) for each in (10, 20, 30)} == {1.1, 1.2}
     assert 4.0 < coarse["boron_carbide", 10] < coarse["boron_carbide", 20] < 5.0
-    assert read.references(TILES)["5.5"] / 38.7 == pytest.approx(0.875, abs=0.005)
+    assert read.references(TILES)["5.5"] / 38.7 == pytest.approx(0.881, abs=0.005)
 
 
 def test_statements_of_the_page_on_chance_and_the_mesh():
-    """One member of boron carbide stops early; finer meshes are within the others. Steel changes by more than chance."""
-    least, *others = depths("5.5", "boron_carbide", "20.0")
-    assert (least, others[0], others[-1]) == pytest.approx((21.3, 24.2, 25.4), abs=0.05)
+    """Boron carbide scatters as much as the mesh moves it. Steel changes by more than chance, what alumina saves does not."""
+    boron = [depths(cells, "boron_carbide", "20.0") for cells in ("5.5", "8.5", "11.5")]
+    assert [(each[0], each[-1]) for each in boron] == [pytest.approx(each, abs=0.06) for each in ((23.5, 25.3), (23.7, 24.9),
+                                                                                               (26.6, 26.6))]
+    coarse, *finer = (read.references(TILES)[cells] for cells in ("5.5", "8.5", "11.5"))
+    assert [each - coarse for each in finer] == pytest.approx([0.7, 1.0], abs=0.06)
     for cells in ("8.5", "11.5"):
-        assert others[0] < depths(cells, "boron_carbide", "20.0")[0] < others[-1]
-        assert depths(cells, "steel", "20.0")[0] > depths("5.5", "steel", "20.0")[-1] + 0.8
-        fine, coarse = (efficiencies(each)["alumina_995", 20] for each in (cells, "5.5"))
-        assert fine / coarse == pytest.approx(1.01, abs=0.005)
-    for ceramic, thickness in (("steel", "20.0"), ("alumina_995", "10.0")):
+        fine, usual = (efficiencies(each)["alumina_995", 20] for each in (cells, "5.5"))
+        assert fine / usual == pytest.approx(1.0, abs=0.015)
+    for ceramic, thickness in (("steel", "20.0"), *(("alumina_995", each) for each in ("10.0", "20.0", "30.0"))):
         values = depths("5.5", ceramic, thickness)
-        assert values[-1] - values[0] < 0.2
+        assert 0.05 < values[-1] - values[0] < 0.4
+    assert {row["trusted"] for row in TILES} == {"yes"}
 
 
 def test_statements_of_the_page_on_the_transition():
     """Without a cover the interface stands still at 0.8 and 0.9 km/s, creeps at 1.0, and penetrates from 1.2 km/s on."""
     assert max(INTERFACE["bare", 800], INTERFACE["bare", 900]) < 5.0
-    assert 50.0 < INTERFACE["bare", 1000] < 200.0 < INTERFACE["bare", 1200]
+    assert 30.0 < INTERFACE["bare", 1000] < 80.0 < 200.0 < INTERFACE["bare", 1200]
     rod = dwell.rod_of(decks.load(FOLDER / "dwell.toml"))
     low, high = (dwell.transition(each, *rod) for each in dwell.BOUNDS)
     assert (low, high) == pytest.approx((1121.0, 1606.0), abs=1.0)
@@ -77,12 +79,12 @@ def test_statements_of_the_page_on_the_members():
     velocities = {case: sorted(int(row["u_m_s"]) for row in rows)
                   for case, rows in kept.grouped(MEMBERS, ("face", "velocity_m_s")).items()}
     ends = {case: (speeds[0], speeds[-1]) for case, speeds in velocities.items()}
-    assert ends["bare", "900"] == (2, 3)
-    assert ends["bare", "1000"] == (37, 176)
-    assert ends["bare", "1000"][0] < 135 < ends["bare", "1000"][1]
-    assert (ends["cover", "900"], ends["cover", "1000"]) == ((34, 51), (122, 149))
+    assert [ends["bare", each] for each in ("900", "1000", "1100")] == [(1, 3), (33, 76), (103, 161)]
+    assert [ends["cover", each] for each in ("900", "1000", "1100")] == [(7, 67), (123, 149), (195, 220)]
     dents = [float(row["depth_10_us_mm"]) for row in MEMBERS if (row["face"], row["velocity_m_s"]) == ("bare", "900")]
-    assert min(dents) > 2.1
+    assert (min(dents), max(dents)) == (2.2, 2.4)
+    doubted = [(row["face"], row["velocity_m_s"]) for row in MEMBERS if row["trusted"] == "no"]
+    assert doubted == [("bare", "1000")] * 5
 
 
 def test_the_strength_is_that_of_the_library():
@@ -103,9 +105,10 @@ def test_how_dwell_is_read(monkeypatch, tmp_path, capsys):
     depth = np.maximum(time - 10e-6, 0.0) * 200.0
     history = {"time": time, "rod_length_m": 40e-3 - 800.0 * time, "penetration_depth_m": depth,
                "rod_tail_velocity_m_s": np.full(501, 990.0)}
-    run = SimpleNamespace(deck=decks.load(FOLDER / "dwell.toml"), history=history)
+    summary = hydro2d.Summary(trustworthy=True, method="2026-11-29")
+    run = SimpleNamespace(deck=decks.load(FOLDER / "dwell.toml"), history=history, summary=summary)
     monkeypatch.setattr(dwell, "ended", lambda directory: run)
-    assert dwell.of_run(tmp_path) == ("cover", 1000, 13.86, 0.0, 2.0, 4.0, 8.0, 200, 990)
+    assert dwell.of_run(tmp_path) == ("cover", 1000, 13.86, 0.0, 2.0, 4.0, 8.0, 200, 990, "yes", "2026-11-29")
     history["rod_length_m"] = 40e-3 - 300.0 * time
     with pytest.raises(ValueError, match="the rod is worn by 15.0 mm only"):
         dwell.of_run(tmp_path)
