@@ -304,7 +304,7 @@ def balls(name: str) -> list[Row]:
 def bars(name: str) -> list[Row]:
     """Taylor bars of copper: the length that is left."""
     return [Row(name, f"{bar.name}, {bar.velocity:g} m/s", bar.measured, "mm", bar.computed, quantity="length", digits=2,
-                around=(bar.computed, len(set(bar.cells))), method=bar.method or UNKNOWN) for bar in copper_bars.bars()]
+                around=(bar.computed, len(set(bar.cells))), method=bar.method) for bar in copper_bars.bars()]
 
 
 def explosives(name: str) -> list[Row]:

@@ -25,15 +25,16 @@ class Bar(NamedTuple):
     measured: float
     computed: tuple[float, ...]
     cells: tuple[float, ...]
-    method: str = ""
+    method: str
 
 
 def bars() -> list[Bar]:
     """All bars: one with every advection on two meshes, the others by the surrogate of a sample, which stands for one run."""
-    runs = [(run.value, cells) for name, cells in CLASSIC.items()
+    runs = [(run.value, cells, run.method) for name, cells in CLASSIC.items()
             for run in classic.read(HERE.parent / "classic" / "results" / name)
             if (run.shot, run.sliding, run.status) == ("taylor_bar", "none", "trusted")]
-    found = [Bar(SAME_BAR, 190.0, LENGTH, *zip(*runs, strict=True))]
+    lengths, meshes, methods = zip(*runs, strict=True)
+    found = [Bar(SAME_BAR, 190.0, LENGTH, lengths, meshes, "; ".join(sorted(set(methods))))]
     measured = {row["bar"]: row for row in kept.rows(HERE / "copper_bars.csv", ("bar", "velocity_m_s", "final_length_mm"))}
     for sample in hydro2d.kept_samples(HERE / "copper_bars.toml"):
         row = measured[sample.labels["bar"]]
