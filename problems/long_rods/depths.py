@@ -167,16 +167,17 @@ def keep_histories(directories: Sequence[Path], path: Path) -> None:
 
 
 def table(results: Sequence[Result]) -> list[str]:
-    """Lines of Markdown: a case in each row."""
+    """Lines of Markdown: a case in each row, in the order of the other labels, L/D and velocity."""
     lines = ["| case | L/D | velocity | P/L | slope | end | u, v | left | hole | Odermatt |", "|---" * 10 + "|"]
-    for each in results:
+    labels = list(dict.fromkeys(each.others for each in results))
+    for each in sorted(results, key=lambda each: (labels.index(each.others), each.slenderness, each.velocity)):
         n = each.numbers
-        label = each.others or "armour steel"
+        label = (each.others or "armour steel") + (f", member {each.name[-1]}" if each.name[-3:-1] == "_m" else "")
         fit = odermatt(each.velocity, each.slenderness, brinell(each), *DENSITIES)
         lines.append(
             f"| {label} | {each.slenderness} | {each.velocity:g} m/s | {each.ratio:.3f} | {_number(n['slope'], 2)} | "
-            f"{_number(n['end_over_diameter'], 1)} D | {_number(n['u_m_s'], 0)}, {_number(n['v_m_s'], 0)} m/s | "
-            f"{n['left_over_length']:.0%} | {n['hole_over_diameter']:.1f} D | {fit:.2f} ({each.ratio / fit - 1.0:+.0%}) |")
+            f"{_number(n['end_over_diameter'], 1, ' D')} | {_number(n['u_m_s'], 0)}, {_number(n['v_m_s'], 0)} m/s | "
+            f"{n['left_over_length']:.0%} | {n['hole_over_diameter']:.1f} D | {fit:.2f} ({each.ratio / fit - 1.0:+z.0%}) |")
     return lines
 
 
@@ -226,8 +227,8 @@ def brinell(result: Result) -> float:
     return known.get(label, float(label.removeprefix("BHN ")) if label.startswith("BHN ") else BRINELL)
 
 
-def _number(value: float, digits: int) -> str:
-    return "-" if math.isnan(value) else f"{value:.{digits}f}"
+def _number(value: float, digits: int, unit: str = "") -> str:
+    return "-" if math.isnan(value) else f"{value:.{digits}f}{unit}"
 
 
 def curve(name: str, slenderness: int, velocities: Sequence[float]) -> list[float]:
