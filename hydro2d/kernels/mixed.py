@@ -32,7 +32,6 @@ from hydro2d.kernels.mixed_scratch import (
 )
 from hydro2d.kernels.mixed_strength import (
     MATERIAL,
-    dominant_body,
     return_deviators,
     strain_bodies_across,
     strain_deviators,
@@ -44,7 +43,7 @@ from hydro2d.materials.rows import EOS, EOS_AT, FADES, MEMORY, RECORD, TENSILE
 from hydro2d.mesh.fields import BY_TENSION, DMG, RHO, E
 from hydro2d.mesh.grid import VOL_R
 from hydro2d.physics.closure import NO_VOID, own_work, relaxation_bound, relaxation_strain, softness, stiffness
-from hydro2d.physics.contents import normal_deviator
+from hydro2d.physics.contents import dominant_body, normal_deviator
 from hydro2d.physics.corner import filter_power
 from hydro2d.physics.fracture import open_void, share_that_stays, tension_limit
 from hydro2d.physics.kinematics import velocity_gradient
@@ -295,7 +294,7 @@ def deform_mixed(j, w):
             work_q = -w.qr[j, i] * change
             work_p = -w.ph[j, i] * change
         meet = groups_present > 1
-        dominant = dominant_body(j, i, w)
+        dominant = dominant_body(j, i, w.hard_bodies, w.threshold, w.vof)
         for m in range(w.vof.shape[0]):
             w.mix[j, BEFORE, m] = w.vof[m, j, i]
             w.mix[j, NORMAL, m] = normal_deviator(m, j, i, w.skin, w.q) if w.vof[m, j, i] > 0.0 else 0.0

@@ -49,16 +49,6 @@ VOLUME, SOLID, ZERO, MAX, MATERIAL = range(5)
 
 
 @point
-def dominant_body(j, i, w):
-    """Body whose strength dominates in a cell of the hard zone, the hard body that fills most of it; -1 outside it."""
-    dominant, most = -1, 0.0
-    for m in range(w.vof.shape[0]):
-        if w.hard_bodies[m] and w.vof[m, j, i] >= w.threshold and w.vof[m, j, i] > most:
-            dominant, most = m, w.vof[m, j, i]
-    return dominant
-
-
-@point
 def work_of_deviators(j, i, dominant, w):
     """Work of the deviators of every body in the step: of its own, or in the hard zone the dominant body's alone.
 

@@ -6,11 +6,10 @@ from hydro2d.jit import cell_rows, point, rowwise, vertex_rows
 from hydro2d.kernels.boundaries import velocity_at_edges
 from hydro2d.kernels.column_ranges import columns, copy_beside, union
 from hydro2d.kernels.cut_cells import KIND, WHOLE, bodies_stress, cut_pressure, pull_of_ties, ties
-from hydro2d.kernels.mixed_strength import dominant_body
 from hydro2d.mesh.fields import SRR, SRZ, SZZ
 from hydro2d.mesh.grid import AZ_IN, AZ_OUT, CM_IN, CM_OUT, FACE_R, VOL_R
 from hydro2d.physics.advection import TINY
-from hydro2d.physics.contents import contains_group
+from hydro2d.physics.contents import contains_group, dominant_body
 from hydro2d.physics.corner import axial_force, hourglass_force, radial_force
 from hydro2d.physics.kinematics import alternating_mode, divergence
 from hydro2d.physics.momentum import corner_sum
@@ -23,7 +22,7 @@ SMALLEST_SPEED = 1e-20
 @point
 def mixed_stress(j, i, w):
     """(rr, zz, tt, rz) of a mixed cell without its pressure, Pa: of its bodies, or of the dominant one in a hard zone."""
-    m = dominant_body(j, i, w)
+    m = dominant_body(j, i, w.hard_bodies, w.threshold, w.vof)
     if m < 0:
         return bodies_stress(-1, j, i, w)
     rr, zz = w.solid[j, i] * w.q[SRR, m, j, i], w.solid[j, i] * w.q[SZZ, m, j, i]

@@ -46,6 +46,16 @@ def fullest(j, i, vof):
 
 
 @point
+def dominant_body(j, i, hard_bodies, threshold, vof):
+    """Body whose strength dominates in a cell of the hard zone, the hard body that fills most of it; -1 outside it."""
+    dominant, most = -1, 0.0
+    for m in range(vof.shape[0]):
+        if hard_bodies[m] and vof[m, j, i] >= threshold and vof[m, j, i] > most:
+            dominant, most = m, vof[m, j, i]
+    return dominant
+
+
+@point
 def side_of_joint(m, j, i, first, gas, gases, vof):
     """Side of the surface, 1 or -1, on which body m is in cell (j, i), filled by bodies of one group; 0 for neither.
 
