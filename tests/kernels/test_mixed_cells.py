@@ -186,14 +186,6 @@ def test_a_cell_that_bears_the_tension_or_is_in_a_contact_stays_closed():
 # -------------------------------------------------------------------------------------------------------- strength
 
 
-def test_the_body_that_dominates_is_hard_and_fills_enough():
-    cell = Cell()
-    hard = np.array([False, True])
-    assert cell.run(mixed_strength.dominant_body) == -1
-    assert cell.run(mixed_strength.dominant_body, hard_bodies=hard) == 1
-    assert cell.run(mixed_strength.dominant_body, hard_bodies=hard, threshold=0.6) == -1
-
-
 def test_deviators_work_by_their_share():
     """s : D of s_rr = 4 Pa, s_rz = 3 Pa at D_rr = 2/s, 2 D_rz = 1/s is 11 W; the part kept across a cut cell adds none."""
     cell = Cell()

@@ -66,3 +66,15 @@ def test_tension_that_a_cut_cell_carries(kind, pull):
     skin = np.zeros((3, 1, 1))
     skin[NORMAL_R], skin[NORMAL_Z], skin[KIND] = 0.48, 0.64, kind
     assert contents.pull_of.py_func(0, 0, 0.0, skin) == pytest.approx(pull)
+
+
+def test_the_body_that_dominates_is_hard_and_fills_most():
+    def dominant(*hard, threshold=0.3):
+        return contents.dominant_body.py_func(0, 0, np.array(hard), threshold, shares(0.3, 0.5, 0.2))
+
+    assert dominant(False, False, False) == -1
+    assert dominant(False, True, False) == 1
+    assert dominant(True, False, True) == 0
+    assert dominant(True, True, True) == 1
+    assert dominant(False, False, True) == -1
+    assert dominant(True, True, True, threshold=0.6) == -1
