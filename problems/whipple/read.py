@@ -90,9 +90,9 @@ def of_run(directory: Path) -> tuple:
             *results.standing(run.summary))
 
 
-def defeated(row: dict[str, str]) -> bool:
-    """Whether the wall of a run is defeated: more than the mass of the ball has left its rear, debris of the ball included."""
-    return float(row["behind_mg"]) > BALL_MASS
+def defeated(row: dict[str, str], share: float = 1.0) -> bool:
+    """Whether the wall of a run is defeated: more than this share of the ball's mass has left its rear, debris included."""
+    return float(row["behind_mg"]) > share * BALL_MASS
 
 
 def shots() -> list[dict[str, str]]:
@@ -127,7 +127,7 @@ def computed(shot: dict) -> bool:
 
 def lost_a_third(shot: dict) -> bool:
     """Whether more than a third of the ball's mass has left the rear of the wall in its run."""
-    return float(shot["computed"][0]["behind_mg"]) > BALL_MASS / 3.0
+    return defeated(shot["computed"][0], 1.0 / 3.0)
 
 
 def has_hole(shot: dict) -> bool:
@@ -137,7 +137,7 @@ def has_hole(shot: dict) -> bool:
 
 def lost_a_crumb(shot: dict) -> bool:
     """Whether the wall of a shot has a hole in its run, or a hundredth of the ball's mass has left its rear."""
-    return has_hole(shot) or float(shot["computed"][0]["behind_mg"]) > 0.01 * BALL_MASS
+    return has_hole(shot) or defeated(shot["computed"][0], 0.01)
 
 
 #: criteria for a wall being defeated

@@ -50,8 +50,12 @@ def test_the_defaults_carry_every_shot():
                for choice in table.ADVECTION}
     assert Numerics().advection == "both"
     assert carried == {"ke": False, "momentum": False, "both": True}
-    block = of("block_in_hole", Sliding().method, Numerics().advection).value
-    assert 10.0 < block < 11.0, "the page says that it sticks: 7.4 m/s with its tube, and what is left of the ringing"
+
+
+@pytest.mark.xfail(reason="wanted: below 10 m/s, as until 2026-11-27; got: 10.5, as it still rings about the 7.4 m/s of the "
+                          "tube", strict=True, raises=AssertionError)
+def test_the_block_sticks_in_its_hole():
+    assert of("block_in_hole", Sliding().method, Numerics().advection).value < 10.0
 
 
 def test_the_remedies_are_those_that_the_table_bears_out():

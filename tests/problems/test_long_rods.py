@@ -96,10 +96,10 @@ def test_statements_of_the_page_on_velocity_and_length():
 
 def test_statements_of_the_page_on_the_head_of_the_rod():
     """A head that softens or fails goes deeper; contact, tension and a mesh that stands hardly matter."""
-    told = {"melts at 1723 K": (0.21, 0.08), "law of Y925": (0.13, 0.11), "law of a sintered alloy": (0.09, 0.09),
-            "Steinberg-Guinan": (-0.15, -0.16), "fails at a strain of 1.5": (0.15, 0.07), "damage": (0.04, 0.0),
-            "no sliding": (0.03, 0.05), "no tensile failure": (0.0, 0.0), "mesh that stands": (0.01, 0.0)}
-    for choice, (slow, fast) in told.items():
+    changes = {"melts at 1723 K": (0.21, 0.08), "law of Y925": (0.13, 0.11), "law of a sintered alloy": (0.09, 0.09),
+               "Steinberg-Guinan": (-0.15, -0.16), "fails at a strain of 1.5": (0.15, 0.07), "damage": (0.04, 0.0),
+               "no sliding": (0.03, 0.05), "no tensile failure": (0.0, 0.0), "mesh that stands": (0.01, 0.0)}
+    for choice, (slow, fast) in changes.items():
         assert (CHANGE[choice, 1200.0], CHANGE[choice, 1500.0]) == pytest.approx((slow, fast), abs=0.006), choice
     assert max(off(each for each in depths.of_study("choices") if each.velocity == 1200.0)) == pytest.approx(-0.08, abs=0.006)
 

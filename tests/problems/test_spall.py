@@ -28,13 +28,18 @@ def test_statements_of_the_page_on_the_meshes():
     """From 200 cells on the flyer is within 1 %; the pulse is acoustic with cracks, and 4 % less with the plain model."""
     for failure in ("cracks", "plain"):
         assert max(abs(off("flyer", failure, cells)) for cells in (200, 800)) < 0.01
-    assert 0.035 < off("flyer", "cracks", 100) < 0.045
-    assert 0.015 < off("flyer", "plain", 100) < 0.025
     acoustic = 2.0 * 1.2e9 / (2703.0 * 5240.0)
     assert [PULL_BACK["pulse", "cracks", cells] for cells in (200, 400, 800)] == pytest.approx([acoustic] * 3, rel=0.015)
     assert 0.03 < off("pulse", "cracks", 100) < 0.06
     assert -0.04 < off("pulse", "plain", 100) < -0.03
     assert [PULL_BACK["pulse", "plain", cells] for cells in (200, 400, 800)] == pytest.approx([0.96 * acoustic] * 3, rel=0.005)
+
+
+@pytest.mark.xfail(reason="wanted: within 1 % of 400 cells, as until 2026-11-26; got: +3.6 % with cracks, +1.9 % without; "
+                          "the shock rings, which explains about half", strict=True, raises=AssertionError)
+@pytest.mark.parametrize("failure", ["cracks", "plain"])
+def test_the_flyer_on_100_cells(failure):
+    assert abs(off("flyer", failure, 100)) < 0.01
 
 
 def test_the_runs_are_trusted_and_of_one_method():
